@@ -1,0 +1,124 @@
+"""A lab's card: the contract between student and grader, said once.
+
+An instructor changes a rate, a text or the points here for a new term; the grader, `task.md`
+and the lesson read it from here.
+"""
+
+from __future__ import annotations
+
+import string
+from typing import Literal
+
+from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
+
+
+class Contract(BaseModel):
+    """A part of the card; an unknown word in it is a mistake, not a comment."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+
+class RateContract(Contract):
+    """How often messages come, and how far from it still counts."""
+
+    hz: float = Field(gt=0)
+    within: float = Field(gt=0, lt=1, description="Part of the rate, e.g. 0.05 for 5 %")
+
+    @property
+    def low_hz(self) -> float:
+        """The slowest rate that counts."""
+        return self.hz * (1 - self.within)
+
+    @property
+    def high_hz(self) -> float:
+        """The fastest rate that counts."""
+        return self.hz * (1 + self.within)
+
+
+class QosContract(Contract):
+    """The quality of service that the other side of the topic uses: ours must match it."""
+
+    reliability: Literal["reliable", "best_effort"] = "reliable"
+    durability: Literal["volatile", "transient_local"] = "volatile"
+
+
+class TopicContract(Contract):
+    """One topic that a node publishes or subscribes to."""
+
+    topic: str = Field(pattern=r"^/[A-Za-z_][A-Za-z0-9_/]*$")
+    type: str = Field(pattern=r"^[a-z][a-z0-9_]*/msg/[A-Z][A-Za-z0-9]*$")
+    qos: QosContract = QosContract()
+    rate: RateContract | None = None
+    text: str | None = Field(default=None, description="The message's text; `{n}` is a counter")
+
+
+class NodeContract(Contract):
+    """One node: its full name, the executable that starts it, and its topics."""
+
+    node: str = Field(pattern=r"^/[A-Za-z_][A-Za-z0-9_/]*$")
+    executable: str
+    publishes: tuple[TopicContract, ...] = ()
+    subscribes: tuple[TopicContract, ...] = ()
+    log: str | None = Field(default=None, description="A line it writes; `{text}` is the message")
+
+
+class PictureContract(Contract):
+    """An image that the package holds."""
+
+    path: str
+    format: Literal["PNG"] = "PNG"
+    min_width_px: int = Field(gt=0)
+    min_height_px: int = Field(gt=0)
+
+
+class Hint(Contract):
+    """What a check offers to who is stuck, in three steps, and where the lesson explains it."""
+
+    lesson: str = Field(pattern=r"^days/[0-9]{2}-[a-z0-9-]+#[a-z0-9-]+$")
+    steps: tuple[str, str, str] = Field(
+        description="Where to look; which idea; the same idea in other code"
+    )
+
+
+class Card(Contract):
+    """All that a lab asks for. Points of all checks add up to 100."""
+
+    id: str = Field(pattern=r"^[a-z][a-z0-9-]*$")
+    title: str
+    day: str = Field(pattern=r"^[0-9]{2}-[a-z0-9-]+$")
+    needs: tuple[str, ...] = Field(default=(), description="Labs to do before this one")
+    package: str = Field(pattern=r"^[a-z][a-z0-9_]*$")
+    build_type: Literal["ament_python"] = "ament_python"
+    nodes: tuple[NodeContract, ...]
+    ends_within_s: float = Field(default=2.0, gt=0, description="After Ctrl-C")
+    pictures: tuple[PictureContract, ...] = ()
+    points: dict[str, float] = Field(description="Check's name to its points")
+    not_judged: tuple[str, ...] = Field(default=(), description="What the student is free in")
+
+    @field_validator("points")
+    @classmethod
+    def _add_up(cls, points: dict[str, float]) -> dict[str, float]:
+        if sum(points.values()) != 100:
+            raise ValueError(f"the points add up to {sum(points.values()):g}, not to 100")
+        return points
+
+    @model_validator(mode="after")
+    def _texts_have_known_fields(self) -> Card:
+        for node in self.nodes:
+            _allow_fields(node.log, {"text"})
+            for topic in (*node.publishes, *node.subscribes):
+                _allow_fields(topic.text, {"n"})
+        return self
+
+    def node(self, executable: str) -> NodeContract:
+        """The node that `executable` starts. Raises KeyError where the card has none."""
+        for node in self.nodes:
+            if node.executable == executable:
+                return node
+        raise KeyError(f"the card of {self.id!r} has no executable {executable!r}")
+
+
+def _allow_fields(template: str | None, allowed: set[str]) -> None:
+    fields = {field for _, field, _, _ in string.Formatter().parse(template or "") if field}
+    if fields - allowed:
+        raise ValueError(f"{template!r} has unknown fields {sorted(fields - allowed)}")

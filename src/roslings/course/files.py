@@ -1,0 +1,75 @@
+"""Read one YAML file of the course into a model; name file and line of whatever is wrong."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TypeVar
+
+import yaml
+from pydantic import BaseModel, ValidationError
+
+Model = TypeVar("Model", bound=BaseModel)
+Location = tuple[int | str, ...]
+
+
+class CourseError(Exception):
+    """The course's own files are at fault, not the student."""
+
+
+class NoSuchLab(CourseError):
+    """The lab that was asked for does not exist."""
+
+
+class BadCourseFile(CourseError):
+    """A file of the course says something that it may not say."""
+
+    def __init__(self, path: Path, line: int, problem: str) -> None:
+        self.path, self.line, self.problem = path, line, problem
+        super().__init__(f"{path}:{line}: {problem}")
+
+
+def read_yaml(path: Path, model: type[Model]) -> Model:
+    """Read `path` as `model`.
+
+    Raises BadCourseFile with the line where the first mistake stands.
+    """
+    tree = _compose(path)
+    try:
+        return model.model_validate(yaml.safe_load(path.read_text("utf-8")))
+    except ValidationError as error:
+        first = error.errors()[0]
+        problem = f"{'.'.join(map(str, first['loc']))}: {first['msg']}"
+        raise BadCourseFile(path, _line_of(tree, first["loc"]), problem) from error
+
+
+def _compose(path: Path) -> yaml.Node | None:
+    try:
+        return yaml.compose(path.read_text("utf-8"), Loader=yaml.SafeLoader)
+    except FileNotFoundError:
+        raise BadCourseFile(path, 1, "this file is missing") from None
+    except (yaml.YAMLError, UnicodeDecodeError) as error:
+        mark = getattr(error, "problem_mark", None)
+        line = mark.line + 1 if mark else 1
+        problem = getattr(error, "problem", None) or "this is not UTF-8 text"
+        raise BadCourseFile(path, line, problem) from error
+
+
+def _line_of(tree: yaml.Node | None, location: Location) -> int:
+    """The line of the deepest part of `location` that the file really has."""
+    line = 1
+    node = tree
+    for step in location:
+        if node is None:
+            break
+        line = node.start_mark.line + 1
+        node = _child(node, step)
+    return node.start_mark.line + 1 if node is not None else line
+
+
+def _child(node: yaml.Node, step: int | str) -> yaml.Node | None:
+    if isinstance(node, yaml.MappingNode):
+        return next((value for key, value in node.value if key.value == str(step)), None)
+    if isinstance(node, yaml.SequenceNode) and isinstance(step, int) and step < len(node.value):
+        child: yaml.Node = node.value[step]
+        return child
+    return None

@@ -1,0 +1,90 @@
+"""Where each lab's files are, and the labs' order."""
+
+from __future__ import annotations
+
+import difflib
+import os
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+from pydantic import RootModel
+
+from roslings.course.card import Card, Hint
+from roslings.course.files import NoSuchLab, read_yaml
+from roslings.course.mutants import Mutant
+
+
+class Hints(RootModel[dict[str, Hint]]):
+    """The file `hints.yaml`: check's name to its hint."""
+
+
+def root() -> Path:
+    """The course's folder: the clone this engine lies in, or `ROSLINGS_COURSE`."""
+    return Path(os.environ.get("ROSLINGS_COURSE") or Path(__file__).parents[3])
+
+
+@dataclass(frozen=True)
+class Lab:
+    """One lab: its name and the files that belong to it."""
+
+    name: str
+    folder: Path
+    grader: Path
+
+    @cached_property
+    def card(self) -> Card:
+        """The contract. Raises BadCourseFile."""
+        return read_yaml(self.folder / "card.yaml", Card)
+
+    @cached_property
+    def hints(self) -> dict[str, Hint]:
+        """Check's name to its hint. Raises BadCourseFile."""
+        return read_yaml(self.folder / "hints.yaml", Hints).root
+
+    @property
+    def task(self) -> Path:
+        """What the student reads."""
+        return self.folder / "task.md"
+
+    @property
+    def starter(self) -> Path:
+        """The package that the student starts from."""
+        return self.folder / "starter" / self.card.package
+
+    @property
+    def solution(self) -> Path:
+        """The package that gets the full score."""
+        return self.folder / "solution" / self.card.package
+
+    def mutants(self) -> list[Mutant]:
+        """The wrong packages, by name. Raises BadCourseFile."""
+        files = sorted((self.folder / "mutants").glob("*.yaml"))
+        return [read_yaml(file, Mutant).model_copy(update={"name": file.stem}) for file in files]
+
+
+def all_labs() -> list[Lab]:
+    """Every lab of the course, in the order of its days."""
+    folders = [path.parent for path in (root() / "labs").glob("*/card.yaml")]
+    labs = [_lab_in(folder) for folder in folders]
+    return sorted(labs, key=lambda lab: (lab.card.day, lab.name))
+
+
+def lab(name: str) -> Lab:
+    """The lab called `name`. Raises NoSuchLab, with the nearest name there is."""
+    folder = root() / "labs" / name
+    if name and (folder / "card.yaml").is_file() and folder.parent == root() / "labs":
+        return _lab_in(folder)
+    raise NoSuchLab(_no_such_lab(name))
+
+
+def _lab_in(folder: Path) -> Lab:
+    grader = root() / "graders" / f"grade_{folder.name.replace('-', '_')}.py"
+    return Lab(folder.name, folder, grader)
+
+
+def _no_such_lab(name: str) -> str:
+    names = [lab.name for lab in all_labs()]
+    near = difflib.get_close_matches(name, names, n=1)
+    guess = f" Did you mean {near[0]!r}?" if near else ""
+    return f"There is no lab {name!r}.{guess} The labs are: {', '.join(names)}."

@@ -1,0 +1,51 @@
+"""A mutant: the solution with one thing wrong, and the checks that must catch it."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+from pydantic import Field
+
+from roslings.course.card import Contract
+from roslings.course.files import CourseError
+
+
+class Edit(Contract):
+    """One place in one file of the solution, and what stands there instead."""
+
+    file: str
+    find: str
+    replace: str
+
+
+class Mutant(Contract):
+    """A wrong package, as a small patch on the solution."""
+
+    name: str = Field(default="", description="The file's name; not written in it")
+    what: str = Field(description="The mistake, as the student would tell it")
+    fails: tuple[str, ...] = Field(min_length=1, description="The checks that must fail, no others")
+    faults: dict[str, str] = Field(default_factory=dict, description="Check to kind of fault")
+    edits: tuple[Edit, ...] = ()
+    remove: tuple[str, ...] = ()
+
+    def make(self, solution: Path, package: Path) -> Path:
+        """Copy `solution` to `package` and injure it; returns `package`.
+
+        Raises CourseError where an edit does not fit the solution exactly once.
+        """
+        shutil.copytree(solution, package)
+        for edit in self.edits:
+            self._apply(edit, package / edit.file)
+        for name in self.remove:
+            (package / name).unlink()
+        return package
+
+    def _apply(self, edit: Edit, path: Path) -> None:
+        text = path.read_text("utf-8")
+        if text.count(edit.find) != 1:
+            raise CourseError(
+                f"mutant {self.name}: {edit.find!r} stands {text.count(edit.find)} times"
+                f" in {edit.file}; it must stand once"
+            )
+        path.write_text(text.replace(edit.find, edit.replace), "utf-8")

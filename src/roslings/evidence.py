@@ -1,0 +1,200 @@
+"""What was seen of a student's package: the only thing that a check may look at.
+
+This module imports nothing of ours, so that every room can speak it. Times that end in `_ns`
+are nanoseconds: `arrival_ns` on the monotonic clock, `source_ns` on the publisher's wall clock.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+SCHEMA_VERSION = 1
+
+
+class Record(BaseModel):
+    """A model that is written once, and that refuses unknown fields when it is read back."""
+
+    model_config = ConfigDict(extra="forbid")
+
+
+class Qos(Record):
+    """The quality of service of one endpoint, in rclpy's words, lower case."""
+
+    reliability: str = "reliable"
+    durability: str = "volatile"
+    depth: int | None = Field(default=None, description="None where discovery does not tell it")
+    deadline_ns: int | None = None
+    liveliness: str = "automatic"
+
+
+class Endpoint(Record):
+    """One publisher or subscription in the graph."""
+
+    kind: Literal["publisher", "subscription"]
+    node: str = Field(description="Full name of the node, e.g. `/talker`")
+    topic: str
+    type: str = Field(description="e.g. `std_msgs/msg/String`")
+    qos: Qos
+    gid: str
+
+
+class GraphSeen(Record):
+    """The ROS graph at one moment, without the grader's own node."""
+
+    nodes: list[str] = Field(description="Full names; a name appears as often as it was seen")
+    endpoints: list[Endpoint]
+    services: dict[str, list[str]] = Field(default_factory=dict, description="Name to types")
+
+
+class MessageSeen(Record):
+    """One message, with the three things that tell when it was sent and whether one was lost."""
+
+    source_ns: int | None = Field(description="Publisher's wall clock, filled by the middleware")
+    sequence: int | None = Field(description="Publisher's own count, filled by the middleware")
+    arrival_ns: int = Field(description="Observer's monotonic clock")
+    size: int = Field(description="Bytes, serialised")
+    content: Any = Field(default=None, description="The fields; None where not kept or unreadable")
+
+
+class TopicSeen(Record):
+    """All that was heard on one topic."""
+
+    name: str
+    type: str
+    messages: list[MessageSeen] = Field(default_factory=list)
+    not_kept: int = Field(default=0, description="Messages counted but not kept (the bound)")
+
+
+class LogLine(Record):
+    """One line that a node wrote, to its terminal or to /rosout."""
+
+    arrival_ns: int
+    text: str
+    source: Literal["terminal", "rosout"]
+
+
+class Ending(Record):
+    """How a process ended after a signal."""
+
+    signal: str
+    after_s: float | None = Field(description="None where it did not end and was killed")
+
+
+class ProcessSeen(Record):
+    """One process of the student's, from start to end."""
+
+    executable: str
+    started_ns: int
+    ended_ns: int | None = None
+    status: int | None = Field(
+        default=None, description="Exit code; minus the signal's number where a signal ended it"
+    )
+    ended_by_itself: bool = Field(default=False, description="Before the grader asked it to")
+    ending: Ending | None = None
+    lines: list[LogLine] = Field(default_factory=list)
+    output_bytes: int = 0
+    output_dropped_bytes: int = 0
+    left_behind: int = Field(default=0, description="Processes of its own that outlived it")
+    cpu_s: float = 0.0
+    peak_memory_bytes: int = 0
+
+
+class Spoken(Record):
+    """One message that the grader sent, and whether somebody was there to hear it."""
+
+    topic: str
+    type: str
+    content: Any
+    sent_ns: int
+    matched: bool = Field(description="A subscription was matched when it was sent")
+    offered: Qos
+
+
+class ExperimentSeen(Record):
+    """One experiment: the processes it ran, and all that was seen while they ran."""
+
+    name: str
+    clock: Literal["wall", "sim"]
+    graph: GraphSeen = Field(default_factory=lambda: GraphSeen(nodes=[], endpoints=[]))
+    topics: dict[str, TopicSeen] = Field(default_factory=dict)
+    rosout: dict[str, list[LogLine]] = Field(
+        default_factory=dict, description="Logger's name to its lines"
+    )
+    processes: dict[str, ProcessSeen] = Field(default_factory=dict, description="By executable")
+    spoken: list[Spoken] = Field(default_factory=list)
+    discovery_s: float = 0.0
+    watching_s: float = 0.0
+    ending_s: float = 0.0
+    stall_s: float = Field(
+        default=0.0, description="Longest time for which the observer itself was not run"
+    )
+    machine_fault: str | None = Field(
+        default=None, description="Why this experiment says nothing about the student"
+    )
+
+
+class BuildSeen(Record):
+    """What colcon did with the package."""
+
+    succeeded: bool
+    recognised_as: str | None = Field(description="colcon's word, e.g. `ros.ament_python`")
+    seconds: float
+    output: list[str] = Field(default_factory=list, description="Last lines")
+    executables: list[str] = Field(default_factory=list)
+
+
+class PictureSeen(Record):
+    """An image file in the package."""
+
+    path: str
+    format: str | None = Field(description="e.g. `PNG`; None where it is no image")
+    width: int = 0
+    height: int = 0
+    colours: int = Field(default=0, description="Different colours, counted up to 256")
+
+
+class PackageSeen(Record):
+    """What stands in the package's own files, read without running any of them."""
+
+    name: str
+    folder: str = Field(description="Name of the folder, without the path to it")
+    build_type: str
+    xml_problems: list[str] = Field(default_factory=list)
+    missing_files: list[str] = Field(default_factory=list)
+    syntax_errors: list[str] = Field(default_factory=list, description="`file:line: message`")
+    declared: list[str] = Field(default_factory=list, description="Packages in package.xml")
+    imported: dict[str, str] = Field(
+        default_factory=dict, description="ROS package imported by the code, to `file:line`"
+    )
+    entry_points: dict[str, str] = Field(
+        default_factory=dict, description="Name to target, as setup.py has it"
+    )
+    pictures: dict[str, PictureSeen] = Field(default_factory=dict, description="By path")
+
+
+class MachineSeen(Record):
+    """The machine and the versions that did the measuring."""
+
+    roslings: str
+    ros_distro: str
+    rmw: str
+    python: str
+    platform: str
+    isolation: Literal["namespace", "domain"]
+
+
+class Evidence(Record):
+    """All that was seen of one package in one grading; judged again without running anything."""
+
+    schema_version: Literal[1] = Field(default=1, alias="schema")
+    lab: str
+    seed: int
+    machine: MachineSeen
+    package: PackageSeen
+    build: BuildSeen | None = None
+    experiments: dict[str, ExperimentSeen] = Field(default_factory=dict)
+    advice: list[str] = Field(default_factory=list)
+
+    model_config = ConfigDict(extra="forbid", validate_by_name=True, validate_by_alias=True)
