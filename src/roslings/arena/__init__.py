@@ -1,0 +1,27 @@
+"""A place where someone else's nodes run and end; knows no messages and no points.
+
+Namespace or leased domain, transport, discovery, environment, signals, orphans: these must agree
+with each other, so they live together.
+"""
+
+from roslings.arena import kernel
+from roslings.arena.arena import Arena, Installed, opened
+from roslings.arena.environment import base_environment, ros_environment
+from roslings.arena.isolation import Isolation, Wall, choose_isolation
+from roslings.arena.lease import NoFreeDomain
+from roslings.arena.process import Launch, Process
+
+__all__ = [
+    "Arena",
+    "Installed",
+    "Isolation",
+    "Launch",
+    "NoFreeDomain",
+    "Process",
+    "Wall",
+    "base_environment",
+    "choose_isolation",
+    "kernel",
+    "opened",
+    "ros_environment",
+]

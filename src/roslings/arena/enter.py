@@ -1,0 +1,66 @@
+"""Script: run a command in a network of its own, where only loopback exists.
+
+    python -I -S enter.py COMMAND ...    become COMMAND inside
+    python -I -S enter.py --try          say `ok`, or why this machine refuses (exit 97)
+
+It runs in a bare interpreter, because a process with threads may not make a user namespace.
+"""
+
+from __future__ import annotations
+
+import os
+import socket
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))  # noqa: PTH100, PTH120
+import guardian  # type: ignore[import-not-found]
+import kernel  # type: ignore[import-not-found]
+
+REFUSED = 97
+MULTICAST_GROUP = "239.255.0.1"
+
+
+def main(arguments: list[str]) -> None:
+    """Enter, then try it or become the command."""
+    try:
+        enter()
+        if arguments == ["--try"]:
+            try_namespaces()
+            print("ok")
+            return
+    except OSError as error:
+        print(error.strerror or error, file=sys.stderr)
+        sys.exit(REFUSED)
+    os.execvp(arguments[0], arguments)
+
+
+def enter() -> None:
+    """Take a user and a network namespace of one's own. Raises OSError."""
+    uid, gid = os.getuid(), os.getgid()
+    kernel.unshare(kernel.CLONE_NEWUSER | kernel.CLONE_NEWNET)
+    kernel.map_identity(uid, gid)
+    kernel.raise_loopback()
+
+
+def try_namespaces() -> None:
+    """Prove that multicast comes back on loopback, and that a guardian's namespaces nest."""
+    hear_oneself()
+    guardian.enter_namespaces()
+
+
+def hear_oneself() -> None:
+    """Send one datagram to a multicast group and receive it. Raises OSError."""
+    with (
+        socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as ear,
+        socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as mouth,
+    ):
+        ear.bind(("", 0))
+        group = socket.inet_aton(MULTICAST_GROUP) + socket.inet_aton("127.0.0.1")
+        ear.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, group)
+        ear.settimeout(5.0)
+        mouth.sendto(b"hello", (MULTICAST_GROUP, ear.getsockname()[1]))
+        ear.recv(16)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -1,0 +1,320 @@
+"""Script: start one process, keep it company, and leave nothing of it behind.
+
+    python -I -S guardian.py FD
+
+FD is one end of a stream socket pair; the arena holds the other. It first sends one line of
+JSON (`Order`), later a signal's name a line. The guardian answers one line of JSON an event:
+
+    {"started": PID}                       {"said": TEXT, "at": NS}
+    {"exited": STATUS, "at": NS, ...}      {"refused": REASON}
+
+Where the order asks for it, the process lives in a pid namespace whose first process is this
+guardian: when the guardian goes, the kernel ends all that the process started. Elsewhere the
+guardian adopts orphans and ends them one by one. When the arena's end of the socket closes,
+for whatever reason, everything ends. Times are nanoseconds of the monotonic clock.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import pty
+import select
+import signal
+import socket
+import sys
+import termios
+import time
+from collections import deque
+from dataclasses import dataclass
+from pathlib import Path
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))  # noqa: PTH100, PTH120
+import kernel  # type: ignore[import-not-found]
+
+READ_BYTES = 65536
+LATEST_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGQUIT, signal.SIGPIPE, signal.SIGHUP)
+GRACE_S = 0.2
+
+
+@dataclass
+class Order:
+    """What to start, where, and how much of its output to pass on."""
+
+    command: list[str]
+    environment: dict[str, str]
+    folder: str
+    namespaces: bool
+    head_bytes: int
+    tail_bytes: int
+    limits: dict[str, int]
+
+
+class Spout:
+    """Passes on the first bytes of an endless output, and keeps the last ones for the end."""
+
+    def __init__(self, head_bytes: int, tail_bytes: int) -> None:
+        self.head_left = head_bytes
+        self.tail_bytes = tail_bytes
+        self.tail: deque[bytes] = deque()
+        self.tail_held = 0
+        self.total = 0
+        self.dropped = 0
+
+    def take(self, chunk: bytes) -> bytes:
+        """The part of `chunk` to pass on at once; the rest is held for the end."""
+        self.total += len(chunk)
+        now, later = chunk[: self.head_left], chunk[self.head_left :]
+        self.head_left -= len(now)
+        if later:
+            self._hold(later)
+        return now
+
+    def _hold(self, chunk: bytes) -> None:
+        self.tail.append(chunk)
+        self.tail_held += len(chunk)
+        while self.tail_held - len(self.tail[0]) >= self.tail_bytes:
+            lost = len(self.tail.popleft())
+            self.tail_held -= lost
+            self.dropped += lost
+
+    def rest(self) -> bytes:
+        """The last bytes, when all is over."""
+        return b"".join(self.tail)
+
+
+class Guardian:
+    """One process, from start to end."""
+
+    def __init__(self, channel: socket.socket, order: Order) -> None:
+        self.channel = channel
+        self.order = order
+        self.spout = Spout(order.head_bytes, order.tail_bytes)
+        self.waker, waked = socket.socketpair()
+        for end in (self.waker, waked):
+            end.setblocking(False)
+        signal.signal(signal.SIGCHLD, lambda *_: None)
+        signal.set_wakeup_fd(waked.fileno())
+        self.waked = waked
+        self.pid, self.terminal = start(order)
+        self.exited: dict[str, object] | None = None
+
+    def run(self) -> None:
+        """Watch until the process ended or the arena let go; then end whatever is left."""
+        self.tell({"started": self.pid})
+        while self.exited is None and self.turn():
+            pass
+        self.drain()
+        left = self.count_others()
+        self.end_all()
+        self.drain()
+        self.tell_rest()
+        self.tell(
+            {
+                **(self.exited or {"exited": None}),
+                "left_behind": left,
+                "output_bytes": self.spout.total,
+                "dropped_bytes": self.spout.dropped,
+            }
+        )
+
+    def turn(self) -> bool:
+        """One round: output, orders, ended children. False when the arena let go."""
+        sources: list[int | socket.socket] = [self.terminal, self.channel, self.waker]
+        ready, _, _ = select.select(sources, [], [])
+        if self.terminal in ready:
+            self.read_terminal()
+        if self.waker in ready:
+            self.waker.recv(4096)
+            self.reap()
+        return self.channel not in ready or self.obey()
+
+    def read_terminal(self) -> bool:
+        """Pass on what the process wrote. False when nobody holds the terminal any more."""
+        try:
+            chunk = os.read(self.terminal, READ_BYTES)
+        except OSError:  # EIO: the last holder of the other side closed it
+            time.sleep(0.001)
+            return False
+        self.say(self.spout.take(chunk))
+        return True
+
+    def say(self, chunk: bytes) -> None:
+        """Pass on bytes as Latin-1 text, which keeps each of them."""
+        if chunk:
+            self.tell({"said": chunk.decode("latin-1"), "at": time.monotonic_ns()})
+
+    def tell_rest(self) -> None:
+        """The end of a long output, after a line that says how much is missing."""
+        if self.spout.dropped:
+            self.say(f"\n[... {self.spout.dropped} bytes not kept ...]\n".encode())
+        self.say(self.spout.rest())
+
+    def obey(self) -> bool:
+        """Pass a signal on to the process. False when the arena closed its end."""
+        orders = self.channel.recv(4096)
+        for name in orders.decode().split():
+            if self.exited is None:
+                os.kill(self.pid, signal.Signals[name])
+        return bool(orders)
+
+    def reap(self) -> None:
+        """Collect ended children: the process itself, and orphans that came to us."""
+        while True:
+            try:
+                pid, status, usage = os.wait4(-1, os.WNOHANG)
+            except ChildProcessError:
+                return
+            if pid == 0:
+                return
+            if pid == self.pid:
+                self.exited = {
+                    "exited": os.waitstatus_to_exitcode(status),
+                    "at": time.monotonic_ns(),
+                    "cpu_s": usage.ru_utime + usage.ru_stime,
+                    "peak_memory_bytes": usage.ru_maxrss * 1024,
+                }
+
+    def drain(self) -> None:
+        """Read what is still in the terminal, without waiting for more."""
+        while select.select([self.terminal], [], [], 0)[0] and self.read_terminal():
+            pass
+
+    def count_others(self) -> int:
+        """How many processes of its own outlived the process."""
+        self.reap()
+        return len(descendants()) - (self.exited is None)
+
+    def end_all(self) -> None:
+        """Kill whatever is left, until nothing is left."""
+        while others := descendants():
+            for pid in others:
+                kill(pid)
+            select.select([self.waker], [], [], GRACE_S)
+            self.reap()
+
+    def tell(self, event: dict[str, object]) -> None:
+        """Send one event; an arena that is gone needs no answer."""
+        try:
+            self.channel.sendall(json.dumps(event).encode() + b"\n")
+        except OSError:
+            self.exited = self.exited or {"exited": None}
+
+
+def start(order: Order) -> tuple[int, int]:
+    """Start the process on a terminal of its own; returns its pid and our side of it.
+
+    A terminal, because a program that writes into a pipe holds its lines back.
+    """
+    pid, terminal = pty.fork()
+    if pid == 0:
+        become(order)
+    return pid, terminal
+
+
+def become(order: Order) -> None:
+    """In the child: be the ordered command, with the signals that a fresh terminal gives."""
+    try:
+        make_plain_terminal(sys.stdout.fileno())
+        for number in LATEST_SIGNALS:
+            signal.signal(number, signal.SIG_DFL)
+        signal.set_wakeup_fd(-1)
+        signal.pthread_sigmask(signal.SIG_SETMASK, [])
+        limit(order.limits)
+        os.chdir(order.folder)
+        os.execvpe(order.command[0], order.command, order.environment)
+    except OSError as error:
+        os.write(2, f"{order.command[0]}: {error.strerror}\n".encode())
+    finally:
+        os._exit(127)
+
+
+def limit(limits: dict[str, int]) -> None:
+    """Bound what the process may take: names as in the module `resource`, e.g. RLIMIT_FSIZE."""
+    import resource
+
+    for name, value in limits.items():
+        resource.setrlimit(getattr(resource, name), (value, value))
+
+
+def make_plain_terminal(descriptor: int) -> None:
+    """No translation of line ends and no echo: what is written is what is read."""
+    attributes = termios.tcgetattr(descriptor)
+    attributes[1] &= ~termios.OPOST
+    attributes[3] &= ~(termios.ECHO | termios.ECHONL)
+    termios.tcsetattr(descriptor, termios.TCSANOW, attributes)
+
+
+def descendants() -> list[int]:
+    """Every living process that descends from this one."""
+    parents = {pid: parent for pid, parent in living()}
+    found: list[int] = []
+    fresh = {os.getpid()}
+    while fresh := {pid for pid, parent in parents.items() if parent in fresh}:
+        found.extend(fresh)
+    return found
+
+
+def living() -> list[tuple[int, int]]:
+    """Pid and parent's pid of every process that is no zombie, as /proc has them."""
+    pairs = []
+    for entry in Path("/proc").iterdir():
+        if entry.name.isdigit():
+            try:
+                after_name = (entry / "stat").read_bytes().rpartition(b")")[2].split()
+            except OSError:
+                continue
+            if after_name[0] != b"Z":
+                pairs.append((int(entry.name), int(after_name[1])))
+    return pairs
+
+
+def kill(pid: int) -> None:
+    """End a process that may be gone already."""
+    with contextlib.suppress(ProcessLookupError):
+        os.kill(pid, signal.SIGKILL)
+
+
+def enter_namespaces() -> None:
+    """Take a pid, ipc and mount namespace; return in the new namespace's first process."""
+    uid, gid = os.getuid(), os.getgid()
+    flags = kernel.CLONE_NEWUSER | kernel.CLONE_NEWPID | kernel.CLONE_NEWIPC | kernel.CLONE_NEWNS
+    kernel.unshare(flags)
+    kernel.map_identity(uid, gid)
+    first = os.fork()
+    if first:
+        wait_and_follow(first)
+    kernel.die_with_parent()
+    kernel.keep_mounts_private()
+    kernel.mount_private("proc", "/proc")
+    kernel.mount_private("tmpfs", "/dev/shm")
+
+
+def wait_and_follow(pid: int) -> None:
+    """Outside the namespace: stay until its first process ended, and end as it did."""
+    _, status = os.waitpid(pid, 0)
+    os._exit(os.waitstatus_to_exitcode(status) & 0xFF)
+
+
+def main(descriptor: int) -> None:
+    """Take the order, go where it says, and guard."""
+    kernel.die_with_parent()
+    channel = socket.socket(fileno=descriptor)
+    channel.set_inheritable(False)
+    with channel.makefile("r", encoding="utf-8") as orders:
+        order = Order(**json.loads(orders.readline()))
+    for number in LATEST_SIGNALS:
+        signal.signal(number, signal.SIG_IGN)
+    try:
+        if order.namespaces:
+            enter_namespaces()
+        else:
+            kernel.adopt_orphans()
+        Guardian(channel, order).run()
+    except OSError as error:
+        channel.sendall(json.dumps({"refused": str(error)}).encode() + b"\n")
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]))

@@ -1,0 +1,115 @@
+"""The Linux calls behind an arena that Python 3.10 does not offer by itself.
+
+Standard library only: the two scripts beside this file run it in a bare interpreter.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import fcntl
+import os
+import signal
+import socket
+import struct
+
+CLONE_NEWNS = 0x00020000
+CLONE_NEWIPC = 0x08000000
+CLONE_NEWUSER = 0x10000000
+CLONE_NEWPID = 0x20000000
+CLONE_NEWNET = 0x40000000
+
+_PR_SET_PDEATHSIG = 1
+_PR_SET_CHILD_SUBREAPER = 36
+_MS_NOSUID_NODEV = 0x2 | 0x4
+_MS_REC_PRIVATE = 0x4000 | 0x40000
+_SIOCSIFFLAGS = 0x8914
+_SIOCADDRT = 0x890B
+_IFF_UP_LOOPBACK_RUNNING_MULTICAST = 0x1 | 0x8 | 0x40 | 0x1000
+_RTF_UP = 0x1
+
+_libc = ctypes.CDLL(None, use_errno=True)
+
+
+class _Route(ctypes.Structure):
+    """`struct rtentry` of <net/route.h>, as the ioctl SIOCADDRT takes it."""
+
+    _fields_ = (
+        ("pad1", ctypes.c_ulong),
+        ("destination", ctypes.c_ubyte * 16),
+        ("gateway", ctypes.c_ubyte * 16),
+        ("netmask", ctypes.c_ubyte * 16),
+        ("flags", ctypes.c_ushort),
+        ("pad2", ctypes.c_short),
+        ("pad3", ctypes.c_ulong),
+        ("pad4", ctypes.c_void_p),
+        ("metric", ctypes.c_short),
+        ("device", ctypes.c_char_p),
+        ("mtu", ctypes.c_ulong),
+        ("window", ctypes.c_ulong),
+        ("irtt", ctypes.c_ushort),
+    )
+
+
+def _call(name: str, *arguments: object) -> None:
+    """Call a libc function that returns -1 on failure. Raises OSError, named after it."""
+    if getattr(_libc, name)(*arguments) == -1:
+        code = ctypes.get_errno()
+        raise OSError(code, f"{name}: {os.strerror(code)}")
+
+
+def unshare(flags: int) -> None:
+    """Leave the namespaces in `flags`. Raises OSError (EINVAL when this process has threads)."""
+    _call("unshare", flags)
+
+
+def map_identity(uid: int, gid: int) -> None:
+    """Keep one's own user and group in the user namespace just entered.
+
+    An unprivileged process must give up setgroups first: user_namespaces(7).
+    """
+    _write("/proc/self/setgroups", "deny")
+    _write("/proc/self/uid_map", f"{uid} {uid} 1")
+    _write("/proc/self/gid_map", f"{gid} {gid} 1")
+
+
+def _write(path: str, text: str) -> None:
+    descriptor = os.open(path, os.O_WRONLY)
+    try:
+        os.write(descriptor, text.encode())
+    finally:
+        os.close(descriptor)
+
+
+def raise_loopback() -> None:
+    """Bring `lo` up in a new network namespace, with multicast, which DDS discovery needs."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as control:
+        request = struct.pack("16sH14x", b"lo", _IFF_UP_LOOPBACK_RUNNING_MULTICAST)
+        fcntl.ioctl(control, _SIOCSIFFLAGS, request)
+        route = _Route(flags=_RTF_UP, device=b"lo")
+        route.destination[:] = _address("224.0.0.0")
+        route.netmask[:] = _address("240.0.0.0")
+        fcntl.ioctl(control, _SIOCADDRT, route)
+
+
+def _address(dotted: str) -> bytes:
+    return struct.pack("=HH4s8x", socket.AF_INET, 0, socket.inet_aton(dotted))
+
+
+def mount_private(kind: str, place: str) -> None:
+    """Mount a fresh `proc` or `tmpfs` that only this mount namespace sees. Raises OSError."""
+    _call("mount", kind.encode(), place.encode(), kind.encode(), _MS_NOSUID_NODEV, None)
+
+
+def keep_mounts_private() -> None:
+    """Let no mount of this namespace reach the machine. Raises OSError."""
+    _call("mount", None, b"/", None, _MS_REC_PRIVATE, None)
+
+
+def die_with_parent() -> None:
+    """Have the kernel kill this process when its parent ends."""
+    _call("prctl", _PR_SET_PDEATHSIG, int(signal.SIGKILL), 0, 0, 0)
+
+
+def adopt_orphans() -> None:
+    """Become the parent of every descendant whose own parent ended."""
+    _call("prctl", _PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)

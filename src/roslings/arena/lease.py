@@ -1,0 +1,62 @@
+"""Lease a ROS domain that nobody else on this machine uses.
+
+A lease is a bound TCP port on loopback: the kernel gives it to one process only, and takes it
+back when that process ends, however it ends. It needs no file, so two users do not meet.
+"""
+
+from __future__ import annotations
+
+import os
+import random
+import socket
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+SAFE_DOMAINS = range(1, 102)
+"""0 is everybody's; above 101 DDS ports meet Linux's ephemeral ones (About-Domain-ID)."""
+
+LEASE_PORT_BASE = 20200
+DDS_PORT_BASE, DDS_PORTS_PER_DOMAIN = 7400, 250
+
+
+class NoFreeDomain(Exception):
+    """Every domain of this machine is taken."""
+
+    def __init__(self) -> None:
+        super().__init__(
+            "All ROS domains of this machine are in use. End some nodes and try again."
+        )
+
+
+@contextmanager
+def leased_domain() -> Iterator[int]:
+    """A domain id of one's own, until the block ends. Raises NoFreeDomain."""
+    busy = _domains_in_use() | _own_domain()
+    candidates = [domain for domain in SAFE_DOMAINS if domain not in busy]
+    random.SystemRandom().shuffle(candidates)
+    for domain in candidates:
+        with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as lease:
+            try:
+                lease.bind(("127.0.0.1", LEASE_PORT_BASE + domain))
+            except OSError:
+                continue
+            yield domain
+            return
+    raise NoFreeDomain
+
+
+def _own_domain() -> set[int]:
+    """The domain that the student's own terminals use."""
+    text = os.environ.get("ROS_DOMAIN_ID", "")
+    return {int(text)} if text.isdecimal() else set()
+
+
+def _domains_in_use() -> set[int]:
+    """Domains of nodes that run here: DDS listens on UDP port 7400 + 250 * domain and above."""
+    try:
+        lines = Path("/proc/net/udp").read_text("ascii").splitlines()[1:]
+    except OSError:
+        return set()
+    ports = (int(line.split()[1].rpartition(":")[2], 16) for line in lines)
+    return {(port - DDS_PORT_BASE) // DDS_PORTS_PER_DOMAIN for port in ports}

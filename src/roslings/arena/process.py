@@ -1,0 +1,205 @@
+"""One of the student's processes, seen from the arena: its output, its signals, its end."""
+
+from __future__ import annotations
+
+import json
+import socket
+import subprocess
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import TracebackType
+
+from roslings.arena.isolation import BARE, GUARDIAN
+from roslings.evidence import Ending, LogLine, ProcessSeen
+
+Listener = Callable[[], None]
+HEAD_BYTES = 512 * 1024
+TAIL_BYTES = 64 * 1024
+LONGEST_LINE = 2000
+PATIENCE = {"SIGINT": 2.0, "SIGTERM": 1.0, "SIGKILL": 10.0}
+"""Seconds given after each signal when a block ends and the process still runs."""
+
+
+class CannotStart(Exception):
+    """The machine refused to start a process; no fault of the student's."""
+
+
+@dataclass(frozen=True)
+class Launch:
+    """What to start: a command, its whole environment, its folder, and its walls."""
+
+    command: list[str]
+    environment: dict[str, str]
+    folder: Path
+    namespaces: bool
+    limits: dict[str, int] = field(default_factory=dict)
+
+    def order(self) -> bytes:
+        """The line that the guardian reads."""
+        words = {
+            "command": self.command,
+            "environment": self.environment,
+            "folder": str(self.folder),
+            "namespaces": self.namespaces,
+            "head_bytes": HEAD_BYTES,
+            "tail_bytes": TAIL_BYTES,
+            "limits": self.limits,
+        }
+        return json.dumps(words).encode() + b"\n"
+
+
+class Process:
+    """A running process behind its guardian. Leaving the `with` block ends it, orphans included."""
+
+    def __init__(
+        self, name: str, launch: Launch, on_line: Callable[[], None] = lambda: None
+    ) -> None:
+        self.seen = ProcessSeen(executable=name, started_ns=time.monotonic_ns())
+        self._launch = launch
+        self._on_line = on_line
+        self._changed = threading.Condition()
+        self._unfinished = b""
+        self._asked_to_end = False
+        self._gone = False
+        self._refused: str | None = None
+
+    def __enter__(self) -> Process:
+        ours, theirs = socket.socketpair()
+        with theirs:
+            self._guardian = subprocess.Popen(
+                [*BARE, str(GUARDIAN), str(theirs.fileno())],
+                pass_fds=[theirs.fileno()],
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                start_new_session=True,
+                env={},
+            )
+        self._channel = ours
+        self._channel.sendall(self._launch.order())
+        self._reader = threading.Thread(target=self._read, daemon=True)
+        self._reader.start()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        try:
+            if kind is None:
+                self._ask_to_end()
+        finally:
+            self._channel.shutdown(socket.SHUT_RDWR) if not self._gone else None
+            self._reader.join()
+            self._channel.close()
+            self._guardian.wait()
+
+    @property
+    def alive(self) -> bool:
+        """Has not ended yet, as far as we were told."""
+        return not self._gone and self.seen.ended_ns is None
+
+    @property
+    def refused(self) -> str | None:
+        """Why the machine could not even start it."""
+        return self._refused
+
+    def interrupt(self, within_s: float) -> bool:
+        """Press Ctrl-C: SIGINT to the process itself. True when it ended within `within_s`."""
+        self._asked_to_end = True
+        return self._signal("SIGINT", within_s)
+
+    def wait_until(self, condition: Callable[[], bool], within_s: float) -> bool:
+        """Wait until `condition` holds or the process ended; what the condition says then."""
+        with self._changed:
+            self._changed.wait_for(lambda: condition() or not self.alive, within_s)
+            return condition()
+
+    def wait_ended(self, within_s: float) -> bool:
+        """Wait for the process to end. True when it did."""
+        return self.wait_until(lambda: not self.alive, within_s)
+
+    def lines(self) -> list[LogLine]:
+        """The lines so far."""
+        with self._changed:
+            return list(self.seen.lines)
+
+    def _ask_to_end(self) -> None:
+        self._asked_to_end = True
+        for name, patience_s in PATIENCE.items():
+            if self._signal(name, patience_s):
+                return
+
+    def _signal(self, name: str, patience_s: float) -> bool:
+        """Send a signal, wait, and write down the first one's effect."""
+        if not self.alive:
+            return True
+        sent_ns = time.monotonic_ns()
+        self._send(name)
+        ended = self.wait_ended(patience_s)
+        if self.seen.ending is None:
+            ended_ns = self.seen.ended_ns
+            after_s = (ended_ns - sent_ns) / 1e9 if ended and ended_ns else None
+            self.seen.ending = Ending(signal=name, after_s=after_s)
+        return ended
+
+    def _send(self, name: str) -> None:
+        try:
+            self._channel.sendall(name.encode() + b"\n")
+        except OSError:
+            self._finish()
+
+    def _read(self) -> None:
+        """In a thread: take the guardian's events until it ends."""
+        with self._channel.makefile("rb") as events:
+            for line in events:
+                with self._changed:
+                    self._take(json.loads(line))
+                    self._changed.notify_all()
+                self._on_line()
+        self._finish()
+        self._on_line()
+
+    def _finish(self) -> None:
+        with self._changed:
+            self._gone = True
+            if self._unfinished:
+                self._add_line(self._unfinished, time.monotonic_ns())
+                self._unfinished = b""
+            self._changed.notify_all()
+
+    def _take(self, event: dict[str, object]) -> None:
+        if "said" in event:
+            self._hear(str(event["said"]).encode("latin-1"), int(str(event["at"])))
+        elif "exited" in event:
+            self._note_end(event)
+        elif "refused" in event:
+            self._refused = str(event["refused"])
+
+    def _hear(self, chunk: bytes, at_ns: int) -> None:
+        *whole, self._unfinished = (self._unfinished + chunk).split(b"\n")
+        for line in whole:
+            self._add_line(line, at_ns)
+        if len(self._unfinished) > LONGEST_LINE:
+            self._add_line(self._unfinished, at_ns)
+            self._unfinished = b""
+
+    def _add_line(self, line: bytes, at_ns: int) -> None:
+        text = line.rstrip(b"\r")[:LONGEST_LINE].decode("utf-8", errors="replace")
+        self.seen.lines.append(LogLine(arrival_ns=at_ns, text=text, source="terminal"))
+
+    def _note_end(self, event: dict[str, object]) -> None:
+        seen = self.seen
+        if event["exited"] is not None:
+            seen.status = int(str(event["exited"]))
+            seen.ended_ns = int(str(event["at"]))
+            seen.cpu_s = float(str(event["cpu_s"]))
+            seen.peak_memory_bytes = int(str(event["peak_memory_bytes"]))
+            seen.ended_by_itself = not self._asked_to_end
+        seen.left_behind = int(str(event["left_behind"]))
+        seen.output_bytes = int(str(event["output_bytes"]))
+        seen.output_dropped_bytes = int(str(event["dropped_bytes"]))

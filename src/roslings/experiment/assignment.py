@@ -1,0 +1,36 @@
+"""What the command asks of the measuring process."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from pydantic import BaseModel
+
+from roslings.arena import Wall
+from roslings.evidence import PackageSeen
+
+
+class Assignment(BaseModel):
+    """One package to measure; both processes read it from a file in the run's folder."""
+
+    lab: str
+    seed: int
+    wall: Wall
+    folder: Path
+    """The run's own folder: the staged source, the build, the nodes' home, the evidence."""
+    package: PackageSeen
+
+    @property
+    def file(self) -> Path:
+        """Where the assignment itself lies."""
+        return self.folder / "assignment.json"
+
+    @property
+    def evidence(self) -> Path:
+        """Where the measuring process puts what it saw."""
+        return self.folder / "evidence.json"
+
+    @property
+    def home(self) -> Path:
+        """The nodes' HOME."""
+        return self.folder / "home"

@@ -1,0 +1,53 @@
+"""How a grader declares an experiment, and how a grader's file is read."""
+
+from __future__ import annotations
+
+import importlib.util
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """A function that runs nodes and watches them.
+
+    Its first parameter is the scene; the others name earlier experiments, whose evidence it gets.
+    """
+
+    name: str
+    function: Callable[..., None]
+
+    @property
+    def needs(self) -> tuple[str, ...]:
+        """The earlier experiments whose evidence it asks for."""
+        code = self.function.__code__
+        return code.co_varnames[1 : code.co_argcount]
+
+
+def experiment(function: Callable[..., None]) -> Experiment:
+    """Make a function of a grader's file an experiment.
+
+    >>> @experiment
+    ... def talking(scene):
+    ...     with scene.run(TALKER):
+    ...         scene.watch(CHATTER)
+    """
+    return Experiment(function.__name__, function)
+
+
+def load_grader(path: Path) -> ModuleType:
+    """Import a grader's file: the course's own code, never the student's."""
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    if spec is None or spec.loader is None:
+        raise FileNotFoundError(path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def experiments_of(grader: Any) -> list[Experiment]:
+    """The experiments of a grader, in the order of its file."""
+    return [thing for thing in vars(grader).values() if isinstance(thing, Experiment)]

@@ -1,0 +1,89 @@
+"""Called in the command's process: have a package measured behind the machine's best wall."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from roslings.arena import choose_isolation
+from roslings.evidence import Evidence, PackageSeen
+from roslings.experiment.assignment import Assignment
+from roslings.experiment.run_folder import run_folder
+from roslings.workspace.student import stage
+
+ENDS_WITHIN_S = 30.0
+LAST_WORDS = 20
+
+
+class MeasuringFailed(Exception):
+    """The measuring process itself ended without evidence: the machine's fault, or ours."""
+
+    def __init__(self, status: int, last_words: str) -> None:
+        self.status, self.last_words = status, last_words
+        super().__init__(f"The measurement broke off (status {status}).\n{last_words}".rstrip())
+
+
+def measure(
+    lab: str, package: Path, seen: PackageSeen, seed: int, on_step: Callable[[str], None]
+) -> Evidence:
+    """Build and run the package at `package`; `on_step` is told what happens.
+
+    Raises MeasuringFailed, and whatever staging a copy of the package raises.
+    """
+    with run_folder() as folder:
+        wall = choose_isolation()
+        assignment = Assignment(lab=lab, seed=seed, wall=wall.wall, folder=folder, package=seen)
+        assignment.home.mkdir()
+        stage(package, folder / "src" / seen.name)
+        assignment.file.write_text(assignment.model_dump_json(), "utf-8")
+        module = [sys.executable, "-m", "roslings.experiment.measuring", str(assignment.file)]
+        _follow(wall.command(module), folder / "stderr", on_step)
+        evidence = Evidence.model_validate_json(assignment.evidence.read_text("utf-8"))
+    if wall.because:
+        evidence.advice.append(f"Measured without a network of its own: {wall.because}.")
+    return evidence
+
+
+def _follow(command: list[str], errors: Path, on_step: Callable[[str], None]) -> None:
+    """Run the measuring process to its end. Raises MeasuringFailed."""
+    with errors.open("wb") as stderr, _started(command, stderr.fileno()) as process:
+        assert process.stdout is not None
+        for line in process.stdout:
+            on_step(line.rstrip())
+        status = process.wait()
+    if status:
+        words = errors.read_text("utf-8", errors="replace").splitlines()[-LAST_WORDS:]
+        raise MeasuringFailed(status, "\n".join(words))
+
+
+@contextmanager
+def _started(command: list[str], stderr: int) -> Iterator[subprocess.Popen[str]]:
+    """A process that ends with the block, after it has ended all that it started.
+
+    It has a session of its own: Ctrl-C in the terminal reaches the command alone, which then
+    asks the process to end in order.
+    """
+    with subprocess.Popen(
+        command,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=stderr,
+        text=True,
+        start_new_session=True,
+    ) as process:
+        try:
+            yield process
+        finally:
+            _end(process)
+
+
+def _end(process: subprocess.Popen[str]) -> None:
+    if process.poll() is None:
+        process.terminate()
+        try:
+            process.wait(ENDS_WITHIN_S)
+        except subprocess.TimeoutExpired:
+            process.kill()

@@ -1,0 +1,232 @@
+"""What a grader's experiment works with: nodes to run, topics to watch, sentences to say."""
+
+from __future__ import annotations
+
+import random
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+
+from roslings.arena import Arena, Process
+from roslings.course import NodeContract, TopicContract
+from roslings.evidence import Endpoint, ExperimentSeen
+from roslings.near import Near, nearest, nearest_endpoint
+from roslings.probe import Probe
+from roslings.rates import measure_rate
+
+COMES_UP_WITHIN_S = 20.0
+FIRST_MESSAGE_WITHIN_S = 10.0
+HEARD_WITHIN_S = 10.0
+AFTER_THE_TURN_S = 1.0
+SHORTEST_WATCH_PERIODS = 10
+LONGEST_WATCH_PERIODS = 40
+INTERRUPT_SLACK_S = 1.0
+
+
+class Scene:
+    """One experiment: an arena where nodes run, and a probe that watches them."""
+
+    def __init__(self, arena: Arena, probe: Probe, seed: int, ends_within_s: float) -> None:
+        self._arena = arena
+        self._probe = probe
+        self._random = random.Random(seed)
+        self._ends_within_s = ends_within_s
+        arena.on_change = probe.notify
+        probe.graph_while(arena.all_alive)
+
+    @property
+    def seen(self) -> ExperimentSeen:
+        """What was seen so far."""
+        return self._probe.seen
+
+    @contextmanager
+    def run(self, node: NodeContract, remaps: Sequence[str] = ()) -> Iterator[Process]:
+        """Start a node, wait until it is in the graph; press Ctrl-C when the block ends."""
+        known = set(self.seen.graph.nodes)
+        arguments = [word for rule in remaps for word in ("-r", rule)]
+        with self._arena.run(
+            node.executable, ["--ros-args", *arguments] if remaps else []
+        ) as process:
+            self.seen.processes[node.executable] = process.seen
+            self._wait_up(process, known)
+            yield process
+            self._end(process)
+
+    def watch(self, contract: TopicContract) -> None:
+        """Watch a topic, or the one nearest to it, until its rate is sure or the bound is met."""
+        with self._timed_watching():
+            self._until_alive(lambda: self._heard(contract) > 0, FIRST_MESSAGE_WITHIN_S)
+            if contract.rate and self._heard(contract):
+                period_s = 1 / contract.rate.hz
+                self._until_alive(lambda: False, SHORTEST_WATCH_PERIODS * period_s)
+                rest_s = (LONGEST_WATCH_PERIODS - SHORTEST_WATCH_PERIODS) * period_s
+                self._until_alive(lambda: self._rate_is_sure(contract), rest_s)
+
+    def say_sentences(self, listener: Process, contract: TopicContract, count: int) -> None:
+        """Say random sentences on a topic, or on the one nearest to it, and wait for each echo."""
+        ear = self._ear(contract)
+        for _ in range(count if ear else 0):
+            assert ear is not None
+            self._tell(listener, ear, self._sentence())
+
+    def _ear(self, contract: TopicContract) -> Endpoint | None:
+        """The subscription to a topic, or to the one nearest to it; None where there is none."""
+
+        def find() -> Endpoint | None:
+            return nearest_endpoint(self.seen.graph, "subscription", contract.topic, contract.type)
+
+        self._until_alive(lambda: find() is not None, FIRST_MESSAGE_WITHIN_S)
+        return find()
+
+    def _sentence(self) -> str:
+        """A sentence that nobody can know before it is said."""
+        words = self._random.sample(WORDS, 3)
+        return f"{' '.join(words)} {self._random.randrange(1000, 10000)}"
+
+    def _tell(self, process: Process, ear: Endpoint, text: str) -> None:
+        """Say `text` to a listener and wait until it repeats it, or had its chance to."""
+        with self._timed_watching():
+            self._probe.say(ear, {"data": text}, FIRST_MESSAGE_WITHIN_S)
+
+            def repeated() -> bool:
+                return not process.alive or self._is_written(process, text)
+
+            if not self._probe.until(repeated, AFTER_THE_TURN_S):
+                turned = self._probe.turned(ear.node, HEARD_WITHIN_S)
+                self._probe.until(repeated, AFTER_THE_TURN_S if turned else HEARD_WITHIN_S)
+
+    def _is_written(self, process: Process, text: str) -> bool:
+        """The text stands in the terminal or in /rosout."""
+        lines = [*process.lines(), *(line for log in self.seen.rosout.values() for line in log)]
+        return any(text in line.text for line in lines)
+
+    def joined(self, contract: TopicContract) -> None:
+        """Wait until a publisher and a subscription of the topic are both in the graph."""
+
+        def both() -> bool:
+            kinds = {e.kind for e in self.seen.graph.endpoints if e.topic == contract.topic}
+            return len(kinds) == 2
+
+        with self._timed_watching():
+            self._until_alive(both, FIRST_MESSAGE_WITHIN_S)
+
+    def _wait_up(self, process: Process, known: set[str]) -> None:
+        began_s = time.monotonic()
+        self._probe.until(
+            lambda: not process.alive or bool(set(self.seen.graph.nodes) - known),
+            COMES_UP_WITHIN_S,
+        )
+        self.seen.discovery_s += time.monotonic() - began_s
+
+    def _end(self, process: Process) -> None:
+        began_s = time.monotonic()
+        process.interrupt(self._ends_within_s + INTERRUPT_SLACK_S)
+        self.seen.ending_s += time.monotonic() - began_s
+
+    def _until_alive(self, condition: Callable[[], bool], within_s: float) -> bool:
+        """Wait for the condition, as long as every process lives."""
+        self._probe.until(lambda: condition() or not self._arena.all_alive(), within_s)
+        return condition()
+
+    def _publisher(self, contract: TopicContract) -> Endpoint | None:
+        return nearest_endpoint(self.seen.graph, "publisher", contract.topic, contract.type)
+
+    def _heard(self, contract: TopicContract) -> int:
+        publisher = self._publisher(contract)
+        return self._probe.count(publisher.topic) if publisher else 0
+
+    def _rate_is_sure(self, contract: TopicContract) -> bool:
+        publisher = self._publisher(contract)
+        if publisher is None or contract.rate is None:
+            return False
+        rate = measure_rate(self._probe.messages(publisher.topic))
+        return rate is not None and rate.clear_of((contract.rate.low_hz, contract.rate.high_hz))
+
+    @contextmanager
+    def _timed_watching(self) -> Iterator[None]:
+        began_s = time.monotonic()
+        yield
+        self.seen.watching_s += time.monotonic() - began_s
+
+
+def mending(node: NodeContract, seen: ExperimentSeen) -> list[str]:
+    """Remap rules that put a node's slips right, as seen when it ran alone.
+
+    So a misspelt topic, judged where it belongs, does not cost a second check.
+    """
+    here = seen.graph
+    name = nearest(node.node, here.nodes)
+    pairs = [
+        *((t, nearest_endpoint(here, "publisher", t.topic, t.type)) for t in node.publishes),
+        *((t, nearest_endpoint(here, "subscription", t.topic, t.type)) for t in node.subscribes),
+    ]
+    topics = [f"{e.topic}:={t.topic}" for t, e in pairs if e and e.topic != t.topic]
+    return [*(_renaming(name) if name and not name.exact else []), *topics]
+
+
+def _renaming(name: Near) -> list[str]:
+    wanted_space, _, wanted = name.wanted.rpartition("/")
+    found = name.found.rpartition("/")[2]
+    return [f"{found}:__node:={wanted}", f"{found}:__ns:={wanted_space or '/'}"]
+
+
+WORDS = (
+    "amber",
+    "anchor",
+    "apple",
+    "autumn",
+    "bridge",
+    "candle",
+    "canyon",
+    "cedar",
+    "cherry",
+    "cobalt",
+    "comet",
+    "copper",
+    "coral",
+    "cotton",
+    "crystal",
+    "desert",
+    "ember",
+    "falcon",
+    "feather",
+    "forest",
+    "garden",
+    "ginger",
+    "glacier",
+    "granite",
+    "harbour",
+    "hazel",
+    "island",
+    "ivory",
+    "jasmine",
+    "lantern",
+    "lemon",
+    "maple",
+    "marble",
+    "meadow",
+    "mirror",
+    "mountain",
+    "ocean",
+    "olive",
+    "orchid",
+    "pebble",
+    "pepper",
+    "planet",
+    "prairie",
+    "purple",
+    "rainbow",
+    "river",
+    "saffron",
+    "scarlet",
+    "silver",
+    "summer",
+    "sunset",
+    "thunder",
+    "timber",
+    "velvet",
+    "violet",
+    "walnut",
+    "willow",
+    "winter",
+)

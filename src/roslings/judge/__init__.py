@@ -1,0 +1,62 @@
+"""Judge evidence: a pytest plugin, the demands a grader can make, and the faults they raise.
+
+Knows points; knows no ROS and no processes.
+"""
+
+from roslings.judge.check import check
+from roslings.judge.demands import (
+    be_a_picture,
+    be_built_as,
+    be_named,
+    be_the_only_one,
+    be_there,
+    be_well_formed,
+    carry_its_type,
+    come_up,
+    count_up,
+    end_within,
+    exit_cleanly,
+    have_rate,
+    hold_just,
+    install,
+    list_what_it_imports,
+    log_each,
+    match_qos,
+    repeat,
+    say_its_text,
+    stay_up,
+)
+from roslings.judge.faults import Fault, Inconclusive, NothingToJudge
+from roslings.judge.judge import BadGrader, judge
+from roslings.judge.views import ExperimentView, PackageView
+
+__all__ = [
+    "BadGrader",
+    "ExperimentView",
+    "Fault",
+    "Inconclusive",
+    "NothingToJudge",
+    "PackageView",
+    "be_a_picture",
+    "be_built_as",
+    "be_named",
+    "be_the_only_one",
+    "be_there",
+    "be_well_formed",
+    "carry_its_type",
+    "check",
+    "come_up",
+    "count_up",
+    "end_within",
+    "exit_cleanly",
+    "have_rate",
+    "hold_just",
+    "install",
+    "judge",
+    "list_what_it_imports",
+    "log_each",
+    "match_qos",
+    "repeat",
+    "say_its_text",
+    "stay_up",
+]

@@ -1,0 +1,37 @@
+"""How a grader declares a check, and which checks it needs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, TypeVar
+
+Function = TypeVar("Function", bound=Callable[..., None])
+MARK = "roslings_check"
+
+
+@dataclass(frozen=True)
+class Check:
+    """What a check's decorator says; the points stand on the card, under the check's name."""
+
+    needs: tuple[str, ...] = ()
+
+
+def check(*, needs: Sequence[str] = ()) -> Callable[[Function], Function]:
+    """Make a pytest function a check; it is skipped when a check in `needs` did not pass.
+
+    Its name without `test_` is the check's name; its docstring is what the student reads, with
+    the grader's own names in braces: `{CHATTER.topic} carries {CHATTER.type}.`
+    """
+
+    def mark(function: Function) -> Function:
+        setattr(function, MARK, Check(tuple(needs)))
+        return function
+
+    return mark
+
+
+def check_of(function: Any) -> Check:
+    """The declaration of a check; a plain pytest function needs nothing."""
+    found: Check = getattr(function, MARK, Check())
+    return found

@@ -1,0 +1,318 @@
+"""What a grader can demand: each is a function that raises a typed fault when it is not met."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
+from typing import TypeVar
+
+from roslings.course import CourseError, NodeContract, RateContract, TopicContract
+from roslings.evidence import Spoken
+from roslings.judge import faults
+from roslings.judge.views import (
+    Demand,
+    EndpointView,
+    ExperimentView,
+    NodeView,
+    PackageView,
+    PictureView,
+    ProcessView,
+    TopicView,
+    text_pattern,
+)
+from roslings.judge.words import describe_status
+from roslings.near import own_endpoints
+from roslings.rates import Rate
+
+FEWEST_MESSAGES = 5
+MOST_UNEVEN = 0.25
+"""A quarter of the periods may be odd: a busy machine delays single messages, not every one."""
+SIMILAR_LINE = 0.5
+Asked = TypeVar("Asked")
+
+
+def written(value: Asked | None, where: str) -> Asked:
+    """What the card says. Raises CourseError where it says nothing and a check asks."""
+    if value is None:
+        raise CourseError(f"the card says nothing of this for {where}")
+    return value
+
+
+# --- the package -------------------------------------------------------------------------------
+
+
+def be_well_formed(build_type: str) -> Demand[PackageView]:
+    """package.xml is valid and of the right kind, no file is missing, Python can read the code."""
+
+    def demand(package: PackageView) -> None:
+        files = package.files
+        if files.xml_problems:
+            raise faults.InvalidPackageXml(files.xml_problems[0])
+        if files.build_type != build_type:
+            raise faults.WrongBuildType(build_type, files.build_type)
+        if files.missing_files:
+            raise faults.MissingFile(files.missing_files[0])
+        if files.syntax_errors:
+            raise faults.SyntaxErrorInCode(files.syntax_errors[0])
+
+    return demand
+
+
+def list_what_it_imports(package: PackageView) -> None:
+    """package.xml names every ROS package that the code imports."""
+    for name, place in sorted(package.files.imported.items()):
+        if name not in package.files.declared:
+            raise faults.UnlistedDependency(name, place)
+
+
+def be_built_as(build_type: str) -> Demand[PackageView]:
+    """colcon builds it, as the kind of package that it is meant to be."""
+
+    def demand(package: PackageView) -> None:
+        built = package.built
+        if built is None:
+            raise faults.Inconclusive("colcon was not run")
+        if not built.succeeded:
+            raise faults.BuildFailed(built.seconds, log=tuple(built.output[-10:]))
+        if built.recognised_as != f"ros.{build_type}":
+            raise faults.NotAnAmentPackage(built.recognised_as)
+
+    return demand
+
+
+def install(executables: Iterable[str]) -> Demand[PackageView]:
+    """`ros2 run` finds each executable."""
+
+    def demand(package: PackageView) -> None:
+        there = tuple(package.built.executables) if package.built else ()
+        for name in executables:
+            if name not in there:
+                raise faults.NoExecutable(name, there, package.files.name)
+
+    return demand
+
+
+# --- processes ---------------------------------------------------------------------------------
+
+
+def come_up(process: ProcessView) -> None:
+    """It makes a node, and does not end before that node has done anything."""
+    seen = process.seen
+    if seen.ended_by_itself and not (process.shown and process.acted):
+        how = f"it ended by itself after {process.ran_s:.1f} s ({describe_status(seen.status)})"
+        raise faults.DidNotComeUp(seen.executable, how, log=process.last_lines())
+    if not process.shown:
+        how = "it runs, but no node of it appeared in the graph"
+        raise faults.DidNotComeUp(seen.executable, how, log=process.last_lines())
+
+
+def stay_up(process: ProcessView) -> None:
+    """It runs until it is asked to end."""
+    seen = process.seen
+    if seen.ended_by_itself:
+        raise faults.StoppedByItself(
+            seen.executable, process.ran_s, describe_status(seen.status), log=process.last_lines()
+        )
+
+
+def end_within(limit_s: float) -> Demand[ProcessView]:
+    """Ctrl-C ends it in time, and all that it started."""
+
+    def demand(process: ProcessView) -> None:
+        seen = process.seen
+        if seen.ending is None:
+            raise faults.NothingToJudge("it ended before it was asked to")
+        if seen.ending.after_s is None or seen.ending.after_s > limit_s:
+            raise faults.DoesNotEnd(seen.executable, limit_s, seen.ending.after_s)
+        if seen.left_behind:
+            raise faults.LeavesProcesses(seen.executable, seen.left_behind)
+
+    return demand
+
+
+def exit_cleanly(process: ProcessView) -> None:
+    """After Ctrl-C: exit code 0 and no traceback."""
+    seen = process.seen
+    if seen.ending is None or seen.ending.after_s is None:
+        raise faults.NothingToJudge("it did not end after Ctrl-C")
+    traced = any(text.startswith("Traceback") for text in process.texts)
+    if seen.status != 0 or traced:
+        how = describe_status(seen.status) + (", with a traceback" if traced else "")
+        raise faults.UncleanExit(seen.executable, how, log=process.last_lines(6))
+
+
+def log_each(node: NodeContract, texts: Sequence[str]) -> Demand[ProcessView]:
+    """It writes the card's line for one of `texts` at least."""
+    template = written(node.log, node.node)
+
+    def demand(process: ProcessView) -> None:
+        wanted = [template.format(text=text) for text in texts]
+        if not wanted:
+            raise faults.NothingToJudge("there was no message to write about")
+        if not any(line in written for written in process.texts for line in wanted):
+            near = _most_similar(wanted[0], process.texts)
+            raise faults.NotLogged(process.seen.executable, wanted[0], near)
+
+    return demand
+
+
+def repeat(node: NodeContract, spoken: Sequence[Spoken]) -> Demand[ProcessView]:
+    """It writes the card's line for every sentence that was said to it."""
+    template = written(node.log, node.node)
+
+    def demand(process: ProcessView) -> None:
+        if not spoken:
+            raise faults.NothingToJudge("nothing could be said to it")
+        for each in spoken:
+            said = str(each.content["data"])
+            if not any(template.format(text=said) in line for line in process.texts):
+                raise _echo_fault(template, said, process.texts)
+
+    return demand
+
+
+def _echo_fault(template: str, said: str, texts: list[str]) -> faults.DoesNotRepeat:
+    with_it = [line for line in texts if said in line]
+    if with_it:
+        return faults.AlmostRepeats(template, said, with_it[0])
+    before = template.partition("{text}")[0]
+    similar = [line for line in texts if before and line.startswith(before)]
+    if similar:
+        return faults.FixedText(template, said, similar[-1])
+    return faults.DoesNotRepeat(template, said, texts[-1] if texts else None)
+
+
+def _most_similar(wanted: str, lines: list[str]) -> str | None:
+    near = difflib.get_close_matches(wanted, lines, n=1, cutoff=SIMILAR_LINE)
+    return near[0] if near else (lines[-1] if lines else None)
+
+
+# --- the graph ---------------------------------------------------------------------------------
+
+
+def be_named(node: NodeView) -> None:
+    """The node has the contract's full name."""
+    if not node.near.exact:
+        raise faults.WrongNodeName(node.near)
+
+
+def be_there(endpoint: EndpointView) -> None:
+    """The topic has the contract's name, and one endpoint of the kind is there."""
+    verb = "publishes on" if endpoint.kind == "publisher" else "subscribes to"
+    topic = endpoint.contract.topic
+    if endpoint.endpoint is None:
+        raise faults.NoTopic(topic, verb)
+    if not endpoint.near.exact:
+        raise faults.WrongTopic(endpoint.near, verb, endpoint.found.type)
+
+
+def be_the_only_one(endpoint: EndpointView) -> None:
+    """There is one endpoint of this kind on the topic."""
+    same = [e for e in endpoint.siblings if e.topic == endpoint.found.topic]
+    if len(same) > 1:
+        raise faults.TwoPublishers(endpoint.found.topic, tuple(e.node for e in same))
+
+
+def carry_its_type(endpoint: EndpointView) -> None:
+    """The topic carries the contract's type."""
+    found, contract = endpoint.found, endpoint.contract
+    if found.type != contract.type:
+        raise faults.WrongType(found.topic, contract.type, found.type)
+
+
+def match_qos(endpoint: EndpointView) -> None:
+    """It can be joined with the other side that the contract describes."""
+    other = endpoint.contract.qos
+    conflict = faults.qos_conflict(endpoint.kind, endpoint.qos, other.reliability, other.durability)
+    if conflict:
+        raise faults.QosCannotMatch(endpoint.found.topic, *conflict)
+
+
+def hold_just(nodes: Sequence[NodeContract], topic: TopicContract) -> Demand[ExperimentView]:
+    """The graph holds these nodes, each once, joined by this topic, and nothing else."""
+
+    def demand(experiment: ExperimentView) -> None:
+        graph = experiment.seen.graph
+        wanted = tuple(sorted(node.node for node in nodes))
+        if tuple(sorted(graph.nodes)) != wanted:
+            raise faults.NotTheAskedGraph(wanted, tuple(graph.nodes), "the nodes are")
+        edges = tuple(
+            sorted(f"{e.node} ({e.kind})" for e in own_endpoints(graph) if e.topic == topic.topic)
+        )
+        asked = tuple(sorted(_asked_edges(nodes, topic)))
+        if edges != asked:
+            raise faults.NotTheAskedGraph(asked, edges, f"on {topic.topic} there are")
+
+    return demand
+
+
+def _asked_edges(nodes: Sequence[NodeContract], topic: TopicContract) -> Iterable[str]:
+    for node in nodes:
+        if any(t.topic == topic.topic for t in node.publishes):
+            yield f"{node.node} (publisher)"
+        if any(t.topic == topic.topic for t in node.subscribes):
+            yield f"{node.node} (subscription)"
+
+
+# --- messages ----------------------------------------------------------------------------------
+
+
+def have_rate(contract: TopicContract) -> Demand[TopicView]:
+    """The messages come at the card's rate, evenly."""
+    limit = written(contract.rate, contract.topic)
+
+    def demand(topic: TopicView) -> None:
+        rate = topic.rate
+        if rate is None:
+            raise faults.NoMessages(topic.name, len(topic.messages), topic.watched_s)
+        kind = _rate_fault(rate, limit)
+        if kind:
+            raise kind(topic.name, limit.hz, limit.within, rate)
+
+    return demand
+
+
+def _rate_fault(rate: Rate, limit: RateContract) -> type[faults.WrongRate] | None:
+    if rate.uneven_share() > MOST_UNEVEN:
+        return faults.Bursts
+    if rate.hz < limit.low_hz:
+        return faults.TooSlow
+    return faults.TooFast if rate.hz > limit.high_hz else None
+
+
+def say_its_text(topic: TopicView) -> None:
+    """Every text is the card's, with some number."""
+    template = written(topic.contract.text, topic.name)
+    pattern = text_pattern(template)
+    for text in topic.texts:
+        if not pattern.fits(text):
+            raise faults.WrongText(template.format(n=0), text)
+
+
+def count_up(topic: TopicView) -> None:
+    """Each number is one more than the one before."""
+    kinds = {True: faults.CountSkips, False: faults.CountRestarts}
+    for before, after in pairwise(topic.numbers()):
+        if after == before:
+            raise faults.CountRepeats(before, after)
+        if after != before + 1:
+            raise kinds[after > before](before, after)
+
+
+# --- pictures ----------------------------------------------------------------------------------
+
+
+def be_a_picture(picture: PictureView) -> None:
+    """The file is an image of the asked kind and size, and shows something."""
+    contract, seen = picture.contract, picture.seen
+    wanted = f"a {contract.format} of at least {contract.min_width_px} x {contract.min_height_px}"
+    if seen is None:
+        raise faults.NoPicture(contract.path, wanted, "there is no such file")
+    if seen.format != contract.format:
+        raise faults.NotAPicture(contract.path, wanted, f"it is {seen.format or 'no image'}")
+    if seen.width < contract.min_width_px or seen.height < contract.min_height_px:
+        size = f"it has {seen.width} x {seen.height} pixels"
+        raise faults.PictureTooSmall(contract.path, wanted, size)
+    if seen.colours < 2:
+        raise faults.OneColour(contract.path, wanted, "all pixels have one colour")

@@ -1,0 +1,102 @@
+"""judge(lab, evidence) -> Verdict: pure; runs no node, and gives the same answer every time."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from roslings.course import Lab
+from roslings.course.files import CourseError
+from roslings.evidence import Evidence, ExperimentSeen
+from roslings.experiment.declare import experiments_of, load_grader
+from roslings.judge.plugin import Collector, evidence_plugin
+from roslings.judge.views import ExperimentView, views_of
+from roslings.verdict import (
+    CheckResult,
+    Environment,
+    Timings,
+    Verdict,
+    outcome_of,
+    score_of,
+)
+
+
+class BadGrader(CourseError):
+    """A grader's file cannot be used; the course's fault."""
+
+
+def judge(lab: Lab, evidence: Evidence, total_s: float = 0.0) -> Verdict:
+    """Run the lab's checks on `evidence`. Raises BadGrader."""
+    results = run_checks(lab, evidence)
+    return Verdict(
+        lab=lab.name,
+        package=evidence.package.name,
+        outcome=outcome_of(results),
+        score=score_of(results),
+        checks=results,
+        advice=tuple(evidence.advice),
+        seconds=_timings(evidence, total_s),
+        environment=_environment(evidence),
+    )
+
+
+def run_checks(lab: Lab, evidence: Evidence) -> tuple[CheckResult, ...]:
+    """The outcome of every check, in the grader's order."""
+    collector = Collector(lab.card.points, lab.hints)
+    views = views_of(evidence)
+    for name in _experiment_names(lab.grader):
+        views.setdefault(name, ExperimentView(ExperimentSeen(name=name, clock="wall")))
+    options = [
+        str(lab.grader),
+        "-c",
+        os.devnull,
+        "--rootdir",
+        str(lab.grader.parent),
+        "-o",
+        "python_files=grade_*.py",
+        "-p",
+        "no:terminal",
+        "-p",
+        "no:cacheprovider",
+        "-p",
+        "no:xdist",
+        "--noconftest",
+    ]
+    pytest.main(options, plugins=[evidence_plugin(views), collector])
+    _require_all(lab, collector)
+    return tuple(collector.results)
+
+
+def _experiment_names(grader: Path) -> list[str]:
+    return [each.name for each in experiments_of(load_grader(grader))]
+
+
+def _require_all(lab: Lab, collector: Collector) -> None:
+    """Every check of the card was run, and no other. Raises BadGrader."""
+    if collector.problems:
+        raise BadGrader(f"{lab.grader}: {collector.problems[0]}")
+    ran, worth = {result.id for result in collector.results}, set(lab.card.points)
+    if ran != worth:
+        raise BadGrader(
+            f"{lab.grader}: the card gives points for {sorted(worth - ran) or 'all checks'},"
+            f" and the grader has {sorted(ran - worth) or 'no check'} without points"
+        )
+
+
+def _timings(evidence: Evidence, total_s: float) -> Timings:
+    experiments = evidence.experiments.values()
+    return Timings(
+        build=evidence.build.seconds if evidence.build else 0.0,
+        discovery=round(sum(e.discovery_s for e in experiments), 3),
+        watching=round(sum(e.watching_s for e in experiments), 3),
+        ending=round(sum(e.ending_s for e in experiments), 3),
+        total=round(total_s, 3),
+    )
+
+
+def _environment(evidence: Evidence) -> Environment:
+    machine = evidence.machine
+    clocks = sorted({e.clock for e in evidence.experiments.values()}) or ["wall"]
+    return Environment(**machine.model_dump(), clock="+".join(clocks), seed=evidence.seed)

@@ -1,0 +1,129 @@
+"""The pytest plugin that runs a grader's checks on evidence and collects their outcomes."""
+
+from __future__ import annotations
+
+import traceback
+import types
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+from roslings.course import Hint
+from roslings.judge.check import check_of
+from roslings.judge.faults import Fault, Inconclusive, NothingToJudge, Unmet
+from roslings.judge.views import View
+from roslings.verdict import CheckResult
+
+
+class Collector:
+    """Runs each check once its needs have passed, and writes down what came of it."""
+
+    def __init__(self, points: dict[str, float], hints: dict[str, Hint]) -> None:
+        self.results: list[CheckResult] = []
+        self.problems: list[str] = []
+        self._points = points
+        self._hints = hints
+
+    def pytest_runtest_setup(self, item: pytest.Item) -> None:
+        """Skip a check whose need has not passed."""
+        passed = {r.id for r in self.results if r.outcome == "pass"}
+        for need in check_of(_function(item)).needs:
+            if need not in passed:
+                pytest.skip(self._title_of(need))
+
+    @pytest.hookimpl(wrapper=True)
+    def pytest_runtest_makereport(
+        self, item: pytest.Item, call: pytest.CallInfo[None]
+    ) -> Iterator[None]:
+        """Turn what happened into one line of the verdict."""
+        if call.when == "call" or (call.when == "setup" and call.excinfo):
+            self.results.append(self._result(item, call.excinfo and call.excinfo.value))
+        return (yield)
+
+    def pytest_collectreport(self, report: pytest.CollectReport) -> None:
+        """Remember why a grader could not be read."""
+        if report.failed:
+            self.problems.append(str(report.longrepr))
+
+    def _title_of(self, name: str) -> str:
+        titles = {result.id: result.title for result in self.results}
+        return f"first mend: {titles.get(name, name)}"
+
+    def _result(self, item: pytest.Item, error: BaseException | None) -> CheckResult:
+        name = check_name(item)
+        worth = self._points.get(name, 0.0)
+        hint = self._hints.get(name)
+        words: dict[str, Any] = {
+            "id": name,
+            "title": title_of(item),
+            "points": worth if error is None else 0.0,
+            "max_points": worth,
+            "lesson": hint.lesson if hint else None,
+            **_words_for(error, title_of(item)),
+        }
+        if words["outcome"] == "fail" and hint:
+            words["hints"] = hint.steps
+        return CheckResult(**words)
+
+
+def _words_for(error: BaseException | None, title: str) -> dict[str, Any]:
+    """Outcome and sentences for what a check raised."""
+    if error is None:
+        return {"outcome": "pass"}
+    if isinstance(error, AssertionError):
+        error = Unmet(f"{title} ({_first_line(error)})")
+    if isinstance(error, Fault):
+        return {
+            "outcome": "fail",
+            "expected": error.expected,
+            "measured": error.measured,
+            "why": error.why,
+            "hint": error.hint,
+            "fault": type(error).__name__,
+            "log": error.log,
+        }
+    if isinstance(error, NothingToJudge | pytest.skip.Exception):
+        return {"outcome": "skip", "why": str(error)}
+    if isinstance(error, Inconclusive):
+        return {"outcome": "inconclusive", "why": str(error)}
+    words = "".join(traceback.format_exception(error)).strip()
+    why = "the grader itself failed here: tell your instructor"
+    return {"outcome": "inconclusive", "why": why, "log": tuple(words.splitlines()[-12:])}
+
+
+def _first_line(error: AssertionError) -> str:
+    lines = str(error).strip().splitlines()
+    return lines[0] if lines else "assert"
+
+
+def _function(item: pytest.Item) -> Any:
+    return getattr(item, "function", None)
+
+
+def check_name(item: pytest.Item) -> str:
+    """`rate` for the function `test_rate`."""
+    return item.name.removeprefix("test_")
+
+
+def title_of(item: pytest.Item) -> str:
+    """The docstring's first line, with the grader's own names put in."""
+    function = _function(item)
+    first = (function.__doc__ or item.name).strip().splitlines()[0]
+    return first.format_map(function.__globals__)
+
+
+def evidence_plugin(views: dict[str, View]) -> types.ModuleType:
+    """A pytest plugin with one fixture for each thing that a check can ask for by name."""
+    plugin = types.ModuleType("roslings_evidence")
+    for name, view in views.items():
+        setattr(plugin, name, _fixture(name, view))
+    return plugin
+
+
+def _fixture(name: str, view: View) -> Any:
+    @pytest.fixture(name=name, scope="session")
+    def give() -> View:
+        return view
+
+    return give

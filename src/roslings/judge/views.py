@@ -1,0 +1,273 @@
+"""Evidence as a grader asks about it: this topic, that process, or the nearest to it."""
+
+from __future__ import annotations
+
+import string
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Literal, TypeVar
+
+from roslings.course import NodeContract, PictureContract, TopicContract
+from roslings.evidence import (
+    BuildSeen,
+    Endpoint,
+    Evidence,
+    ExperimentSeen,
+    LogLine,
+    MessageSeen,
+    PackageSeen,
+    PictureSeen,
+    ProcessSeen,
+    Qos,
+)
+from roslings.judge.faults import NothingToJudge
+from roslings.near import Near, nearest, nearest_endpoint, own_endpoints
+from roslings.rates import Rate, measure_rate
+
+LAST_LINES = 12
+V = TypeVar("V", bound="View")
+Demand = Callable[[V], None]
+
+
+class View:
+    """Something that a demand can be made of: `view.must(have_rate(...))`."""
+
+    def must(self: V, *demands: Demand[V]) -> None:
+        """Make each demand in turn; the first one that is not met raises its fault."""
+        for demand in demands:
+            demand(self)
+
+
+@dataclass(frozen=True)
+class PackageView(View):
+    """The package's files, and what colcon did with them."""
+
+    files: PackageSeen
+    built: BuildSeen | None
+
+    def picture(self, contract: PictureContract) -> PictureView:
+        """One of the card's pictures."""
+        return PictureView(contract, self.files.pictures.get(contract.path))
+
+
+@dataclass(frozen=True)
+class PictureView(View):
+    """A picture that the card asks for, and the file that stands there."""
+
+    contract: PictureContract
+    seen: PictureSeen | None
+
+
+@dataclass(frozen=True)
+class NodeView(View):
+    """The node in the graph that is, or is nearest to, the one in the contract."""
+
+    near: Near
+
+
+@dataclass(frozen=True)
+class ProcessView(View):
+    """One process, and what its node wrote."""
+
+    seen: ProcessSeen
+    experiment: ExperimentSeen
+
+    @property
+    def texts(self) -> list[str]:
+        """Everything it wrote: to the terminal and to the log, without logger's decorations."""
+        return [_undecorated(line.text) for line in self._lines() if line.text.strip()]
+
+    def last_lines(self, count: int = LAST_LINES) -> tuple[str, ...]:
+        """The end of what it wrote to the terminal."""
+        return tuple(line.text for line in self.seen.lines[-count:])
+
+    @property
+    def ran_s(self) -> float:
+        """Seconds from start to end."""
+        return ((self.seen.ended_ns or self.seen.started_ns) - self.seen.started_ns) / 1e9
+
+    @property
+    def shown(self) -> bool:
+        """Its node was in the graph."""
+        return bool(self.experiment.graph.nodes)
+
+    @property
+    def acted(self) -> bool:
+        """It published something, so it came further than its own start."""
+        return any(topic.messages for topic in self.experiment.topics.values())
+
+    def _lines(self) -> Iterator[LogLine]:
+        yield from self.seen.lines
+        for lines in self.experiment.rosout.values():
+            yield from lines
+
+
+@dataclass(frozen=True)
+class EndpointView(View):
+    """A publisher or subscription that is, or is nearest to, the one in the contract."""
+
+    endpoint: Endpoint | None
+    contract: TopicContract
+    kind: Literal["publisher", "subscription"]
+    node: Near | None
+    siblings: tuple[Endpoint, ...]
+
+    @property
+    def found(self) -> Endpoint:
+        """The endpoint. Raises NothingToJudge where there is none."""
+        if self.endpoint is None:
+            raise NothingToJudge(f"there is no {self.kind} to look at")
+        return self.endpoint
+
+    @property
+    def near(self) -> Near:
+        """How its topic's name differs; a name carried along by the node's namespace does not."""
+        name = self.found.topic
+        if self.node and self.node.how == "namespace" and name == self._carried_name(self.node):
+            name = self.contract.topic
+        near = nearest(self.contract.topic, [name])
+        assert near is not None
+        return near
+
+    @property
+    def qos(self) -> Qos:
+        """Its quality of service."""
+        return self.found.qos
+
+    def _carried_name(self, node: Near) -> str:
+        namespace = node.found.rpartition("/")[0]
+        return f"{namespace}/{self.contract.topic.rpartition('/')[2]}"
+
+
+@dataclass(frozen=True)
+class TopicView(View):
+    """The messages on the topic that is, or is nearest to, the one in the contract."""
+
+    contract: TopicContract
+    name: str
+    type: str
+    messages: tuple[MessageSeen, ...]
+    watched_s: float
+
+    @property
+    def rate(self) -> Rate | None:
+        """How often they came; None for too few."""
+        return measure_rate(self.messages)
+
+    @property
+    def texts(self) -> list[str]:
+        """The text in each message. Raises NothingToJudge where there is no text field."""
+        contents = [m.content for m in self.messages]
+        texts = [c["data"] for c in contents if isinstance(c, dict) and "data" in c]
+        if not texts or not all(isinstance(text, str) for text in texts):
+            raise NothingToJudge("the messages hold no text")
+        return texts
+
+    def numbers(self) -> list[int]:
+        """The counter in each text. Raises NothingToJudge where there is none to read."""
+        pattern = text_pattern(self.contract.text or "{n}")
+        found = [pattern.number_in(text) for text in self.texts]
+        numbers = [number for number in found if number is not None]
+        if len(numbers) < 2:
+            raise NothingToJudge("no number can be read from the texts")
+        return numbers
+
+
+@dataclass(frozen=True)
+class ExperimentView(View):
+    """All that was seen in one experiment."""
+
+    seen: ExperimentSeen
+
+    def process(self, node: NodeContract) -> ProcessView:
+        """The process of a node. Raises NothingToJudge where it was never started."""
+        if node.executable not in self.seen.processes:
+            raise NothingToJudge(f"{node.executable} was not started")
+        return ProcessView(self.seen.processes[node.executable], self.seen)
+
+    def node(self, node: NodeContract) -> NodeView:
+        """The node, or the nearest to it. Raises NothingToJudge where there is none."""
+        near = nearest(node.node, self.seen.graph.nodes)
+        if near is None:
+            raise NothingToJudge("no node was seen in the graph")
+        return NodeView(near)
+
+    def publisher(self, node: NodeContract, topic: TopicContract) -> EndpointView:
+        """What publishes the topic, or the nearest to it."""
+        return self._endpoint(node, topic, "publisher")
+
+    def subscription(self, node: NodeContract, topic: TopicContract) -> EndpointView:
+        """What subscribes to the topic, or the nearest to it."""
+        return self._endpoint(node, topic, "subscription")
+
+    def topic(self, contract: TopicContract) -> TopicView:
+        """The messages on the topic, or on the nearest to it.
+
+        Raises NothingToJudge where nothing was published at all.
+        """
+        endpoint = nearest_endpoint(self.seen.graph, "publisher", contract.topic, contract.type)
+        if endpoint is None:
+            raise NothingToJudge("no topic was published")
+        heard = self.seen.topics.get(endpoint.topic)
+        return TopicView(
+            contract,
+            endpoint.topic,
+            endpoint.type,
+            tuple(heard.messages) if heard else (),
+            self.seen.watching_s,
+        )
+
+    def _endpoint(
+        self, node: NodeContract, topic: TopicContract, kind: Literal["publisher", "subscription"]
+    ) -> EndpointView:
+        if not self.seen.graph.nodes:
+            raise NothingToJudge("no node was seen in the graph")
+        graph = self.seen.graph
+        same = tuple(e for e in own_endpoints(graph) if e.kind == kind)
+        found = nearest_endpoint(graph, kind, topic.topic, topic.type)
+        return EndpointView(found, topic, kind, nearest(node.node, graph.nodes), same)
+
+
+@dataclass(frozen=True)
+class TextPattern:
+    """A text of the card with one number in it, such as `Hello robotics {n}`."""
+
+    before: str
+    after: str
+
+    def number_in(self, text: str) -> int | None:
+        """The number, where the text is like this one; else its last number; else None."""
+        if self.fits(text):
+            return int(text[len(self.before) : len(text) - len(self.after)])
+        digits = [word for word in text.split() if word.isdecimal()]
+        return int(digits[-1]) if digits else None
+
+    def fits(self, text: str) -> bool:
+        """The text is this one, with some number."""
+        middle = text[len(self.before) : len(text) - len(self.after)]
+        return (
+            text.startswith(self.before)
+            and text.endswith(self.after)
+            and middle.isascii()
+            and middle.isdecimal()
+        )
+
+
+def text_pattern(template: str) -> TextPattern:
+    """Split a text of the card at its number."""
+    parts = list(string.Formatter().parse(template))
+    before = parts[0][0]
+    return TextPattern(before, "".join(text for text, *_ in parts[1:]))
+
+
+def _undecorated(line: str) -> str:
+    """A line of get_logger() without `[INFO] [1700000000.0] [talker]: ` before it."""
+    if line.startswith("[") and "]: " in line:
+        return line.partition("]: ")[2]
+    return line
+
+
+def views_of(evidence: Evidence) -> dict[str, View]:
+    """What a check can ask for by name: `package`, and each experiment."""
+    experiments = {name: ExperimentView(seen) for name, seen in evidence.experiments.items()}
+    return {"package": PackageView(evidence.package, evidence.build), **experiments}

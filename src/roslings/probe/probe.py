@@ -1,0 +1,215 @@
+"""The grader's own node: it watches one domain, records what is said there, and can speak."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from types import TracebackType
+from typing import Any
+
+from roslings.evidence import Endpoint, ExperimentSeen, GraphSeen, LogLine, Qos, Spoken
+from roslings.near import own_endpoints
+from roslings.probe.content import from_plain
+from roslings.probe.graph import read_graph
+from roslings.probe.recorder import Recorder, can_record
+
+NAME = "_roslings_probe"
+LOOK_EVERY_S = 0.02
+HEARTBEAT_S = 0.01
+MOST_LOG_LINES = 2000
+Condition = Callable[[], bool]
+
+
+class Probe:
+    """Watches one ROS domain and writes what it sees into an `ExperimentSeen`.
+
+    A context manager: leaving the block ends its thread, its node and its context.
+    """
+
+    def __init__(self, domain_id: int, seen: ExperimentSeen) -> None:
+        self.seen = seen
+        self._domain_id = domain_id
+        self._recorders: dict[str, Recorder] = {}
+        self._publishers: dict[str, Any] = {}
+        self._changed = threading.Condition()
+        self._closing = threading.Event()
+        self._holds: Condition = lambda: True
+
+    def __enter__(self) -> Probe:
+        import rclpy
+        from rclpy.executors import SingleThreadedExecutor
+        from rclpy.node import Node
+
+        self._context = rclpy.Context()
+        rclpy.init(context=self._context, domain_id=self._domain_id, signal_handler_options=None)
+        self._eye = Node(
+            NAME, context=self._context, enable_rosout=False, start_parameter_services=False
+        )
+        self._executor = SingleThreadedExecutor(context=self._context)
+        self._executor.add_node(self._eye)
+        self._hear_logs()
+        self._threads = [
+            threading.Thread(target=self._spin, name="probe"),
+            threading.Thread(target=self._beat, name="heartbeat"),
+        ]
+        for thread in self._threads:
+            thread.start()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self._closing.set()
+        self._executor.wake()
+        for thread in self._threads:
+            thread.join()
+        self._executor.shutdown()
+        self._eye.destroy_node()
+        self._context.try_shutdown()
+        for name, recorder in self._recorders.items():
+            recorder.read_contents()
+            self.seen.topics[name] = recorder.seen
+
+    def graph_while(self, holds: Condition) -> None:
+        """Keep the graph only while `holds()`: a node that died must not blur what was there."""
+        self._holds = holds
+
+    def until(self, condition: Condition, within_s: float) -> bool:
+        """Watch until `condition()` is true, at most `within_s`. Whether it became true.
+
+        The graph is read at every look, and each new topic is recorded from then on.
+        """
+        deadline_s = time.monotonic() + within_s
+        while True:
+            self.look()
+            if condition():
+                return True
+            left_s = deadline_s - time.monotonic()
+            if left_s <= 0:
+                return False
+            with self._changed:
+                self._changed.wait(min(LOOK_EVERY_S, left_s))
+
+    def look(self) -> GraphSeen:
+        """Read the graph once, and start to record what is new in it."""
+        graph = read_graph(self._eye)
+        if self._holds():
+            self.seen.graph = graph
+        for endpoint in own_endpoints(graph):
+            if endpoint.kind == "publisher":
+                self._record(endpoint)
+        return self.seen.graph
+
+    def count(self, topic: str) -> int:
+        """How many messages came on `topic` so far."""
+        recorder = self._recorders.get(topic)
+        return len(recorder.seen.messages) if recorder else 0
+
+    def messages(self, topic: str) -> list[Any]:
+        """The messages on `topic` so far, without their contents."""
+        recorder = self._recorders.get(topic)
+        return list(recorder.seen.messages) if recorder else []
+
+    def notify(self) -> None:
+        """Something changed elsewhere: look again at once."""
+        with self._changed:
+            self._changed.notify_all()
+
+    def say(self, ear: Endpoint, content: dict[str, Any], within_s: float) -> Spoken:
+        """Send one message to the subscription `ear`, with the quality of service it asks for.
+
+        It is sent when the two are matched, or after `within_s`. Raises UnknownType.
+        """
+        publisher = self._publisher_for(ear)
+        matched = self.until(lambda: publisher.get_subscription_count() > 0, within_s)
+        publisher.publish(from_plain(ear.type, content))
+        spoken = Spoken(
+            topic=ear.topic,
+            type=ear.type,
+            content=content,
+            sent_ns=time.monotonic_ns(),
+            matched=matched,
+            offered=ear.qos,
+        )
+        self.seen.spoken.append(spoken)
+        return spoken
+
+    def turned(self, node: str, within_s: float, trips: int = 2) -> bool:
+        """Wait until the node's executor has turned: it answered `trips` parameter requests.
+
+        Two round trips show that a single-threaded executor has run the callback of every
+        message that came before them. False where the node does not answer within the time.
+        """
+        from rcl_interfaces.srv import GetParameters
+
+        client = self._eye.create_client(GetParameters, f"{node}/get_parameters")
+        deadline_s = time.monotonic() + within_s
+        try:
+            return self.until(client.service_is_ready, within_s) and all(
+                self._trip(client, deadline_s - time.monotonic()) for _ in range(trips)
+            )
+        finally:
+            self._eye.destroy_client(client)
+
+    def _trip(self, client: Any, within_s: float) -> bool:
+        from rcl_interfaces.srv import GetParameters
+
+        answered = threading.Event()
+        future = client.call_async(GetParameters.Request(names=["use_sim_time"]))
+        future.add_done_callback(lambda _: answered.set())
+        return answered.wait(max(0.0, within_s))
+
+    def _publisher_for(self, ear: Endpoint) -> Any:
+        if ear.gid not in self._publishers:
+            from roslings.probe.content import message_class
+
+            self._publishers[ear.gid] = self._eye.create_publisher(
+                message_class(ear.type), ear.topic, offering(ear.qos)
+            )
+        return self._publishers[ear.gid]
+
+    def _record(self, endpoint: Endpoint) -> None:
+        recorder = self._recorders.get(endpoint.topic)
+        if recorder is None and can_record(endpoint):
+            self._recorders[endpoint.topic] = Recorder(self._eye, endpoint, self.notify)
+
+    def _hear_logs(self) -> None:
+        from rcl_interfaces.msg import Log
+        from rclpy.qos import DurabilityPolicy, QoSProfile
+
+        kept = QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        self._eye.create_subscription(Log, "/rosout", self._take_log, kept)
+
+    def _take_log(self, log: Any) -> None:
+        lines = self.seen.rosout.setdefault(log.name, [])
+        if len(lines) < MOST_LOG_LINES:
+            now_ns = time.monotonic_ns()
+            lines.append(LogLine(arrival_ns=now_ns, text=log.msg, source="rosout"))
+        self.notify()
+
+    def _spin(self) -> None:
+        while not self._closing.is_set():
+            self._executor.spin_once(timeout_sec=0.5)
+
+    def _beat(self) -> None:
+        """Notice when this machine does not run us: then it may not run the student either."""
+        before_s = time.monotonic()
+        while not self._closing.wait(HEARTBEAT_S):
+            now_s = time.monotonic()
+            self.seen.stall_s = max(self.seen.stall_s, now_s - before_s - HEARTBEAT_S)
+            before_s = now_s
+
+
+def offering(qos: Qos) -> Any:
+    """An rclpy QoSProfile for a publisher that a subscription with `qos` accepts."""
+    from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+
+    return QoSProfile(
+        depth=100,
+        reliability=ReliabilityPolicy.RELIABLE,
+        durability=DurabilityPolicy[qos.durability.upper()],
+    )
