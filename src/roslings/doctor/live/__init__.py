@@ -1,0 +1,1 @@
+"""Real ROS processes that the doctor starts, each a small program that always ends."""
