@@ -6,12 +6,13 @@ with each other, so they live together.
 
 from roslings.arena import kernel
 from roslings.arena.arena import Arena, Installed, opened
-from roslings.arena.environment import base_environment, ros_environment
+from roslings.arena.environment import QUICK_DISCOVERY, base_environment, ros_environment
 from roslings.arena.isolation import Isolation, Wall, choose_isolation
 from roslings.arena.lease import NoFreeDomain
 from roslings.arena.process import Launch, Process
 
 __all__ = [
+    "QUICK_DISCOVERY",
     "Arena",
     "Installed",
     "Isolation",

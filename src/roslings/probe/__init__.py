@@ -3,6 +3,7 @@
 `rclpy` is imported here, and only when a probe is opened.
 """
 
+from roslings.probe.live import live_graph
 from roslings.probe.probe import Probe
 
-__all__ = ["Probe"]
+__all__ = ["Probe", "live_graph"]

@@ -27,8 +27,10 @@ class Probe:
     A context manager: leaving the block ends its thread, its node and its context.
     """
 
-    def __init__(self, domain_id: int, seen: ExperimentSeen) -> None:
+    def __init__(self, domain_id: int, seen: ExperimentSeen, record: bool = True) -> None:
+        """With `record` off it looks at the graph and hears no message."""
         self.seen = seen
+        self._records = record
         self._domain_id = domain_id
         self._recorders: dict[str, Recorder] = {}
         self._publishers: dict[str, Any] = {}
@@ -100,7 +102,7 @@ class Probe:
         if self._holds():
             self.seen.graph = graph
         for endpoint in own_endpoints(graph):
-            if endpoint.kind == "publisher":
+            if self._records and endpoint.kind == "publisher":
                 self._record(endpoint)
         return self.seen.graph
 

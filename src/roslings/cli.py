@@ -1,0 +1,161 @@
+"""Words and exit codes. Each command is a few lines that call a room.
+
+Only the standard library is imported at the top, so that `./roslings --help` answers at once and
+`./roslings doctor` runs where nothing is installed yet.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from roslings import __version__
+
+OK, FAILED, WRONG_USE, INCONCLUSIVE, INTERRUPTED = 0, 1, 2, 3, 130
+EXIT_OF_OUTCOME = {"pass": OK, "fail": FAILED, "inconclusive": INCONCLUSIVE}
+Command = Callable[[argparse.Namespace], int]
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Run one command; returns its exit code."""
+    if arguments[:1] == ["doctor"]:
+        from roslings.doctor.cli import main as doctor
+
+        return doctor(list(arguments[1:]))
+    if arguments[:1] == ["break"]:
+        from roslings.doctor.breaks import main as break_it
+
+        return break_it(list(arguments[1:]))
+    options = parser().parse_args(arguments)
+    return run(options.command, options)
+
+
+def run(command: Command, options: argparse.Namespace) -> int:
+    """Run a command; what it cannot do is one clear message, never a traceback of ours."""
+    try:
+        return command(options)
+    except KeyboardInterrupt:
+        print("\nStopped.", file=sys.stderr)
+        return INTERRUPTED
+    except BrokenPipeError:
+        sys.stderr.close()  # nobody reads any more: end without a complaint
+        return OK
+    except Exception as error:
+        return explain(error)
+
+
+def explain(error: Exception) -> int:
+    """Say what went wrong; the exit code tells whose fault it is. Raises what nobody expects."""
+    from roslings.commands import exit_code_of
+
+    code = exit_code_of(error)
+    if code is None:
+        raise error
+    print(f"roslings: {error}", file=sys.stderr)
+    return code
+
+
+def command(name: str) -> Command:
+    """A command of the module `commands`, imported when it is run."""
+
+    def call(options: argparse.Namespace) -> int:
+        from roslings import commands
+
+        chosen: Command = getattr(commands, name)
+        return chosen(options)
+
+    return call
+
+
+def parser() -> argparse.ArgumentParser:
+    """Every command and its options."""
+    top = argparse.ArgumentParser(
+        prog="./roslings", description="Learn ROS 2 Jazzy in seven days.", allow_abbrev=False
+    )
+    top.add_argument("--version", action="version", version=f"roslings {__version__}")
+    top.set_defaults(command=command("today"))
+    words = top.add_subparsers(title="commands", metavar="COMMAND")
+    add = Adder(words)
+    add("doctor", "is this machine ready?", None)
+    add("break", "ten small faults to find and mend with the doctor", None)
+    add("status", "which days and labs are done", "status")
+    lab_options(add("start", "put a lab's starter into your workspace", "start"))
+    check_options(add("check", "run what you built, and say what to do next", "check"))
+    watch_options(add("watch", "check again at every save", "watch"))
+    lab_options(add("diff", "what you changed since the starter", "diff"))
+    pack_options(add("pack", "make the zip file to hand in", "pack"))
+    graph_options(add("graph", "show the running graph, or save a picture of it", "graph"))
+    test_options(add("test", "run the tests of roslings", "test"))
+    add("wheels", "fetch every package into a folder, for a lab without a network", None)
+    return top
+
+
+class Adder:
+    """Adds a command to the list."""
+
+    def __init__(self, words: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+        self._words = words
+
+    def __call__(self, name: str, about: str, function: str | None) -> argparse.ArgumentParser:
+        """A command called `name` that runs `function` of the module `commands`."""
+        word = self._words.add_parser(
+            name, help=about, description=about[0].upper() + about[1:], allow_abbrev=False
+        )
+        if function:
+            word.set_defaults(command=command(function))
+        return word
+
+
+def lab_options(word: argparse.ArgumentParser) -> None:
+    """The lab's name."""
+    word.add_argument("lab", metavar="LAB", help="for example: topics")
+
+
+def package_options(word: argparse.ArgumentParser) -> None:
+    """The lab, and where its package lies."""
+    lab_options(word)
+    word.add_argument(
+        "path", metavar="PATH", type=Path, nargs="?",
+        help="your package, or a folder that holds it (default: your workspace, ~/roslings_ws)",
+    )  # fmt: skip
+
+
+def check_options(word: argparse.ArgumentParser) -> None:
+    """What `check` takes."""
+    package_options(word)
+    word.add_argument(
+        "--solution", action="store_true", help="check the course's own solution instead"
+    )
+    word.add_argument("--json", metavar="FILE", type=Path, help="write the verdict to FILE (- here)")
+    word.add_argument("--only", metavar="ID", help="show one check only, by its short name")
+    word.add_argument("--seed", metavar="N", type=int, help="repeat the random choices of a verdict")
+    word.add_argument(
+        "--hint", metavar="STEP", type=int, choices=(1, 2, 3), nargs="?", const=1,
+        help="a hint for what your last check found: 1 where, 2 which idea, 3 other code",
+    )  # fmt: skip
+
+
+def watch_options(word: argparse.ArgumentParser) -> None:
+    """What `watch` takes."""
+    package_options(word)
+    word.set_defaults(solution=False, json=None, only=None, seed=None, hint=None)
+
+
+def pack_options(word: argparse.ArgumentParser) -> None:
+    """What `pack` takes."""
+    package_options(word)
+    word.add_argument("--out", metavar="FILE", type=Path, help="the zip (default: LAB.zip here)")
+
+
+def graph_options(word: argparse.ArgumentParser) -> None:
+    """What `graph` takes."""
+    word.add_argument("--save", metavar="FILE.png", type=Path, help="save a picture of it")
+    word.add_argument("--force", action="store_true", help="replace FILE.png if it is there")
+    word.add_argument("--all", action="store_true", help="also /rosout and other parts of ROS")
+
+
+def test_options(word: argparse.ArgumentParser) -> None:
+    """What `test` takes: the rest goes to pytest."""
+    word.add_argument("rest", nargs=argparse.REMAINDER, metavar="...", help="options for pytest")
