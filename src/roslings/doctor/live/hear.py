@@ -6,9 +6,9 @@ Run as a program by the Python that has ROS; nothing of ours is imported.
 import select
 import sys
 
-import rclpy  # type: ignore[import-not-found,import-untyped,unused-ignore]
-from rclpy.node import Node  # type: ignore[import-not-found,import-untyped,unused-ignore]
-from std_msgs.msg import String  # type: ignore[import-not-found,import-untyped,unused-ignore]
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import String
 
 PERIOD_S = 0.1
 

@@ -9,9 +9,9 @@ import sys
 import time
 from collections.abc import Iterator
 
-import rclpy  # type: ignore[import-not-found,import-untyped,unused-ignore]
-from rclpy.node import Node  # type: ignore[import-not-found,import-untyped,unused-ignore]
-from rclpy.qos import (  # type: ignore[import-not-found,import-untyped,unused-ignore]
+import rclpy
+from rclpy.node import Node
+from rclpy.qos import (
     QoSCompatibility,
     qos_check_compatible,
 )

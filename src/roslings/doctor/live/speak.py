@@ -7,9 +7,9 @@ The standard input is the leash: when the doctor ends, even by force, the pipe c
 import select
 import sys
 
-import rclpy  # type: ignore[import-not-found,import-untyped,unused-ignore]
-from rclpy.node import Node  # type: ignore[import-not-found,import-untyped,unused-ignore]
-from std_msgs.msg import String  # type: ignore[import-not-found,import-untyped,unused-ignore]
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import String
 
 PERIOD_S = 0.05
 

@@ -1,0 +1,1 @@
+"""A small package that greets, for the break-it exercises."""
