@@ -1,0 +1,33 @@
+"""The words that the script `./roslings` gives to this folder, and what comes of them."""
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from roslings.bootstrap.environment import Wish, make_ready
+from roslings.bootstrap.trouble import Trouble, say
+
+ROOT = Path(__file__).resolve().parents[3]
+
+
+def main(words: Sequence[str]) -> int:
+    """Runs one of the bootstrap's commands and returns the exit code."""
+    try:
+        return _run(words)
+    except Trouble as trouble:
+        say(f"roslings: {trouble}")
+        return 2
+    except KeyboardInterrupt:
+        say("\nInterrupted. Run the same command again: it goes on from here.")
+        return 130
+
+
+def _run(words: Sequence[str]) -> int:
+    verb, *rest = words
+    if verb == "ready":
+        make_ready(ROOT, Wish(command=rest[0], groups=tuple(rest[1:])))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,148 @@
+"""The environment made ready: the one way from whatever is there to what a command needs."""
+
+import os
+import shutil
+import sys
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from roslings.bootstrap import sizes
+from roslings.bootstrap.installing import Installer
+from roslings.bootstrap.lock import locked
+from roslings.bootstrap.machine import require_wheels, this_machine
+from roslings.bootstrap.packages import forget_damaged
+from roslings.bootstrap.place import Place, require_usable
+from roslings.bootstrap.record import Record
+from roslings.bootstrap.seeds import interpreter
+from roslings.bootstrap.sourced import SourcedRos, find_sourced
+from roslings.bootstrap.trouble import Trouble, say, wrapped
+from roslings.bootstrap.virtual import Virtual
+
+
+@dataclass(frozen=True)
+class Wish:
+    """What a command asks for."""
+
+    command: str
+    groups: tuple[str, ...]
+
+
+def make_ready(root: Path, wish: Wish) -> None:
+    """Afterwards the environment in `root` holds the groups of `wish`.
+
+    Raises:
+        Trouble: it cannot be made here; an environment that stood before still stands.
+    """
+    ros = find_sourced(os.environ)
+    require_usable(root)
+    if not ros:
+        require_wheels(this_machine())
+    work = _Work(Place(root, ".venv-apt" if ros else ".venv"), wish, ros, _wheels())
+    with locked(work.place.lock):
+        work.do()
+
+
+def _wheels() -> Path | None:
+    named = os.environ.get("ROSLINGS_WHEELS")
+    if not named:
+        return None
+    folder = Path(named).absolute()
+    if not any(folder.glob("*.whl")):
+        raise Trouble(
+            f"ROSLINGS_WHEELS names a folder without wheels: {folder}",
+            "Fill it on a machine with a network: ./roslings wheels DIR",
+        )
+    return folder
+
+
+@dataclass(frozen=True)
+class _Work:
+    place: Place
+    wish: Wish
+    ros: SourcedRos | None
+    wheels: Path | None
+
+    @property
+    def record(self) -> Record:
+        return Record(self.place)
+
+    @property
+    def virtual(self) -> Virtual:
+        return Virtual(self.place.environment)
+
+    def do(self) -> None:
+        self._mend_move()
+        if self.record.holds(self.wish.groups) and self.virtual.runs():
+            return  # another ./roslings was quicker
+        stood = self.record.complete
+        try:
+            self._make()
+        except BaseException:
+            if not stood and not self.record.groups:
+                self.virtual.remove()
+            raise
+
+    def _mend_move(self) -> None:
+        old = self.record.home
+        if old is None or old == self.place.root:
+            return
+        say(wrapped(f"This folder was moved or copied from {old}. Mending its environment."))
+        groups = self.record.groups
+        self.record.put_aside()
+        self.virtual.moved_from(old / self.place.name)
+        self.virtual.see(self.place.root / "src")
+        if self.virtual.runs() and not forget_damaged(self.virtual.site):
+            self.record.write(groups, self._installer().libraries())
+
+    def _make(self) -> None:
+        started_s = time.monotonic()
+        if not self.virtual.runs():
+            self._start_anew()
+        elif not self.record.complete:
+            say("The last set-up was interrupted. Mending it.")
+            forget_damaged(self.virtual.site)
+        groups = self._to_install()
+        self._announce(groups)
+        self._install(groups)
+        self.record.write({*self.record.groups, *self.wish.groups}, self._installer().libraries())
+        say(f"The environment is ready, after {time.monotonic() - started_s:.0f} s.\n")
+
+    def _start_anew(self) -> None:
+        """The groups of an environment that broke are forgotten with it."""
+        python = self.ros.python if self.ros else interpreter()
+        say(f"Making the environment in {self.place.name}, once.")
+        self.virtual.make(python, sees_system=self.ros is not None)
+        self.virtual.see(self.place.root / "src")
+
+    def _to_install(self) -> list[str]:
+        """The groups wanted now or before, without those that the sourced ROS brings."""
+        wanted = [*self.wish.groups, *sorted(self.record.groups - set(self.wish.groups))]
+        return [group for group in wanted if group not in self._from_ros()]
+
+    def _from_ros(self) -> set[str]:
+        if not self.ros:
+            return set()
+        return {"ros", "colcon"} if shutil.which("colcon") else {"ros"}
+
+    def _announce(self, groups: Sequence[str]) -> None:
+        new = [group for group in groups if group not in self.record.groups]
+        mb = sizes.megabytes(sys.version_info[:2], new or groups)
+        if self.wheels:
+            say(f"Installing from {self.wheels}, with no network.")
+        elif mb is not None:
+            say(f"`{self.wish.command}` needs up to {mb:.0f} MB from the network, once.")
+
+    def _install(self, groups: Sequence[str]) -> None:
+        installer = self._installer()
+        installer.require_tools()
+        packages = installer.missing(groups)
+        if packages:
+            wheels = installer.fetch(packages, sizes.megabytes(sys.version_info[:2], groups))
+            say(f"Installing {len(packages)} packages.")
+            self.record.put_aside()
+            installer.install(packages, wheels)
+
+    def _installer(self) -> Installer:
+        return Installer(self.place, self.virtual, self.wheels, sees_path=self.ros is not None)

@@ -1,0 +1,53 @@
+"""The packages that lie in an environment: which are whole, which were left half installed."""
+
+import csv
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+
+def installed(site: Path) -> dict[str, str]:
+    """Normalised name -> version of every package in `site`."""
+    return {_normal(name): version for name, version in map(_named, site.glob("*.dist-info"))}
+
+
+def forget_damaged(site: Path) -> list[str]:
+    """Removes the names of packages that are not whole, so that pip installs them again.
+
+    Returns:
+        The names and versions forgotten.
+    """
+    damaged = [info for info in site.glob("*.dist-info") if not _whole(info)]
+    for info in damaged:
+        shutil.rmtree(info)
+    return [info.stem for info in damaged]
+
+
+def _named(info: Path) -> tuple[str, str]:
+    name, _, version = info.stem.partition("-")
+    return name, version
+
+
+def _normal(name: str) -> str:
+    return name.lower().replace("_", "-").replace(".", "-")
+
+
+def _whole(info: Path) -> bool:
+    """pip writes INSTALLER and then RECORD last, so both are missing in a half installed one."""
+    if not ((info / "RECORD").is_file() and (info / "INSTALLER").is_file()):
+        return False
+    return all(_there(info.parent / name, size) for name, size in _files(info / "RECORD"))
+
+
+def _files(record: Path) -> Iterator[tuple[str, str]]:
+    with record.open(newline="", encoding="utf-8") as rows:
+        for row in csv.reader(rows):
+            if len(row) == 3 and not row[0].endswith(".pyc"):
+                yield row[0], row[2]
+
+
+def _there(file: Path, size: str) -> bool:
+    try:
+        return not size or file.stat().st_size == int(size)
+    except OSError:
+        return False

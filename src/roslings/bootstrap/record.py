@@ -1,0 +1,87 @@
+"""What an environment remembers about itself, in `roslings/` inside it.
+
+    home              the course's folder when the environment was made
+    constraints.txt   the pins it was installed from, and pyproject.toml its groups
+    groups/NAME       an empty file for each group that is installed
+    libraries         what LD_LIBRARY_PATH needs for the ROS wheels; empty without them
+
+The script `./roslings` reads the same files. A record is there only while all of it is true: it
+is put aside before the first change and comes back, in one step, after the last.
+"""
+
+import filecmp
+import os
+import shutil
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+from roslings.bootstrap.place import Place
+
+
+@dataclass(frozen=True)
+class Record:
+    """The record of the environment in `place`."""
+
+    place: Place
+
+    @property
+    def _folder(self) -> Path:
+        return self.place.environment / "roslings"
+
+    @property
+    def _aside(self) -> Path:
+        return self.place.environment / "roslings.aside"
+
+    @property
+    def complete(self) -> bool:
+        """Whether the last change came to its end."""
+        return self._folder.is_dir()
+
+    @property
+    def home(self) -> Path | None:
+        """Where the environment was made; None where nothing is known."""
+        for folder in (self._folder, self._aside):
+            if (folder / "home").is_file():
+                return Path((folder / "home").read_text().removesuffix("\n"))
+        return None
+
+    @property
+    def groups(self) -> frozenset[str]:
+        """The groups installed, or on their way when a change was interrupted."""
+        folders = (self._folder / "groups", self._aside / "groups")
+        return frozenset(file.name for f in folders if f.is_dir() for file in f.iterdir())
+
+    def holds(self, groups: Iterable[str]) -> bool:
+        """Whether `groups` are installed as the course now pins them."""
+        return (
+            self.complete
+            and self.groups >= set(groups)
+            and all(self._same(file) for file in (self.place.constraints, self.place.pyproject))
+        )
+
+    def _same(self, file: Path) -> bool:
+        copy = self._folder / file.name
+        return copy.is_file() and filecmp.cmp(file, copy, shallow=False)
+
+    def put_aside(self) -> None:
+        """From here to `write`, the environment counts as unfinished."""
+        if self.complete:
+            shutil.rmtree(self._aside, ignore_errors=True)
+            self._folder.rename(self._aside)
+
+    def write(self, groups: Iterable[str], libraries: Iterable[Path]) -> None:
+        """The environment is finished, and all its files are on the disk."""
+        new = self.place.environment / "roslings.new"
+        shutil.rmtree(new, ignore_errors=True)
+        (new / "groups").mkdir(parents=True)
+        for group in groups:
+            (new / "groups" / group).touch()
+        for file in (self.place.constraints, self.place.pyproject):
+            shutil.copyfile(file, new / file.name)
+        (new / "home").write_text(f"{self.place.root}\n")
+        (new / "libraries").write_text(":".join(map(str, libraries)) + "\n")
+        os.sync()  # after a power cut, a record must not outlive the files it speaks of
+        self.put_aside()
+        new.rename(self._folder)
+        shutil.rmtree(self._aside, ignore_errors=True)

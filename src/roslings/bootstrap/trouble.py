@@ -1,0 +1,37 @@
+"""What can go wrong on the way to an environment, each with the next step."""
+
+import sys
+import textwrap
+
+
+class Trouble(Exception):
+    """Something the user must know: one sentence, then what to do. Ends with exit code 2."""
+
+    def __init__(self, what: str, *steps: str) -> None:
+        self.what = what
+        self.steps = steps
+        super().__init__(what)
+
+    def __str__(self) -> str:
+        return "\n".join([wrapped(self.what), *map(_step, self.steps)])
+
+
+def wrapped(text: str, first: str = "", later: str = "") -> str:
+    """`text` in lines of at most 79 columns; a path is never cut."""
+    return textwrap.fill(
+        text,
+        width=79,
+        initial_indent=first,
+        subsequent_indent=later,
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
+
+
+def say(text: str) -> None:
+    """One message to the user. Standard output belongs to the command, so it goes beside it."""
+    print(text, file=sys.stderr, flush=True)
+
+
+def _step(step: str) -> str:
+    return wrapped(step, first="  Next: ", later="    ")

@@ -1,0 +1,109 @@
+"""The virtual environment as such: made, moved, found whole. Knows nothing of what goes into it."""
+
+import os
+import shutil
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+from roslings.bootstrap.trouble import Trouble
+
+_FACTS = "import sys, sysconfig; print(sys.prefix); print(sysconfig.get_path('purelib'))"
+
+
+@dataclass(frozen=True)
+class Virtual:
+    """A virtual environment in `folder`."""
+
+    folder: Path
+
+    @property
+    def python(self) -> Path:
+        """Its interpreter."""
+        return self.folder / "bin" / "python"
+
+    @property
+    def site(self) -> Path:
+        """Where its packages lie."""
+        return next(self.folder.glob("lib/python3.*/site-packages"), self.folder / "site-packages")
+
+    def runs(self) -> bool:
+        """Whether its Python starts, and takes this folder for its own."""
+        try:
+            done = subprocess.run(
+                [self.python, "-I", "-S", "-c", _FACTS],
+                capture_output=True,
+                stdin=subprocess.DEVNULL,
+                text=True,
+                check=False,
+            )
+        except OSError:
+            return False
+        return done.stdout.splitlines() == [str(self.folder), str(self.site)]
+
+    def make(self, python: str, sees_system: bool) -> None:
+        """A new, empty environment of `python`; whatever was there is gone.
+
+        Raises:
+            Trouble: this Python cannot make one.
+        """
+        self.remove()
+        command = [python, "-m", "venv", "--without-pip", *_seeing(sees_system), str(self.folder)]
+        done = subprocess.run(
+            command, capture_output=True, stdin=subprocess.DEVNULL, text=True, check=False
+        )
+        if done.returncode != 0:
+            raise _no_venv(python, self.folder, done.stdout + done.stderr)
+
+    def remove(self) -> None:
+        """Nothing is left of it."""
+        if self.folder.is_symlink():
+            self.folder.unlink()
+        elif self.folder.exists():
+            shutil.rmtree(self.folder)
+
+    def see(self, source: Path) -> None:
+        """Programs of this environment can import what lies in `source`."""
+        (self.site / "roslings.pth").write_text(f"{source}\n", encoding="utf-8")
+
+    def moved_from(self, old: Path) -> None:
+        """Its scripts name the Python in `old`; from here on, the one in this folder."""
+        for script in (self.folder / "bin").iterdir():
+            if script.is_file() and not script.is_symlink():
+                _rename_inside(script, os.fsencode(old), os.fsencode(self.folder))
+        _rename_inside(self.folder / "pyvenv.cfg", os.fsencode(old), os.fsencode(self.folder))
+
+
+def _seeing(system: bool) -> list[str]:
+    return ["--system-site-packages"] if system else []
+
+
+def _rename_inside(file: Path, old: bytes, new: bytes) -> None:
+    content = file.read_bytes()
+    if old in content:
+        file.write_bytes(content.replace(old, new))
+
+
+def _no_venv(python: str, folder: Path, output: str) -> Trouble:
+    if "No module named venv" in output:
+        version = "3" if python != sys.executable else f"3.{sys.version_info.minor}"
+        return Trouble(
+            f"This Python has no venv module: {python}",
+            f"On Ubuntu and Debian: sudo apt install python{version}-venv",
+        )
+    if "No space left" in output:
+        return disk_full(folder)
+    last = (output.strip().splitlines() or ["it said nothing"])[-1]
+    return Trouble(
+        f"{python} could not make an environment: {last}",
+        "Take another Python: ROSLINGS_PYTHON=/path/to/python3.12 ./roslings",
+    )
+
+
+def disk_full(near: Path) -> Trouble:
+    """The trouble of a full disk that `near` lies on."""
+    return Trouble(
+        f"The disk is full: {near}",
+        "Free about 500 MB (look with: df -h .), and run the same command again.",
+    )
