@@ -1,0 +1,51 @@
+"""One verdict in, many shapes out: terminal, JSON; and the ROS graph in words and as a picture.
+
+Nothing here knows how a verdict was measured. rich, pydantic and matplotlib are imported when a
+name is first used, so that `./roslings --help` stays quick.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from roslings.report.graph_picture import draw_graph
+    from roslings.report.graph_words import describe_graph, graph_text
+    from roslings.report.json_file import BadVerdictFile, read_json, write_json
+    from roslings.report.progress import Progress
+    from roslings.report.terminal import NoSuchCheck, print_verdict
+    from roslings.report.whole_file import CannotWrite
+
+__all__ = [
+    "BadVerdictFile",
+    "CannotWrite",
+    "NoSuchCheck",
+    "Progress",
+    "describe_graph",
+    "draw_graph",
+    "graph_text",
+    "print_verdict",
+    "read_json",
+    "write_json",
+]
+
+_HOMES = {
+    "BadVerdictFile": "json_file",
+    "CannotWrite": "whole_file",
+    "NoSuchCheck": "terminal",
+    "Progress": "progress",
+    "describe_graph": "graph_words",
+    "draw_graph": "graph_picture",
+    "graph_text": "graph_words",
+    "print_verdict": "terminal",
+    "read_json": "json_file",
+    "write_json": "json_file",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Import the module that holds `name` when it is first asked for (PEP 562)."""
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)

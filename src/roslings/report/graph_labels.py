@@ -1,0 +1,84 @@
+"""What stands in the boxes of the graph's picture, and which box leads to which."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from roslings.report.graph_layout import Box, Edge
+from roslings.report.graph_shape import GraphShape, NodeShape, TopicShape
+from roslings.report.lettering import INK, WARNING, Lettering, Line
+from roslings.report.safe_text import harmless, wrapped
+
+LONGEST_NAME = 30
+SMALL = 9.0
+
+
+@dataclass(frozen=True)
+class Label:
+    """The lines in one box: an ellipse for a node, doubled for several; a rectangle for a topic."""
+
+    lines: tuple[Line, ...]
+    round: bool = False
+    doubled: bool = False
+
+    @property
+    def height(self) -> float:
+        """Points from the top of the first line to the bottom of the last."""
+        return sum(line.height for line in self.lines)
+
+    def box(self, lettering: Lettering) -> Box:
+        """The size that holds the lines."""
+        width = max(lettering.width(line) for line in self.lines)
+        if self.round:
+            # An ellipse w by h holds a text a by b where (a/w)^2 + (b/h)^2 <= 1.
+            return Box(width * 1.25 + 16, self.height * 1.85, 0)
+        return Box(width + 22, self.height + 12, 1)
+
+
+def labels_of(shape: GraphShape) -> dict[str, Label]:
+    """Box's key to its label."""
+    return {
+        **{_node_key(node.name): _node_label(node) for node in shape.nodes},
+        **{_topic_key(topic.name): _topic_label(topic) for topic in shape.topics},
+    }
+
+
+def edges_of(shape: GraphShape) -> list[Edge]:
+    """Arrows between the keys of `labels_of`: from publisher to topic, from topic to subscriber."""
+    return [
+        *((_node_key(n), _topic_key(t.name)) for t in shape.topics for n in t.publishers),
+        *((_topic_key(t.name), _node_key(n)) for t in shape.topics for n in t.subscribers),
+    ]
+
+
+def _node_key(name: str) -> str:
+    return f"node {name}"
+
+
+def _topic_key(name: str) -> str:
+    return f"topic {name}"
+
+
+def _node_label(node: NodeShape) -> Label:
+    doubled = node.count > 1
+    again = [f"{node.count} nodes of this name"] if doubled else []
+    return Label((*_name_lines(node.name), *_warnings(again)), round=True, doubled=doubled)
+
+
+def _topic_label(topic: TopicShape) -> Label:
+    mixed = [f"{len(topic.types)} types that do not match:"] if len(topic.types) > 1 else []
+    return Label((*_name_lines(topic.name), *_warnings(mixed), *_type_lines(topic.types)))
+
+
+def _name_lines(name: str) -> list[Line]:
+    return [Line(part, colour=INK, bold=True) for part in wrapped(harmless(name), LONGEST_NAME)]
+
+
+def _type_lines(types: Iterable[str]) -> list[Line]:
+    parts = (part for kind in types for part in wrapped(harmless(kind), LONGEST_NAME))
+    return [Line(part, SMALL) for part in parts]
+
+
+def _warnings(texts: Iterable[str]) -> list[Line]:
+    return [Line(text, SMALL, WARNING, bold=True) for text in texts]

@@ -1,0 +1,128 @@
+"""What is to be printed, put together before anything is printed, so that it can be measured."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+
+from rich import box
+from rich.cells import cell_len
+from rich.console import Console, Group, RenderableType
+from rich.padding import Padding
+from rich.panel import Panel
+from rich.text import Text
+
+from roslings.report.safe_text import can_show, cut_to, filled, harmless, in_encoding, wrapped
+
+MARKS = {"pass": "✓", "fail": "✗", "skip": "○", "inconclusive": "?"}
+ASCII_MARKS = {"pass": "+", "fail": "x", "skip": "-", "inconclusive": "?"}
+LABEL_WIDTH = 10
+LONGEST_TEXT_LINES = 12
+LONGEST_LOG_LINE_LINES = 3
+NARROWEST = 24
+
+
+class Page:
+    """Lines for one console: as wide as it is, in characters that its encoding has."""
+
+    def __init__(self, console: Console) -> None:
+        self._console = console
+        self._parts: list[RenderableType] = []
+        self.width = max(console.width, NARROWEST)
+        self.marks = MARKS if self._shows("".join(MARKS.values()) + "…╭") else ASCII_MARKS
+
+    def _shows(self, text: str) -> bool:
+        # The Linux text console says UTF-8, but its fonts hold few marks.
+        return can_show(text, self._console.encoding) and os.environ.get("TERM") != "linux"
+
+    @property
+    def _ellipsis(self) -> str:
+        return "…" if self.marks is MARKS else "..."
+
+    def plain(self, text: str, *, keep_newlines: bool = False) -> str:
+        """`text` without control characters and in this console's encoding."""
+        return in_encoding(harmless(text, keep_newlines=keep_newlines), self._console.encoding)
+
+    def blank(self) -> None:
+        """An empty line."""
+        self._parts.append(Text(""))
+
+    def line(self, text: str, style: str = "") -> None:
+        """One line; its end is cut off, visibly, where it is too long."""
+        cut = cut_to(self.plain(text), self.width, cell_len, self._ellipsis)
+        self._parts.append(Text(cut, style))
+
+    def headed(self, head: str, text: str, *, style: str, text_style: str = "") -> None:
+        """`head`, styled, and `text` beside it in as many lines as it needs."""
+        lines = wrapped(self.plain(text), self.width - cell_len(head), cell_len)
+        self._beside(head, lines, style, text_style)
+
+    def headed_line(self, head: str, text: str, *, style: str) -> None:
+        """`head`, styled, and `text` beside it on the same line, cut off where it is too long."""
+        room = self.width - cell_len(head)
+        self._beside(head, [cut_to(self.plain(text), room, cell_len, self._ellipsis)], style)
+
+    def headed_items(self, head: str, items: Iterable[str], *, style: str) -> None:
+        """`head`, styled, and `items` one after the other, none broken in two."""
+        room = self.width - cell_len(head)
+        self._beside(head, filled(map(self.plain, items), room, cell_len, ", "), style)
+
+    def text(self, text: str, *, indent: int = 0) -> None:
+        """A text of some lines, with its own line breaks."""
+        room = self.width - indent
+        lines = wrapped(self.plain(text, keep_newlines=True), room, cell_len)
+        self._beside(" " * indent, lines, "")
+
+    def labelled(self, label: str, text: str, *, indent: int = 0, style: str = "") -> None:
+        """A short label, and a text of some lines beside it."""
+        head = " " * indent + label.ljust(LABEL_WIDTH)
+        room = self.width - len(head)
+        lines = wrapped(self.plain(text, keep_newlines=True), room, cell_len)
+        if len(lines) > LONGEST_TEXT_LINES:
+            lines = [*lines[:LONGEST_TEXT_LINES], self._ellipsis]
+        self._beside(head, lines, "bold", style)
+
+    def command(self, label: str, text: str, command: str) -> None:
+        """A label, a sentence, and what to type, which no line break comes into."""
+        head = label.ljust(LABEL_WIDTH)
+        words = [*self.plain(text).split(), self.plain(command)]
+        self._beside(head, filled(words, self.width - len(head), cell_len), "bold")
+
+    def _beside(self, head: str, lines: list[str], style: str, text_style: str = "") -> None:
+        margin = " " * cell_len(head)
+        for number, line in enumerate(lines):
+            start = (margin, "") if number else (head, style)
+            self._parts.append(Text.assemble(start, (line, text_style)))
+
+    def boxed(self, title: str, lines: Iterable[str], *, indent: int = 0) -> None:
+        """Lines that are somebody else's, e.g. a node's log, in a box of their own."""
+        room = self.width - indent - 4
+        shown = [part for line in lines for part in self._log_line(line, room)]
+        panel = Panel(
+            Text("\n".join(shown), no_wrap=True, overflow="ignore"),
+            title=Text(cut_to(self.plain(title), room - 2, cell_len, self._ellipsis)),
+            title_align="left",
+            box=box.ROUNDED if self.marks is MARKS else box.ASCII,
+            border_style="dim",
+            width=self.width - indent,
+        )
+        self._parts.append(Padding(panel, (0, 0, 0, indent), expand=False))
+
+    def _log_line(self, line: str, room: int) -> list[str]:
+        # Cut before wrapping: a line may be a megabyte long.
+        parts = wrapped(self.plain(line[: room * (LONGEST_LOG_LINE_LINES + 1)]), room, cell_len)
+        if len(parts) <= LONGEST_LOG_LINE_LINES:
+            return parts
+        kept = parts[:LONGEST_LOG_LINE_LINES]
+        last = cut_to(kept[-1], room - len(self._ellipsis), cell_len, "")
+        return [*kept[:-1], last + self._ellipsis]
+
+    def height(self) -> int:
+        """Lines that the page takes on its console."""
+        return len(self._console.render_lines(Group(*self._parts), pad=False))
+
+    def print(self) -> None:
+        """Show it."""
+        self._console.print(
+            Group(*self._parts), highlight=False, markup=False, emoji=False, crop=False
+        )
