@@ -205,11 +205,16 @@ class Guardian:
 def start(order: Order) -> tuple[int, int]:
     """Start the process on a terminal of its own; returns its pid and our side of it.
 
-    A terminal, because a program that writes into a pipe holds its lines back.
+    A terminal, because a program that writes into a pipe holds its lines back. It returns when
+    the program has taken over, for until then a signal would meet our own dispositions.
     """
+    taken_over, ours = os.pipe()
     pid, terminal = pty.fork()
     if pid == 0:
         become(order)
+    os.close(ours)
+    os.read(taken_over, 1)  # the child's copy of the other end closes when it becomes the program
+    os.close(taken_over)
     return pid, terminal
 
 

@@ -63,6 +63,7 @@ class Process:
         self._changed = threading.Condition()
         self._unfinished = b""
         self._asked_to_end = False
+        self._started = False
         self._gone = False
         self._refused: str | None = None
 
@@ -81,6 +82,8 @@ class Process:
         self._channel.sendall(self._launch.order())
         self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()
+        with self._changed:
+            self._changed.wait_for(lambda: self._started or self._gone)
         return self
 
     def __exit__(
@@ -173,7 +176,9 @@ class Process:
             self._changed.notify_all()
 
     def _take(self, event: dict[str, object]) -> None:
-        if "said" in event:
+        if "started" in event:
+            self._started = True
+        elif "said" in event:
             self._hear(str(event["said"]).encode("latin-1"), int(str(event["at"])))
         elif "exited" in event:
             self._note_end(event)

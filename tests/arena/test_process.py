@@ -1,0 +1,215 @@
+"""One process behind its guardian: output, signals, end, and nothing left behind."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import textwrap
+import time
+from pathlib import Path
+
+import pytest
+
+from roslings.arena import Launch, Process
+from roslings.evidence import ProcessSeen
+
+LONG_S = 60.0
+"""A bound, not a measure: every wait ends when its condition holds."""
+
+
+def launch(tmp_path: Path, namespaces: bool, *command: str, **environment: str) -> Launch:
+    """A command with a small environment of its own."""
+    return Launch(list(command), {"PATH": os.defpath, **environment}, tmp_path, namespaces)
+
+
+def run(tmp_path: Path, namespaces: bool, *command: str) -> ProcessSeen:
+    """Run a command to its end."""
+    with Process("it", launch(tmp_path, namespaces, *command)) as process:
+        assert process.wait_ended(LONG_S)
+    assert process.refused is None
+    return process.seen
+
+
+def python(source: str) -> tuple[str, ...]:
+    """A command that runs a piece of Python."""
+    return sys.executable, "-I", "-S", "-c", textwrap.dedent(source)
+
+
+def texts(seen: ProcessSeen) -> list[str]:
+    """What it wrote."""
+    return [line.text for line in seen.lines]
+
+
+def test_its_lines_and_its_status_are_seen(tmp_path: Path, namespaces: bool) -> None:
+    """Standard output and standard error, in order, and the exit code."""
+    seen = run(tmp_path, namespaces, "sh", "-c", "echo one; echo two >&2; exit 3")
+    assert texts(seen) == ["one", "two"]
+    assert seen.status == 3
+    assert seen.ended_by_itself
+
+
+def test_python_does_not_hold_its_lines_back(tmp_path: Path, namespaces: bool) -> None:
+    """A print() is seen while the process still runs, without PYTHONUNBUFFERED."""
+    source = "import time; print('I heard it'); time.sleep(1000)"
+    with Process("it", launch(tmp_path, namespaces, *python(source))) as process:
+        assert process.wait_until(lambda: bool(process.seen.lines), LONG_S)
+        assert process.alive
+    assert texts(process.seen)[0] == "I heard it"
+
+
+def test_only_the_given_environment_arrives(
+    tmp_path: Path, namespaces: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What this terminal has set does not change what a student's node does."""
+    monkeypatch.setenv("PYTHONUNBUFFERED", "1")
+    monkeypatch.setenv("SECRET", "x")
+    with Process("it", launch(tmp_path, namespaces, "env", ONLY="this")) as process:
+        assert process.wait_ended(LONG_S)
+    names = {line.partition("=")[0] for line in texts(process.seen)}
+    assert "ONLY" in names
+    assert not names & {"PYTHONUNBUFFERED", "SECRET"}
+
+
+def test_ctrl_c_reaches_the_process(tmp_path: Path, namespaces: bool) -> None:
+    """SIGINT with its default effect, and the time until the end is written down."""
+    with Process("it", launch(tmp_path, namespaces, "sleep", "1000")) as process:
+        assert process.interrupt(LONG_S)
+    assert process.seen.status == -signal.SIGINT
+    assert process.seen.ending is not None
+    assert process.seen.ending.after_s is not None
+    assert not process.seen.ended_by_itself
+
+
+def test_ctrl_c_works_under_a_parent_that_ignores_it(tmp_path: Path) -> None:
+    """A background job and CI ignore SIGINT; the student's node must not inherit that."""
+    source = """
+        import os, signal
+        from pathlib import Path
+        from roslings.arena import Launch, Process
+        order = Launch(["sleep", "1000"], {"PATH": os.defpath}, Path("/"), False)
+        with Process("it", order) as process:
+            assert process.interrupt(60)
+        print(process.seen.status)
+    """
+    ignoring = ["sh", "-c", 'trap "" INT; exec "$@"', "sh", sys.executable, "-c"]
+    ran = subprocess.run(
+        [*ignoring, textwrap.dedent(source)], capture_output=True, text=True, check=True
+    )
+    assert ran.stdout.strip() == str(-signal.SIGINT)
+
+
+def test_a_stubborn_process_is_killed(tmp_path: Path, namespaces: bool) -> None:
+    """One that ignores SIGINT and SIGTERM ends all the same, and that it had to be is seen."""
+    command = ("sh", "-c", "trap '' INT TERM; echo ready; while :; do sleep 1; done")
+    with Process("it", launch(tmp_path, namespaces, *command)) as process:
+        assert process.wait_until(lambda: bool(process.seen.lines), LONG_S)
+    assert process.seen.status == -signal.SIGKILL
+    assert process.seen.ending is not None
+    assert process.seen.ending.after_s is None
+
+
+def test_a_daemon_is_ended_and_counted(tmp_path: Path, namespaces: bool) -> None:
+    """A process that forks twice and leaves its session does not outlive the block."""
+    source = """
+        import os, time
+        if os.fork() == 0:
+            os.setsid()
+            if os.fork() == 0:
+                time.sleep(1000)
+            os._exit(0)
+        os.wait()
+    """
+    seen = run(tmp_path, namespaces, *python(source))
+    assert seen.left_behind == 1
+
+
+def test_an_endless_output_is_drained_and_bounded(tmp_path: Path, namespaces: bool) -> None:
+    """The start and the end of a flood are kept, the middle is counted."""
+    flood = "head -c 30000000 /dev/zero | tr '\\0' 'x' | fold -w 99; echo; echo the end"
+    seen = run(tmp_path, namespaces, "sh", "-c", f"echo the start; {flood}")
+    assert texts(seen)[0] == "the start"
+    assert texts(seen)[-1] == "the end"
+    assert seen.output_bytes > 30_000_000
+    assert seen.output_dropped_bytes > 20_000_000
+    assert sum(len(text) for text in texts(seen)) < 1_000_000
+
+
+def test_one_endless_line_is_cut(tmp_path: Path, namespaces: bool) -> None:
+    """A line of 200,000 letters does not become one line of the verdict."""
+    seen = run(tmp_path, namespaces, "sh", "-c", "head -c 200000 /dev/zero | tr '\\0' 'x'")
+    assert max(len(text) for text in texts(seen)) <= 2000
+
+
+def test_bytes_that_are_no_text_are_shown_as_such(tmp_path: Path, namespaces: bool) -> None:
+    """Output that is no UTF-8 is kept readable."""
+    seen = run(tmp_path, namespaces, "printf", r"good \377\376 bad\n")
+    assert texts(seen) == ["good \ufffd\ufffd bad"]
+
+
+def test_a_program_that_is_missing_is_said(tmp_path: Path, namespaces: bool) -> None:
+    """The line that a shell would print, and its status."""
+    seen = run(tmp_path, namespaces, "no-such-program")
+    assert texts(seen) == ["no-such-program: No such file or directory"]
+    assert seen.status == 127
+
+
+def test_an_error_inside_the_block_ends_the_process_at_once(
+    tmp_path: Path, namespaces: bool
+) -> None:
+    """Ctrl-C in the middle: no politeness, nothing left (see `nothing_left`)."""
+    command = ("sh", "-c", "trap '' INT TERM; echo ready; while :; do sleep 1; done")
+    with (
+        pytest.raises(KeyboardInterrupt),
+        Process("it", launch(tmp_path, namespaces, *command)) as process,
+    ):
+        assert process.wait_until(lambda: bool(process.seen.lines), LONG_S)
+        raise KeyboardInterrupt
+    assert not process.alive
+
+
+def test_nothing_outlives_an_arena_that_is_killed(tmp_path: Path, namespaces: bool) -> None:
+    """A power cut for the grader: the kernel ends the guardian, and with it the node."""
+    source = f"""
+        import os, sys
+        from pathlib import Path
+        from roslings.arena import Launch, Process
+        command = ["sh", "-c", "echo $$ > {tmp_path}/pid; sleep 1000"]
+        order = Launch(command, {{"PATH": os.defpath}}, Path("/"), {namespaces})
+        with Process("it", order) as process:
+            process.wait_until(lambda: os.path.exists("{tmp_path}/pid"), 60)
+            print(process._guardian.pid, flush=True)
+            sys.stdin.read()
+    """
+    arena = subprocess.Popen(
+        [sys.executable, "-c", textwrap.dedent(source)],
+        stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
+    )  # fmt: skip
+    assert arena.stdout is not None
+    wait_for(lambda: (tmp_path / "pid").exists())
+    arena.kill()
+    arena.wait()
+    wait_for(lambda: not processes_with(f"{tmp_path}/pid"))
+
+
+def processes_with(word: str) -> list[int]:
+    """Every living process with `word` in its command line."""
+    found = []
+    for entry in Path("/proc").iterdir():
+        if entry.name.isdigit() and int(entry.name) != os.getpid():
+            try:
+                line = (entry / "cmdline").read_bytes()
+            except OSError:
+                continue
+            if word.encode() in line:
+                found.append(int(entry.name))
+    return found
+
+
+def wait_for(condition: object) -> None:
+    """Wait until a condition holds; fail when it never does."""
+    deadline_s = time.monotonic() + LONG_S
+    while not condition():  # type: ignore[operator]
+        assert time.monotonic() < deadline_s
+        time.sleep(0.01)
