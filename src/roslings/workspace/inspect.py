@@ -1,0 +1,136 @@
+"""What stands in a package's own files: read, never run."""
+
+from __future__ import annotations
+
+import configparser
+import os
+import sys
+from collections.abc import Collection, Iterator
+from pathlib import Path
+
+from roslings.course import Card
+from roslings.evidence import PackageSeen, PictureSeen
+from roslings.workspace import code
+from roslings.workspace.manifest import read_manifest
+from roslings.workspace.pictures import look_at
+from roslings.workspace.sources import files
+from roslings.workspace.trouble import reading
+
+NOT_THE_PACKAGES_CODE = frozenset({"test", "tests", "launch", "resource"})
+
+
+def ros_packages() -> frozenset[str]:
+    """The ROS packages of this machine: those with a `share/NAME/package.xml`."""
+    prefixes = [*os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep), sys.prefix]
+    shares = [Path(prefix) / "share" for prefix in prefixes if prefix]
+    return frozenset(
+        manifest.parent.name for share in shares for manifest in share.glob("*/package.xml")
+    )
+
+
+def inspect_package(folder: Path, card: Card, known: Collection[str] | None = None) -> PackageSeen:
+    """Read a package against its card; `known` are the ROS packages there are.
+
+    `imported` names only code that other nodes could run: not tests, not setup.py. Raises what
+    `sources` raises: links that leave the package, too much in it, no permission.
+    """
+    found = files(folder)
+    with reading(folder):
+        return _inspect(folder, card, found, ros_packages() if known is None else known)
+
+
+def _inspect(
+    folder: Path, card: Card, found: dict[str, Path], known: Collection[str]
+) -> PackageSeen:
+    manifest = read_manifest(folder)
+    python = {name: path for name, path in found.items() if _is_code(name)}
+    setup, setup_errors = _read_setup(found.get("setup.py"))
+    disagreements = _disagreements(card.package, manifest.name, setup, found)
+    return PackageSeen(
+        name=manifest.name,
+        folder=folder.name,
+        build_type=manifest.build_type,
+        xml_problems=manifest.problems + disagreements,
+        missing_files=list(_missing(card.package, setup, found)),
+        syntax_errors=[*setup_errors, *_syntax_errors(python)],
+        declared=manifest.declared,
+        imported=_imported(python, known, card.package),
+        entry_points=setup.console_scripts,
+        pictures=dict(_pictures(folder, card)),
+    )
+
+
+def _is_code(name: str) -> bool:
+    """A Python file in one of the package's modules."""
+    top, slash, _ = name.partition("/")
+    return bool(slash) and name.endswith(".py") and top not in NOT_THE_PACKAGES_CODE
+
+
+def _read_setup(path: Path | None) -> tuple[code.Setup, list[str]]:
+    try:
+        return (code.read_setup(code.parse(path)) if path else code.Setup()), []
+    except code.NotPython as error:
+        return code.Setup(), [f"setup.py:{error}"]
+
+
+def _syntax_errors(python: dict[str, Path]) -> Iterator[str]:
+    for name, path in python.items():
+        try:
+            code.parse(path)
+        except code.NotPython as error:
+            yield f"{name}:{error}"
+
+
+def _imported(python: dict[str, Path], known: Collection[str], own: str) -> dict[str, str]:
+    """Each ROS package to the first place where it is imported."""
+    found: dict[str, str] = {}
+    for name, path in python.items():
+        try:
+            imports = sorted(code.imports(code.parse(path)), key=lambda pair: pair[1])
+        except code.NotPython:  # told as an error of syntax
+            continue
+        for package, line in imports:
+            if package in known and package != own:
+                found.setdefault(package, f"{name}:{line}")
+    return found
+
+
+def _missing(package: str, setup: code.Setup, found: dict[str, Path]) -> Iterator[str]:
+    """The files of every ament_python package that are not there."""
+    marker = next(iter(setup.markers), f"resource/{package}")
+    wanted = ("setup.py", "setup.cfg", marker, f"{package}/__init__.py")
+    return (name for name in dict.fromkeys(wanted) if name not in found)
+
+
+def _disagreements(wanted: str, named: str, setup: code.Setup, found: dict[str, Path]) -> list[str]:
+    """Where two files do not say the same name."""
+    problems = []
+    if named != wanted:
+        problems.append(f"package.xml says the name is {named}; the card says {wanted}")
+    if setup.name not in (None, named):
+        problems.append(f"setup.py says the name is {setup.name}; package.xml says {named}")
+    if "setup.cfg" in found:
+        problems += _setup_cfg_problems(found["setup.cfg"], wanted)
+    return problems
+
+
+def _setup_cfg_problems(path: Path, package: str) -> list[str]:
+    try:
+        folders = code.script_folders(path)
+    except (configparser.Error, UnicodeDecodeError) as error:
+        return [f"setup.cfg cannot be read: {str(error).splitlines()[0]}"]
+    wanted = f"$base/lib/{package}"
+    for section in ("develop", "install"):
+        said = folders.get(section)
+        if said is None:
+            return [f"setup.cfg has no folder for executables under [{section}]: {wanted}"]
+        if said.rstrip("/") != wanted:
+            return [f"setup.cfg says {said} under [{section}]; ROS looks into {wanted}"]
+    return []
+
+
+def _pictures(folder: Path, card: Card) -> Iterator[tuple[str, PictureSeen]]:
+    for contract in card.pictures:
+        seen = look_at(folder, contract)
+        if seen:
+            yield contract.path, seen

@@ -1,0 +1,160 @@
+"""Find the package that a student means by a path."""
+
+from __future__ import annotations
+
+import os
+import re
+import tarfile
+import zipfile
+from collections.abc import Iterator
+from contextlib import suppress
+from pathlib import Path
+
+from roslings.workspace.sources import BUILT, MADE
+from roslings.workspace.trouble import (
+    Archive,
+    NamedOtherwise,
+    NoPackage,
+    NoPackageXml,
+    NoSetupPy,
+    NoSuchPath,
+    NotAFolder,
+    TooManyFolders,
+    TwoPackages,
+    reading,
+)
+
+MOST_FOLDERS = 5_000
+DEEPEST = 8
+LEVELS_UP = 3
+IGNORE_MARKERS = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
+LARGEST_XML_BYTES = 1_000_000
+_NAME = re.compile(r"<name>\s*([^<>\s]+)\s*</name>")
+_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
+
+
+def find_package(path: Path, name: str) -> Path:
+    """The folder of the package `name`: `path` itself, a folder in it, or one around it.
+
+    `path` may be the package, a folder of it, its parent or a workspace with `src/`. Built
+    folders, hidden ones, virtual environments and those with COLCON_IGNORE are not searched.
+
+    Raises a WorkspaceError for a path that means no package, or more than one.
+    """
+    folder = _folder(path)
+    found = [(package_name(package), package) for package in packages_in(folder)]
+    if not found:
+        found = [(package_name(package), package) for package in _around(folder)]
+    package = _choose(folder, name, found)
+    if not (package / "setup.py").is_file():
+        raise NoSetupPy(package, has_cmake=(package / "CMakeLists.txt").is_file())
+    return package
+
+
+def packages_in(folder: Path) -> list[Path]:
+    """Every package under `folder`, as colcon would find it; links are followed once.
+
+    Raises TooManyFolders, and CannotRead where `folder` itself is closed to this user.
+    """
+    seen: set[Path] = set()
+    found: list[Path] = []
+    waiting = [(folder.resolve(), 0)]
+    while waiting:
+        here, depth = waiting.pop()
+        if here in seen:
+            continue
+        seen.add(here)
+        if len(seen) > MOST_FOLDERS:
+            raise TooManyFolders(folder, MOST_FOLDERS)
+        with reading(here) if depth == 0 else suppress(PermissionError):
+            if _is_package(here):
+                found.append(here)
+            elif depth < DEEPEST:
+                waiting += [(child, depth + 1) for child in _subfolders(here)]
+    return sorted(found)
+
+
+def _is_package(folder: Path) -> bool:
+    return (folder / "package.xml").is_file() and not _is_ignored(folder)
+
+
+def _subfolders(folder: Path) -> Iterator[Path]:
+    """The folders that colcon would look into."""
+    if _is_ignored(folder):
+        return
+    for child in sorted(folder.iterdir()):
+        if child.is_dir() and not _is_made(child):
+            yield child.resolve()
+
+
+def package_name(package: Path) -> str:
+    """The name in package.xml, else that of the folder. Reads invalid XML too."""
+    found = _NAME.search(xml_text(package / "package.xml"))
+    return found[1] if found else package.name
+
+
+def xml_text(path: Path) -> str:
+    """The text of a package.xml without its comments; what is no UTF-8 becomes a �."""
+    with reading(path), path.open("rb") as file:
+        start = file.read(LARGEST_XML_BYTES)
+    return _COMMENT.sub("", start.decode("utf-8", errors="replace"))
+
+
+def _folder(path: Path) -> Path:
+    path = Path(os.path.abspath(path.expanduser()))  # noqa: PTH100 - a link keeps its name
+    if not _exists(path):
+        raise NoSuchPath(path)
+    if path.is_dir():
+        return path
+    raise Archive(path) if _is_archive(path) else NotAFolder(path)
+
+
+def _exists(path: Path) -> bool:
+    """Whether there is something; a link that leads nowhere is nothing."""
+    with reading(path):
+        try:
+            path.stat()
+        except PermissionError:
+            raise
+        except (OSError, ValueError):  # gone, a loop of links, too long, a zero byte
+            return False
+    return True
+
+
+def _is_archive(path: Path) -> bool:
+    with reading(path):
+        return path.is_file() and (zipfile.is_zipfile(path) or tarfile.is_tarfile(path))
+
+
+def _is_ignored(folder: Path) -> bool:
+    return any((folder / marker).exists() for marker in IGNORE_MARKERS)
+
+
+def _is_made(folder: Path) -> bool:
+    name = folder.name
+    made = name.startswith(".") or name in BUILT or name in MADE
+    return made or (folder / "pyvenv.cfg").is_file()
+
+
+def _around(folder: Path) -> list[Path]:
+    """The package that `folder` is a part of, as a list of one or none."""
+    above = [folder, *folder.parents][: LEVELS_UP + 1]
+    return [part for part in above if (part / "package.xml").is_file()][:1]
+
+
+def _choose(folder: Path, name: str, found: list[tuple[str, Path]]) -> Path:
+    same = [package for found_name, package in found if found_name == name]
+    if len(same) == 1:
+        return same[0]
+    if same:
+        raise TwoPackages(name, same)
+    if found:
+        raise NamedOtherwise(name, found[:5])
+    raise _no_package(folder, name)
+
+
+def _no_package(folder: Path, name: str) -> NoPackage | NoPackageXml:
+    for place in (folder, folder / name, folder / "src" / name):
+        if (place / "setup.py").is_file():
+            return NoPackageXml(place)
+    return NoPackage(folder, name)

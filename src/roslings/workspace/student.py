@@ -1,0 +1,154 @@
+"""The student's workspace: where it is, and what goes into it and out of it.
+
+Nothing here changes a file that the student wrote.
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+
+from roslings.course import Lab
+from roslings.workspace.copying import copy_package
+from roslings.workspace.difference import changes_since
+from roslings.workspace.hand_in import Packed, default_zip, write_zip
+from roslings.workspace.packages import find_package, package_name, packages_in
+from roslings.workspace.sources import Limits, files
+from roslings.workspace.trouble import (
+    AlreadyThere,
+    NoWorkspace,
+    WorkspaceError,
+    quoted,
+    reading,
+    shown,
+)
+
+__all__ = [
+    "Packed",
+    "Started",
+    "diff",
+    "pack",
+    "package_of",
+    "stage",
+    "start",
+    "started_package",
+    "workspace_root",
+]
+
+VARIABLE = "ROSLINGS_WS"
+
+
+@dataclass(frozen=True)
+class Started:
+    """A starter that was put into the workspace."""
+
+    package: Path
+    files: int
+
+
+def workspace_root() -> Path:
+    """The student's colcon workspace: `ROSLINGS_WS`, else `~/roslings_ws`. It may not exist.
+
+    Raises WorkspaceError for a user without a home and without `ROSLINGS_WS`.
+    """
+    try:
+        return Path(os.environ.get(VARIABLE) or "~/roslings_ws").expanduser().absolute()
+    except RuntimeError:
+        raise WorkspaceError(
+            "There is no home folder for your workspace.",
+            f"Name a folder for it: export {VARIABLE}=/path/to/a/folder",
+        ) from None
+
+
+def package_of(lab: Lab, path: Path | None = None) -> Path:
+    """The student's package for a lab: the one that `path` means, else the workspace's.
+
+    Raises NoWorkspace, and what `find_package` raises.
+    """
+    if path is None and not workspace_root().exists():
+        raise NoWorkspace(workspace_root())
+    return find_package(path or workspace_root(), lab.card.package)
+
+
+def start(lab: Lab, workspace: Path | None = None) -> Started:
+    """Put the lab's starter into `src/` of the workspace; never over what is there.
+
+    Raises AlreadyThere, DiskFull, CannotWrite.
+    """
+    root = workspace or workspace_root()
+    package = root / "src" / lab.card.package
+    with reading(root):
+        standing = package if os.path.lexists(package) else started_package(lab, root)
+    if standing:
+        raise _already_started(lab, standing)
+    copy_package(lab.starter, package)
+    return Started(package, len(files(package)))
+
+
+def started_package(lab: Lab, workspace: Path | None = None) -> Path | None:
+    """Where the workspace has the lab's package, made by hand or by `start`; None where not."""
+    source = (workspace or workspace_root()) / "src"
+    if not source.is_dir():
+        return None
+    found = (package for package in packages_in(source))
+    return next((package for package in found if package_name(package) == lab.card.package), None)
+
+
+def diff(lab: Lab, path: Path | None = None) -> list[str]:
+    """What changed since the starter, as lines of a unified diff; empty where nothing did.
+
+    Raises what `package_of` raises.
+    """
+    return changes_since(lab.starter, package_of(lab, path))
+
+
+def pack(lab: Lab, out: Path | None = None, path: Path | None = None) -> Packed:
+    """Make the zip file to hand in: the package's sources and nothing else.
+
+    `out` is a file, or a folder for `LAB.zip`; without it, `LAB.zip` lies in the current folder.
+    An older zip of the same package is replaced, and the answer says so. Raises AlreadyThere
+    where something else has that name, and what `package_of` raises.
+    """
+    package = package_of(lab, path)
+    return write_zip(package, default_zip(lab.name, out))
+
+
+def stage(package: Path, into: Path, limits: Limits | None = None) -> Path:
+    """Copy a package's sources to the new folder `into`, to be built there; returns `into`.
+
+    Links that stay inside the package stay links. Raises LinkLeadsOutside, TooLarge, CannotRead,
+    AlreadyThere, DiskFull and CannotWrite.
+    """
+    return copy_package(package, into, limits)
+
+
+def _already_started(lab: Lab, standing: Path) -> AlreadyThere:
+    return AlreadyThere(
+        f"There is {_what_stands(lab, standing)} at {shown(standing)}. It stays as it is.",
+        f"Go on with it. What you changed since the starter: ./roslings diff {lab.name}\n"
+        f"For a fresh starter, move it away first: mv {quoted(standing)} {_aside(standing)}",
+    )
+
+
+def _what_stands(lab: Lab, standing: Path) -> str:
+    if not standing.is_dir():
+        return "a file"
+    if not (standing / "package.xml").is_file():
+        return "a folder without package.xml"
+    if not changes_since(lab.starter, standing):
+        return "the starter, without any change,"
+    return f"your package (last changed {_last_change(standing):%Y-%m-%d %H:%M})"
+
+
+def _last_change(package: Path) -> datetime:
+    stamps = (path.stat().st_mtime for path in files(package).values())
+    return datetime.fromtimestamp(max(stamps, default=package.stat().st_mtime))
+
+
+def _aside(standing: Path) -> str:
+    """A name outside src/, so that colcon does not find two packages; one that is free."""
+    outside = standing.parent.parent
+    names = (f"{standing.name}_old{number}" for number in ("", *range(2, 1000)))
+    return quoted(next(outside / name for name in names if not (outside / name).exists()))

@@ -1,0 +1,245 @@
+"""What can be wrong with the student's folders: one small type each, with its own next step."""
+
+from __future__ import annotations
+
+import errno
+import shlex
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+
+class WorkspaceError(Exception):
+    """Something about the student's files that the student can mend.
+
+    `problem` says what is, `next_step` what to do; both are whole sentences.
+    """
+
+    def __init__(self, problem: str, next_step: str) -> None:
+        self.problem, self.next_step = problem, next_step
+        super().__init__(f"{problem}\n{next_step}")
+
+
+class MachineTrouble(WorkspaceError):
+    """The disk or its permissions are in the way, not what the student wrote."""
+
+
+# --- which package is meant --------------------------------------------------------------------
+
+
+class NoSuchPath(WorkspaceError):
+    """The path does not exist."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(
+            f"There is no {shown(path)}.",
+            "Look at the spelling. Without a path, your workspace is checked.",
+        )
+
+
+class NoWorkspace(WorkspaceError):
+    """The workspace does not exist yet."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(
+            f"There is no workspace yet: {shown(path)}.",
+            "Make it with `./roslings start LAB`, for example `./roslings start topics`.",
+        )
+
+
+class NotAFolder(WorkspaceError):
+    """The path is a file."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(
+            f"{shown(path)} is a file, not a folder.",
+            "Give the folder of your package: the one with package.xml in it.",
+        )
+
+
+class Archive(WorkspaceError):
+    """The path is a zip or tar file."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(
+            f"{shown(path)} is a packed file, not a folder.",
+            "Unpack it, and give the folder that comes out.",
+        )
+
+
+class NoPackage(WorkspaceError):
+    """No package.xml under the path."""
+
+    def __init__(self, path: Path, name: str) -> None:
+        super().__init__(
+            f"There is no ROS package in {shown(path)}: no folder there has a package.xml.",
+            f"Give the folder of the package {name!r}, or get a starter with"
+            " `./roslings start LAB`.",
+        )
+
+
+class NoPackageXml(WorkspaceError):
+    """A folder that would be the package has no package.xml."""
+
+    def __init__(self, folder: Path) -> None:
+        super().__init__(
+            f"{shown(folder)} has no package.xml, so ROS does not see a package there.",
+            "Write package.xml, or get it from a new package: `ros2 pkg create` makes one.",
+        )
+
+
+class TwoPackages(WorkspaceError):
+    """Several folders hold a package of the same name."""
+
+    def __init__(self, name: str, folders: Iterable[Path]) -> None:
+        places = "\n".join(f"  {shown(folder)}" for folder in folders)
+        super().__init__(
+            f"There are several packages named {name!r}:\n{places}",
+            "Give the one that you mean as PATH. colcon builds none while there are two:\n"
+            "move the other one out of the workspace.",
+        )
+
+
+class NamedOtherwise(WorkspaceError):
+    """There are packages, but none of the name that the lab asks for."""
+
+    def __init__(self, wanted: str, found: Iterable[tuple[str, Path]]) -> None:
+        places = "\n".join(f"  {name!r} in {shown(folder)}" for name, folder in found)
+        super().__init__(
+            f"There is no package named {wanted!r} here, but there is:\n{places}",
+            "The name stands in package.xml, in the line <name>. It must be the one on the\n"
+            "lab's card. Mend it there, in setup.py, in setup.cfg and in resource/.",
+        )
+
+
+class NoSetupPy(WorkspaceError):
+    """The package has no setup.py, so it is no Python package."""
+
+    def __init__(self, folder: Path, has_cmake: bool) -> None:
+        kind = " It has CMakeLists.txt: it is a package for C++." if has_cmake else ""
+        super().__init__(
+            f"{shown(folder)} has no setup.py.{kind}",
+            "The lab asks for a Python package (ament_python), and those have a setup.py.\n"
+            "`ros2 pkg create --build-type ament_python NAME` makes one.",
+        )
+
+
+class TooManyFolders(WorkspaceError):
+    """The search for the package gave up."""
+
+    def __init__(self, path: Path, limit: int) -> None:
+        super().__init__(
+            f"{shown(path)} holds more than {limit:,} folders: too many to search.",
+            "Give the folder of your package as PATH.",
+        )
+
+
+# --- what is in a package ----------------------------------------------------------------------
+
+
+class LinkLeadsOutside(WorkspaceError):
+    """A symbolic link leaves the package."""
+
+    def __init__(self, link: Path, target: Path) -> None:
+        super().__init__(
+            f"{shown(link)} is a link to {shown(target)}, which is outside the package.",
+            "A package must hold its own files. Replace the link by a copy of the file.",
+        )
+
+
+class TooLarge(WorkspaceError):
+    """The package holds more than a package of a lab ever does."""
+
+    def __init__(self, folder: Path, largest: Path, size: str, limit: str) -> None:
+        super().__init__(
+            f"{shown(folder)} is too large: {size}. The limit is {limit}.",
+            f"Move what is not code out of it. The largest part is {shown(largest)}.",
+        )
+
+
+# --- what is in the way ------------------------------------------------------------------------
+
+
+class AlreadyThere(WorkspaceError):
+    """Something stands where a starter or a zip would go; it stays as it is."""
+
+
+class CannotRead(MachineTrouble):
+    """A file or folder that this user may not read."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(
+            f"{shown(path)} cannot be read: you do not have the permission.",
+            f"Look at who owns it: ls -ld {quoted(path)}\n"
+            "Never use sudo to build or edit: the files then belong to root.",
+        )
+
+
+class CannotWrite(MachineTrouble):
+    """A folder that this user may not write to."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(
+            f"{shown(path)} cannot be written: it is read-only, or it belongs to someone else.",
+            f"Look at who owns it: ls -ld {quoted(path.parent)}\n"
+            "Or choose another folder: the variable ROSLINGS_WS names your workspace.",
+        )
+
+
+class DiskFull(MachineTrouble):
+    """No room is left."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(
+            f"The disk is full: {shown(path)} could not be written. Nothing was changed.",
+            f"Make room, then try again. See how much there is: df -h {quoted(path.parent)}",
+        )
+
+
+_NO_ROOM = {errno.ENOSPC, errno.EDQUOT}
+_NOT_ALLOWED = {errno.EACCES, errno.EPERM, errno.EROFS}
+
+
+@contextmanager
+def writing(path: Path) -> Iterator[None]:
+    """A block that writes at `path`: what the system refuses is told in our words."""
+    try:
+        yield
+    except OSError as error:
+        if error.errno in _NO_ROOM:
+            raise DiskFull(path) from error
+        if error.errno in _NOT_ALLOWED:
+            raise CannotWrite(path) from error
+        if error.errno in {errno.ENOTDIR, errno.EEXIST}:
+            raise NotAFolder(_file_on_the_way(path)) from error
+        raise
+
+
+@contextmanager
+def reading(path: Path) -> Iterator[None]:
+    """A block that reads `path`: what the system refuses is told in our words."""
+    try:
+        yield
+    except PermissionError as error:
+        raise CannotRead(Path(error.filename or path)) from error
+
+
+def _file_on_the_way(path: Path) -> Path:
+    return next((part for part in path.parents if part.is_file()), path)
+
+
+def shown(path: Path) -> str:
+    """A path as the student writes it: with ~ for the own home."""
+    try:
+        home = Path.home()
+    except RuntimeError:  # a user without a home
+        return str(path)
+    return (
+        f"~/{path.relative_to(home)}" if path.is_relative_to(home) and path != home else str(path)
+    )
+
+
+def quoted(path: Path) -> str:
+    """A path as it must be typed in a command: quoted where it has spaces."""
+    name = shown(path)
+    return f"~/{shlex.quote(name[2:])}" if name.startswith("~/") else shlex.quote(name)
