@@ -85,10 +85,7 @@ def for_this_user(machine: Machine, finding: Finding) -> Finding:
     """Return the finding with mends that this user can type: root has, and needs, no sudo."""
     if machine.user != 0:
         return finding
-    steps = [
-        replace(step, command=re.sub(r"^sudo ", "", step.command, flags=re.M))
-        for step in finding.mend
-    ]
+    steps = [replace(step, command=re.sub(r"\bsudo ", "", step.command)) for step in finding.mend]
     return replace(finding, mend=tuple(steps))
 
 

@@ -40,7 +40,10 @@ SHORTEST = 3
 HOMES = re.compile(r"(/home/|/Users/|/mnt/[a-z]/Users/)(?!USER\b)[^/\s'\":]+")
 MAC = re.compile(r"\b(?:[0-9A-Fa-f]{2}:){5}[0-9A-Fa-f]{2}\b")
 IPV4 = re.compile(r"\b(?:\d{1,3}\.){3}\d{1,3}\b(?!/)")
-IPV6 = re.compile(r"(?<![\w:])(?:[0-9A-Fa-f]{0,4}:){2,7}[0-9A-Fa-f]{1,4}(?![\w:])")
+GROUPS = r"[0-9A-Fa-f]{1,4}(?::[0-9A-Fa-f]{1,4})*"
+IPV6 = re.compile(
+    rf"(?<![\w:])(?:(?:{GROUPS})?::(?:{GROUPS})?|(?:[0-9A-Fa-f]{{1,4}}:){{7}}[0-9A-Fa-f]{{1,4}})(?![\w:])"
+)
 EMAIL = re.compile(r"[\w.+-]+@[\w-]+(?:\.[\w-]+)+")
 NOT_SOMEONE = frozenset(("127.0.0.1", "0.0.0.0", "225.0.0.1"))
 

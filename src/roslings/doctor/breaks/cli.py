@@ -145,8 +145,12 @@ def task_lines(exercise: Exercise, folder: Path, roslings: Path) -> Iterator[str
         f"  2. {exercise.look_for}", WIDTH, subsequent_indent="     ", break_on_hyphens=False
     )
     yield "  3. Mend it. The doctor helps:"
-    where = "" if exercise.in_terminal else f" \\\n         --workspace {quoted(folder)}"
-    yield f"       {quoted(roslings)} doctor --only {' '.join(exercise.checks)}{where}"
+    doctor = f"       {quoted(roslings)} doctor --only {' '.join(exercise.checks)}"
+    if exercise.in_terminal:
+        yield doctor
+    else:
+        yield f"{doctor} \\"
+        yield f"         --workspace {quoted(folder)}"
     same = ", in the same terminal" if exercise.in_terminal else ""
     yield f"  4. Check your mend{same}:"
     yield f"       {quoted(roslings)} break {exercise.number} --check"

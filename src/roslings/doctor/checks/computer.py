@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import datetime
+import os
 
 from roslings.doctor.finding import (
     Finding,
@@ -162,10 +163,8 @@ def shared_memory(machine: Machine) -> Finding:
     """Nodes see each other, but no message arrives; 'Failed to create segment' is printed."""
     if not machine.linux:
         return not_applicable("only Linux has /dev/shm")
-    import os
-
     folder = machine.path("/dev/shm")
-    if not os.access(folder, os.W_OK):
+    if not os.access(folder, os.W_OK, effective_ids=os.access in os.supports_effective_ids):
         return fault(
             "You may not write to /dev/shm. Nodes on one machine exchange messages through it.",
             do("sudo mount -t tmpfs -o mode=1777 tmpfs /dev/shm"),

@@ -146,7 +146,13 @@ def _serial_mend(shown: str, port: Path, problem: int) -> Finding:
             f"{shown} does not open: {os.strerror(problem)}.",
             say("Pull the plug, wait for two seconds, and put it in again."),
         )
-    group = _group(port)
+    return _forbidden(shown, port)
+
+
+def _forbidden(shown: str, device: Path) -> Finding:
+    group = _group(device)
+    if group in ("", "root"):  # as a container shows a device of its host
+        return fault(f"You may not use {shown}.", do(f"sudo chmod a+rw {shown}"))
     return fault(
         f"You may not use {shown}. It belongs to the group {group}.",
         do(f'sudo usermod -aG {group} "$USER"', "Join that group:"),
@@ -155,12 +161,13 @@ def _serial_mend(shown: str, port: Path, problem: int) -> Finding:
 
 
 def _group(path: Path) -> str:
+    """Return the name of the group that owns a device, or "" where it has no name."""
     import grp
 
     try:
         return grp.getgrgid(path.stat().st_gid).gr_name
     except (KeyError, OSError):
-        return "dialout"
+        return ""
 
 
 def _holder(machine: Machine, device: Path) -> str:
@@ -196,11 +203,7 @@ def camera(machine: Machine) -> Finding:
         problem = open_problem(device)
         shown = f"/dev/{device.name}"
         if problem in (errno.EACCES, errno.EPERM):
-            return fault(
-                f"You may not use {shown}. It belongs to the group {_group(device)}.",
-                do(f'sudo usermod -aG {_group(device)} "$USER"', "Join that group:"),
-                say("Log out of the computer and log in again. Only then does it count."),
-            )
+            return _forbidden(shown, device)
         if problem == errno.EBUSY:
             return advice(f"{shown} is in use.", say("Close the program that shows its picture."))
     return ok(f"{len(devices)} video devices open." if len(devices) > 1 else f"{shown} opens.")
@@ -243,7 +246,8 @@ def pi_power(machine: Machine) -> Finding:
         return not_applicable("this is not a Raspberry Pi")
     heat = machine.read("/sys/class/thermal/thermal_zone0/temp").strip()
     celsius = int(heat) / 1000 if heat.isdigit() else 0.0
-    flags = _throttled(machine)
+    known = _throttled(machine)
+    flags = known or 0
     if flags & LOW_VOLTAGE:
         return warning("The power supply is too weak.", say("Use the supply made for your Pi."))
     if flags & SLOWED or celsius >= HOT_C:
@@ -251,7 +255,7 @@ def pi_power(machine: Machine) -> Finding:
             f"The Pi is hot ({celsius:.0f} C) and slows itself down.",
             say("Give it a fan or a heat sink, and take it out of a closed box."),
         )
-    if flags < 0:
+    if known is None:
         return unknown("vcgencmd did not answer: sudo apt install libraspberrypi-bin")
     return ok(f"{celsius:.0f} C, and the power is good.")
 
@@ -261,13 +265,13 @@ LOW_VOLTAGE = 1 << 0 | 1 << 16  # now, or since the start
 SLOWED = 1 << 1 | 1 << 2 | 1 << 3
 
 
-def _throttled(machine: Machine) -> int:
+def _throttled(machine: Machine) -> int | None:
     ran = machine.run("vcgencmd", "get_throttled")
     words = ran.output.strip().partition("=")[2] if ran and ran.code == 0 else ""
     try:
         return int(words, 16)
     except ValueError:
-        return -1
+        return None
 
 
 @check(

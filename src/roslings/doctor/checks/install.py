@@ -398,9 +398,10 @@ def environment(machine: Machine) -> Finding:
     """You change a file and nothing changes, or 'bad interpreter: No such file or directory'."""
     active = machine.env.get("VIRTUAL_ENV", "")
     own = machine.clone / ".venv"
+    ours = (own, machine.clone / ".venv-apt")
     if active and not exists(Path(active)):
         return fault(f"The active environment {active} is gone.", new_terminal())
-    if active and Path(active) != own and exists(Path(active).parent / "roslings"):
+    if active and Path(active) not in ours and exists(Path(active).parent / "roslings"):
         return fault(
             f"The active environment is that of another copy of the course: {active}.",
             do("deactivate"),

@@ -10,6 +10,7 @@ import os
 import random
 import secrets
 import select
+import signal
 import subprocess
 import sys
 import tempfile
@@ -156,5 +157,5 @@ def _end(running: Process) -> None:
     try:
         running.wait(ENDING_S)
     except subprocess.TimeoutExpired:
-        running.kill()
+        os.killpg(running.pid, signal.SIGKILL)
         running.wait()
