@@ -168,13 +168,13 @@ def test_listener_name(hearing: ExperimentView) -> None:
 
 @check(needs=["listener_runs"])
 def test_listener_topic(hearing: ExperimentView) -> None:
-    """The listener subscribes to {HEARD.topic}, and every usual talker reaches it."""
+    """The listener subscribes to {HEARD.topic} (name, type, QoS)."""
     hearing.subscription(LISTENER, HEARD).must(be_there, carry_its_type, match_qos)
 
 
 @check(needs=["listener_runs"])
 def test_hears(hearing: ExperimentView) -> None:
-    """The listener writes every sentence that somebody says on {HEARD.topic}."""
+    """The listener writes every sentence said on {HEARD.topic}."""
     hearing.process(LISTENER).must(repeat(LISTENER, hearing.seen.spoken))
 
 
@@ -183,7 +183,7 @@ def test_hears(hearing: ExperimentView) -> None:
 
 @check(needs=["talker_stays", "talker_type", "talker_qos", "listener_runs"])
 def test_together(together: ExperimentView) -> None:
-    """Together they are two nodes, joined by {CHATTER.topic}, and nothing else."""
+    """Together: two nodes, joined by {CHATTER.topic}, nothing else."""
     together.must(hold_just([TALKER, LISTENER], CHATTER))
 
 
@@ -203,5 +203,5 @@ def test_clean_exit(talking: ExperimentView, hearing: ExperimentView) -> None:
 
 @check()
 def test_figure(package: PackageView) -> None:
-    """A picture of the running graph lies in {FIGURE.path}."""
+    """A picture of the graph lies in {FIGURE.path}."""
     package.picture(FIGURE).must(be_a_picture)

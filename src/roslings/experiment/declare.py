@@ -21,6 +21,11 @@ class Experiment:
     function: Callable[..., None]
 
     @property
+    def about(self) -> str:
+        """The first line of its docstring, for the student to read while it runs."""
+        return (self.function.__doc__ or self.name).strip().splitlines()[0]
+
+    @property
     def needs(self) -> tuple[str, ...]:
         """The earlier experiments whose evidence it asks for."""
         code = self.function.__code__

@@ -40,16 +40,20 @@ def measure(
         stage(package, folder / "src" / seen.name)
         assignment.file.write_text(assignment.model_dump_json(), "utf-8")
         module = [sys.executable, "-m", "roslings.experiment.measuring", str(assignment.file)]
-        _follow(wall.command(module), folder / "stderr", on_step)
+        _follow(wall.command(module), folder, on_step)
         evidence = Evidence.model_validate_json(assignment.evidence.read_text("utf-8"))
     if wall.because:
         evidence.advice.append(f"Measured without a network of its own: {wall.because}.")
     return evidence
 
 
-def _follow(command: list[str], errors: Path, on_step: Callable[[str], None]) -> None:
-    """Run the measuring process to its end. Raises MeasuringFailed."""
-    with errors.open("wb") as stderr, _started(command, stderr.fileno()) as process:
+def _follow(command: list[str], folder: Path, on_step: Callable[[str], None]) -> None:
+    """Run the measuring process to its end, in the run's folder. Raises MeasuringFailed.
+
+    Not in the student's folder: a file `random.py` there would be imported in Python's place.
+    """
+    errors = folder / "stderr"
+    with errors.open("wb") as stderr, _started(command, folder, stderr.fileno()) as process:
         assert process.stdout is not None
         for line in process.stdout:
             on_step(line.rstrip())
@@ -60,7 +64,7 @@ def _follow(command: list[str], errors: Path, on_step: Callable[[str], None]) ->
 
 
 @contextmanager
-def _started(command: list[str], stderr: int) -> Iterator[subprocess.Popen[str]]:
+def _started(command: list[str], folder: Path, stderr: int) -> Iterator[subprocess.Popen[str]]:
     """A process that ends with the block, after it has ended all that it started.
 
     It has a session of its own: Ctrl-C in the terminal reaches the command alone, which then
@@ -68,6 +72,7 @@ def _started(command: list[str], stderr: int) -> Iterator[subprocess.Popen[str]]
     """
     with subprocess.Popen(
         command,
+        cwd=folder,
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         stderr=stderr,

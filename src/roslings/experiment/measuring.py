@@ -56,7 +56,7 @@ def measure_here(assignment: Assignment) -> Evidence:
     )
     if installed:
         for number, each in enumerate(experiments_of(load_grader(task.grader))):
-            say(f"Experiment: {each.name}")
+            say(f"Watching: {each.about}")
             earlier = [evidence.experiments[name] for name in each.needs]
             evidence.experiments[each.name] = run_experiment(
                 each, installed, assignment, task.card.ends_within_s, number, earlier

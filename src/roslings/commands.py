@@ -1,0 +1,259 @@
+"""What each command does: call the rooms in order, and print what they return."""
+
+from __future__ import annotations
+
+import argparse
+import random
+import subprocess
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+from roslings import course
+from roslings.cli import EXIT_OF_OUTCOME, FAILED, INCONCLUSIVE, OK, WRONG_USE
+from roslings.course import CourseError, Lab
+from roslings.report import BadVerdictFile, CannotWrite, NoSuchCheck
+from roslings.verdict import Verdict
+from roslings.workspace.progress import LabStatus, Step
+from roslings.workspace.student import package_of, workspace_root
+from roslings.workspace.trouble import MachineTrouble, WorkspaceError, shown
+
+SEEDS = 10**9
+
+
+def exit_code_of(error: Exception) -> int | None:
+    """The exit code for what went wrong; None for what nobody expected."""
+    from roslings.arena import NoFreeDomain
+    from roslings.experiment import MeasuringFailed
+
+    if isinstance(error, MeasuringFailed | NoFreeDomain | MachineTrouble | CannotWrite):
+        return INCONCLUSIVE
+    if isinstance(error, WorkspaceError | CourseError | NoSuchCheck | BadVerdictFile):
+        return WRONG_USE
+    if isinstance(error, FileExistsError | NotADirectoryError):
+        return WRONG_USE
+    return None
+
+
+# --- check -------------------------------------------------------------------------------------
+
+
+def check(options: argparse.Namespace) -> int:
+    """Run what the student built, and say what to do next."""
+    lab = course.lab(options.lab)
+    if options.hint and not options.solution and _kept(lab).is_file():
+        return _show(_read(_kept(lab)), options)
+    package = lab.solution if options.solution else package_of(lab, options.path)
+    verdict = grade(lab, package, options.seed, quiet=_is_stdout(options.json))
+    if not options.solution:
+        _keep(lab, verdict)
+    return _show(verdict, options)
+
+
+def grade(lab: Lab, package: Path, seed: int | None = None, quiet: bool = False) -> Verdict:
+    """Measure a package and judge what was seen, telling each step as it comes."""
+    from roslings.experiment import measure
+    from roslings.judge import judge
+    from roslings.report import Progress
+    from roslings.workspace.inspect import inspect_package
+
+    began_s = time.monotonic()
+    with Progress(quiet=quiet) as progress:
+        progress.step(f"Reading {shown(package)}")
+        files = inspect_package(package, lab.card)
+        chosen = random.SystemRandom().randrange(SEEDS) if seed is None else seed
+        evidence = measure(lab.name, package, files, chosen, progress.step)
+        progress.step("Judging what was seen")
+        return judge(lab, evidence, time.monotonic() - began_s)
+
+
+def _show(verdict: Verdict, options: argparse.Namespace) -> int:
+    from rich.console import Console
+
+    from roslings.report import print_verdict, write_json
+
+    if options.json:
+        write_json(verdict, options.json)
+    if not _is_stdout(options.json):
+        print_verdict(verdict, console=Console(), hint_step=options.hint, only=options.only)
+    return EXIT_OF_OUTCOME[verdict.outcome]
+
+
+def _is_stdout(path: Path | None) -> bool:
+    return str(path) == "-"
+
+
+def _kept(lab: Lab) -> Path:
+    """Where the last verdict lies, for `--hint`."""
+    return workspace_root() / ".roslings" / f"verdict-{lab.name}.json"
+
+
+def _read(path: Path) -> Verdict:
+    from roslings.report import read_json
+
+    return read_json(path)
+
+
+def _keep(lab: Lab, verdict: Verdict) -> None:
+    """Keep score and verdict; a workspace that cannot be written does not hide the verdict."""
+    from roslings.report import write_json
+    from roslings.workspace.progress import record
+
+    if not workspace_root().is_dir():
+        return
+    try:
+        record(verdict)
+        write_json(verdict, _kept(lab))
+    except (WorkspaceError, CannotWrite) as error:
+        print(f"roslings: the score was not kept. {error}", file=sys.stderr)
+
+
+def watch(options: argparse.Namespace) -> int:
+    """Check now, and again at every save, until Ctrl-C."""
+    from roslings.workspace.watch import changes
+
+    lab = course.lab(options.lab)
+    folder = package_of(lab, options.path)
+    _check_again(options)
+    print("\nWatching. Save a file to check again; Ctrl-C ends it.", flush=True)
+    for saved in changes(folder):
+        print(f"\nSaved: {_names(saved, folder)}", flush=True)
+        _check_again(options)
+        print("\nWatching. Save a file to check again; Ctrl-C ends it.", flush=True)
+    return OK
+
+
+def _check_again(options: argparse.Namespace) -> None:
+    """One check; what is wrong with the package now may be right at the next save."""
+    from roslings.cli import explain
+
+    try:
+        check(options)
+    except Exception as error:
+        explain(error)
+
+
+def _names(saved: frozenset[Path], folder: Path) -> str:
+    inside = (path for path in saved if path != folder.resolve())
+    names = sorted(str(path.relative_to(folder.resolve())) for path in inside)
+    return ", ".join(names[:3]) or "the package"
+
+
+# --- the workspace -----------------------------------------------------------------------------
+
+
+def start(options: argparse.Namespace) -> int:
+    """Put a lab's starter into the workspace."""
+    from roslings.workspace.student import start as put
+
+    lab = course.lab(options.lab)
+    started = put(lab)
+    print(f"The starter of {lab.name!r} is in {shown(started.package)} ({started.files} files).")
+    print(f"Read the task: {_from_here(lab.task)}")
+    print(f"Then check what you built: ./roslings check {lab.name}")
+    return OK
+
+
+def _from_here(path: Path) -> str:
+    here = Path.cwd()
+    return str(path.relative_to(here)) if path.is_relative_to(here) else shown(path)
+
+
+def diff(options: argparse.Namespace) -> int:
+    """Show what changed since the starter."""
+    from roslings.report.safe_text import harmless
+    from roslings.workspace.student import diff as changes
+
+    lines = changes(course.lab(options.lab))
+    for line in lines:
+        print(harmless(line.rstrip("\n")))
+    if not lines:
+        print("Nothing is changed: this is the starter.")
+    return OK
+
+
+def pack(options: argparse.Namespace) -> int:
+    """Make the zip to hand in."""
+    from roslings.workspace.student import pack as zip_it
+
+    packed = zip_it(course.lab(options.lab), options.out, options.path)
+    verb = "Replaced" if packed.replaced else "Made"
+    print(f"{verb} {shown(packed.path)}: {len(packed.files)} files, {packed.size_bytes:,} bytes.")
+    print("Hand in this one file.")
+    return OK
+
+
+def status(options: argparse.Namespace) -> int:
+    """Show days and labs done."""
+    from roslings.workspace import progress
+
+    labs = progress.status()
+    for day, done in progress.days_done(labs).items():
+        print(f"{'done' if done else 'open':5} {day}")
+        for each in (each for each in labs if each.lab.card.day == day):
+            print(f"      {each.lab.name:12} {_how_far(each)}")
+    return OK
+
+
+def _how_far(each: LabStatus) -> str:
+    if not each.progress.checks:
+        return "begun, not yet checked" if each.package else "not begun"
+    best = f"best {each.progress.best:g} of 100, last {each.progress.last:g}"
+    return f"done ({best})" if each.progress.done else best
+
+
+def today(options: argparse.Namespace) -> int:
+    """Say what is next."""
+    from roslings.workspace import progress
+
+    next_step = progress.today()
+    if next_step.at is None:
+        print("All labs are done. See them all: ./roslings status")
+        return OK
+    lab = next_step.at.lab
+    print(f"Day {lab.card.day}: {lab.card.title}  ({_how_far(next_step.at)})")
+    verb = "start" if next_step.step is Step.START else "check"
+    print(f"Next: ./roslings {verb} {lab.name}")
+    print(f"The task: {_from_here(lab.task)}")
+    print("All commands: ./roslings --help")
+    return OK
+
+
+# --- the graph ---------------------------------------------------------------------------------
+
+
+def graph(options: argparse.Namespace) -> int:
+    """Show the running graph, or save a picture of it."""
+    from roslings.probe import live_graph
+    from roslings.report import draw_graph, graph_text
+    from roslings.report.graph_picture import NotAPng
+
+    if options.save and options.save.exists() and not options.force:
+        print(f"roslings: {options.save} is there already. Nothing was changed.", file=sys.stderr)
+        print("To replace it, add --force.", file=sys.stderr)
+        return WRONG_USE
+    seen = live_graph()
+    print(graph_text(seen, show_hidden=options.all))
+    if options.save:
+        try:
+            draw_graph(seen, options.save, show_hidden=options.all, overwrite=options.force)
+        except NotAPng as error:
+            print(f"roslings: {error}", file=sys.stderr)
+            return WRONG_USE
+        print(f"\nSaved {options.save}")
+    return OK if seen.nodes else FAILED
+
+
+# --- the tests ---------------------------------------------------------------------------------
+
+
+def test(options: argparse.Namespace) -> int:
+    """Run the tests of roslings; what follows `test` goes to pytest."""
+    return run_pytest(options.rest)
+
+
+def run_pytest(rest: Sequence[str]) -> int:
+    """Run pytest in the course's folder, on both cores."""
+    command = [sys.executable, "-m", "pytest", *rest]
+    return subprocess.run(command, cwd=course.root(), check=False).returncode
