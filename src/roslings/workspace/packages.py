@@ -27,7 +27,7 @@ from roslings.workspace.trouble import (
 MOST_FOLDERS = 5_000
 DEEPEST = 8
 LEVELS_UP = 3
-IGNORE_MARKERS = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
+IGNORE_MARKERS = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE", "pyvenv.cfg")
 LARGEST_XML_BYTES = 1_000_000
 _NAME = re.compile(r"<name>\s*([^<>\s]+)\s*</name>")
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
@@ -131,9 +131,7 @@ def _is_ignored(folder: Path) -> bool:
 
 
 def _is_made(folder: Path) -> bool:
-    name = folder.name
-    made = name.startswith(".") or name in BUILT or name in MADE
-    return made or (folder / "pyvenv.cfg").is_file()
+    return folder.name.startswith(".") or folder.name in BUILT or folder.name in MADE
 
 
 def _around(folder: Path) -> list[Path]:

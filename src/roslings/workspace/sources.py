@@ -86,7 +86,9 @@ def _from_entry(entry: os.DirEntry[str], root: Path) -> Iterator[Source]:
     if entry.is_symlink():
         yield from _from_link(path, root)
     elif entry.is_dir():
-        if not is_made(path, top=path.parent == root):
+        with reading(path):
+            made = is_made(path, top=path.parent == root)
+        if not made:
             yield Source(path, path.relative_to(root))
             yield from _in_folder(path, root)
     elif entry.is_file() and not _is_made_file(entry.name):

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import re
 import time
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from watchfiles import BaseFilter, Change, watch
@@ -54,53 +56,59 @@ def changes(folder: Path, stop: Callable[[], bool] = lambda: False) -> Iterator[
 
 
 def _changes(folder: Path, stop: Callable[[], bool]) -> Iterator[frozenset[Path]]:
-    while not stop():
-        identity = _identity(folder)
-        if identity is None:
-            time.sleep(STEP_MS / 1000)
-            continue
-        yield from _while_it_stays(folder, identity, stop)
-        if not stop() and _back(folder, stop):
+    while _is_back(folder, stop):
+        with _held(folder) as is_still_there:
+            for found in _watch(folder):
+                if stop() or not is_still_there():
+                    break
+                if found:
+                    yield frozenset(Path(path) for _, path in found)
+        if _is_back(folder, stop):
             yield frozenset({folder})
 
 
-def _while_it_stays(
-    folder: Path, identity: int, stop: Callable[[], bool]
-) -> Iterator[frozenset[Path]]:
-    """Saves under `folder`, as long as it is the folder that it was."""
-    try:
-        for found in _watch(folder):
-            if stop() or _identity(folder) != identity:
-                return
-            if found:
-                yield frozenset(Path(path) for _, path in found)
-    except FileNotFoundError:  # gone before the watch began
-        return
-
-
 def _watch(folder: Path) -> Iterator[set[tuple[Change, str]]]:
-    return watch(
-        folder,
-        watch_filter=Saves(folder),
-        debounce=SETTLED_MS,
-        step=STEP_MS,
-        rust_timeout=LOOK_AGAIN_MS,
-        yield_on_timeout=True,
-    )
+    """Changes, and an empty set each second; ends at once where the folder is gone."""
+    with suppress(FileNotFoundError):
+        yield from watch(
+            folder,
+            watch_filter=Saves(folder),
+            debounce=SETTLED_MS,
+            step=STEP_MS,
+            rust_timeout=LOOK_AGAIN_MS,
+            yield_on_timeout=True,
+        )
 
 
-def _identity(folder: Path) -> int | None:
-    """What tells this folder from a later one of the same name; None while there is none."""
+@contextmanager
+def _held(folder: Path) -> Iterator[Callable[[], bool]]:
+    """A function that tells whether the path still means the folder that it means now.
+
+    The folder is held open meanwhile: otherwise a new one could get the number of the old.
+    """
     try:
-        return folder.stat().st_ino
+        held = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+    except FileNotFoundError:
+        yield lambda: False
+        return
+    try:
+        yield lambda: _identity(folder) == _identity(held)
+    finally:
+        os.close(held)
+
+
+def _identity(folder: Path | int) -> tuple[int, int] | None:
+    try:
+        found = os.stat(folder)  # noqa: PTH116 - of a path or of an open folder
     except OSError:
         return None
+    return found.st_dev, found.st_ino
 
 
-def _back(folder: Path, stop: Callable[[], bool]) -> bool:
-    """Wait until there is a folder again; False where the wait was ended."""
-    while _identity(folder) is None:
-        if stop():
-            return False
+def _is_back(folder: Path, stop: Callable[[], bool]) -> bool:
+    """Wait until the folder is there; False where the wait was ended."""
+    while not stop():
+        if folder.is_dir():
+            return True
         time.sleep(STEP_MS / 1000)
-    return True
+    return False
