@@ -4,5 +4,5 @@ The script `./roslings` runs this folder when the environment is missing, stale 
 
     python src/roslings/bootstrap ready COMMAND GROUP...   make the environment ready
     python src/roslings/bootstrap wheels DIR [GROUP...]    fill a folder with wheels
-    python src/roslings/bootstrap pins                     write constraints.txt and sizes.json again
+    python src/roslings/bootstrap pins                     write the pins and sizes again
 """

@@ -5,7 +5,10 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from roslings.bootstrap.environment import Wish, make_ready
+from roslings.bootstrap.pins import write_pins
+from roslings.bootstrap.place import Place
 from roslings.bootstrap.trouble import Trouble, say
+from roslings.bootstrap.wheels import fill
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -26,6 +29,10 @@ def _run(words: Sequence[str]) -> int:
     verb, *rest = words
     if verb == "ready":
         make_ready(ROOT, Wish(command=rest[0], groups=tuple(rest[1:])))
+    elif verb == "wheels":
+        fill(Place(ROOT), rest)
+    elif verb == "pins":
+        write_pins(Place(ROOT), upgrade="--upgrade" in rest)
     return 0
 
 

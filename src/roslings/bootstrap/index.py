@@ -71,7 +71,7 @@ def _settings_of(file: Path) -> Iterator[tuple[str, str]]:
 
 
 def _files() -> list[Path]:
-    home = Path(os.path.expanduser("~"))
+    home = Path(os.path.expanduser("~"))  # noqa: PTH111 - Path raises without a home
     config = Path(os.environ.get("XDG_CONFIG_HOME") or home / ".config")
     named = os.environ.get("PIP_CONFIG_FILE")
     return [

@@ -1,8 +1,8 @@
 """Packages into an environment, in three steps, so that a broken download leaves it as it was.
 
-    plan     which packages are missing (asks the index, changes nothing)
-    fetch    their wheels into a folder (changes nothing in the environment)
-    install  from that folder, with no network; the environment counts as unfinished meanwhile
+plan     which packages are missing (asks the index, changes nothing)
+fetch    their wheels into a folder (changes nothing in the environment)
+install  from that folder, with no network; the environment counts as unfinished meanwhile
 """
 
 import json
@@ -52,15 +52,15 @@ class Installer:
         seed = self.virtual.site / "pip"
         if not seed.is_dir():
             seed = find_seed(python, scratch)
-        first = replace(self._pip(), command=(python, str(seed)))
+        first = replace(self.pip(), command=(python, str(seed)))
         words = [f"{name}=={version}" for name, version in pins.items()]
-        _drain(first, ["install", "--ignore-installed", "--no-deps", *words], self.place.root)
+        drain(first, ["install", "--ignore-installed", "--no-deps", *words], self.place.root)
 
     def missing(self, groups: Sequence[str]) -> list[str]:
         """The packages (`name==version`) that `groups` still need."""
         report = self.virtual.folder / "plan.json"
-        words = ["install", "--dry-run", "--report", str(report), *self._wanted(groups)]
-        _drain(self._pip(), words, self.place.root)
+        words = ["install", "--dry-run", "--report", str(report), *wanted(self.place, groups)]
+        drain(self.pip(), words, self.place.root)
         plan = json.loads(report.read_text(encoding="utf-8"))
         report.unlink()
         return [_pin(item["metadata"]) for item in plan["install"]]
@@ -71,28 +71,25 @@ class Installer:
             return self.wheels
         folder = self.virtual.folder / "wheels"
         words = ["wheel", "--no-deps", "--no-build-isolation", "--progress-bar=raw"]
-        lines = self._pip().run(*words, "-w", str(folder), *packages, cwd=self.place.root)
+        lines = self.pip().run(*words, "-w", str(folder), *packages, cwd=self.place.root)
         DownloadLine(total_mb).follow(lines)
         return folder
 
     def install(self, packages: Sequence[str], wheels: Path) -> None:
         """Puts `packages` into the environment; a folder of our own is then removed."""
-        pip = replace(self._pip(), wheels=wheels)
-        _drain(pip, ["install", "--no-deps", *packages], self.place.root)
+        pip = replace(self.pip(), wheels=wheels)
+        drain(pip, ["install", "--no-deps", *packages], self.place.root)
         if wheels != self.wheels:
             shutil.rmtree(wheels, ignore_errors=True)
             shutil.rmtree(self.place.cache, ignore_errors=True)
 
     def libraries(self) -> list[Path]:
-        """What the ROS wheels add to LD_LIBRARY_PATH: the same folders that they find themselves."""
+        """What the ROS wheels add to LD_LIBRARY_PATH: the folders that they find themselves."""
         own = sorted(self.virtual.site.glob("ros_*.libs"))
         return [self.virtual.folder / "lib", *own] if own else []
 
-    def _wanted(self, groups: Sequence[str]) -> list[str]:
-        named = [word for group in groups for word in ("--group", group)]
-        return ["--no-build-isolation", "-c", str(self.place.constraints), *named]
-
-    def _pip(self) -> Pip:
+    def pip(self) -> Pip:
+        """The environment's own pip."""
         return Pip(
             command=(str(self.virtual.python), "-m", "pip"),
             log=self.virtual.folder / "pip.log",
@@ -100,6 +97,12 @@ class Installer:
             wheels=self.wheels,
             sees_path=self.sees_path,
         )
+
+
+def wanted(place: Place, groups: Sequence[str]) -> list[str]:
+    """What pip calls `groups` of the course, as they are pinned."""
+    named = [word for group in groups for word in ("--group", group)]
+    return ["--no-build-isolation", "-c", str(place.constraints), *named]
 
 
 def pinned(constraints: Path, names: Sequence[str]) -> dict[str, str]:
@@ -112,11 +115,14 @@ def pinned(constraints: Path, names: Sequence[str]) -> dict[str, str]:
     found = {name: re.search(rf"^{name}==([^\s;]+)\s*$", text, re.MULTILINE) for name in names}
     for name, match in found.items():
         if not match:
-            raise Trouble(f"constraints.txt does not pin {name}.", "Write it again: ./roslings pins")
+            raise Trouble(
+                f"constraints.txt does not pin {name}.", "Write it again: ./roslings pins"
+            )
     return {name: match[1] for name, match in found.items() if match}
 
 
-def _drain(pip: Pip, words: Sequence[str], cwd: Path) -> None:
+def drain(pip: Pip, words: Sequence[str], cwd: Path) -> None:
+    """Runs `pip words...` to its end."""
     for _ in pip.run(*words, cwd=cwd):
         pass
 

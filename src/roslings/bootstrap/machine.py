@@ -74,7 +74,9 @@ def _named(system: str) -> str:
 
 def _require_libc(glibc: tuple[int, ...]) -> None:
     if not glibc:
-        raise Trouble("The ROS wheels need glibc, and this Linux has another C library.", _CONTAINER)
+        raise Trouble(
+            "The ROS wheels need glibc, and this Linux has another C library.", _CONTAINER
+        )
     if glibc < OLDEST_GLIBC:
         raise Trouble(
             f"The ROS wheels need glibc {_dotted(OLDEST_GLIBC)} or newer, and this Linux has "

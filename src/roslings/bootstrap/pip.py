@@ -90,7 +90,7 @@ class _Ended(subprocess.Popen[str]):
 
 
 def _started(command: Sequence[str], cwd: Path, environment: dict[str, str]) -> _Ended:
-    """pip keeps our open lock, so that nothing else changes the environment while it still works."""
+    """pip keeps our lock open, so that nothing else changes the environment while it works."""
     return _Ended(
         command,
         cwd=cwd,
@@ -123,4 +123,3 @@ def _unreachable() -> Trouble:
 def _last_error(output: str) -> str:
     errors = [line for line in output.splitlines() if line.startswith("ERROR:")]
     return errors[-1] if errors else ""
-

@@ -4,12 +4,12 @@ A seed is a pip that any Python can run from where it lies: the wheel itself, or
 installed pip. It is used once, to put the pinned pip into the environment. The ways to one, in
 order, from what is at hand to what must be fetched:
 
-    1. ROSLINGS_WHEELS            4. another Python of this machine
-    2. the Python's own ensurepip 5. an index that pip is configured for
-    3. the Python's own pip       6. apt's python3-pip-whl, unpacked without root
+    1. ROSLINGS_WHEELS             5. uv
+    2. the Python's own ensurepip  6. an index that pip is configured for
+    3. the Python's own pip        7. apt's python3-pip-whl, unpacked without root
+    4. another Python of this machine
 """
 
-import glob
 import os
 import shutil
 import subprocess
@@ -56,7 +56,7 @@ def _ways(python: str, scratch: Path) -> list[Callable[[], Iterator[Path]]]:
     return [
         _from_folder,
         lambda: _from_python(python),
-        _from_other_pythons,
+        _fromother_pythons,
         lambda: wheel_from_index(scratch),
         lambda: _from_apt(scratch),
     ]
@@ -93,29 +93,43 @@ def _from_python(python: str) -> Iterator[Path]:
     yield from map(Path, done.stdout.split("\n")[:-1])
 
 
-def _from_other_pythons() -> Iterator[Path]:
-    for python in _other_pythons():
+def _fromother_pythons() -> Iterator[Path]:
+    for python in other_pythons("python3*"):
         yield from _from_python(python)
 
 
-def _other_pythons() -> list[str]:
-    """Every Python on PATH, and those of version managers; each real file once."""
-    home = os.environ.get("PYENV_ROOT") or os.path.expanduser("~/.pyenv")
-    folders = [*os.get_exec_path(), "/usr/bin", "/usr/local/bin", f"{home}/versions/*/bin"]
-    found = [p for folder in folders for p in glob.glob(f"{folder}/python3*") if _program(p)]
-    return list({os.path.realpath(path): path for path in found})
+def other_pythons(name: str) -> list[str]:
+    """Every Python called `name` on PATH, and those of version managers; each real file once."""
+    versions = Path(os.environ.get("PYENV_ROOT") or "~/.pyenv") / "versions"
+    folders = [Path(folder) for folder in os.get_exec_path() if folder]
+    folders += [Path("/usr/bin"), Path("/usr/local/bin"), *_matching(versions, "*/bin")]
+    found = [python for folder in folders for python in _matching(folder, name)]
+    return list({python.resolve(): str(python) for python in found if _program(python)}.values())
 
 
-def _program(path: str) -> bool:
-    end = os.path.basename(path).removeprefix("python3")
+def _matching(folder: Path, pattern: str) -> list[Path]:
+    try:
+        return sorted(folder.expanduser().glob(pattern))
+    except (OSError, RuntimeError):  # unreadable, or "~" without a home
+        return []
+
+
+def _program(python: Path) -> bool:
+    end = python.name.removeprefix("python3")
     return end.lstrip(".").isdigit() or not end
+
+
+def _from_uv(python: str, scratch: Path) -> Iterator[Path]:
+    uv = shutil.which("uv")
+    command = ["pip", "install", "--python", python, "--target", str(scratch), "pip"]
+    if uv and _quietly([uv, *command], scratch):
+        yield scratch / "pip"
 
 
 def _from_apt(scratch: Path) -> Iterator[Path]:
     """`apt-get download` and `dpkg-deb -x` need no root."""
     if not (shutil.which("apt-get") and shutil.which("dpkg-deb")):
         return
-    scratch.mkdir(parents=True, exist_ok=True)
     if not _quietly(["apt-get", "download", "python3-pip-whl"], scratch):
         return
     for package in scratch.glob("python3-pip-whl*.deb"):
@@ -125,6 +139,7 @@ def _from_apt(scratch: Path) -> Iterator[Path]:
 
 
 def _quietly(command: list[str], folder: Path) -> bool:
+    folder.mkdir(parents=True, exist_ok=True)
     done = subprocess.run(
         command, cwd=folder, capture_output=True, stdin=subprocess.DEVNULL, check=False
     )

@@ -1,0 +1,79 @@
+"""`./roslings wheels DIR [GROUP...]`: a folder that sets roslings up where there is no network."""
+
+import sys
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+
+from roslings.bootstrap import groups, sizes
+from roslings.bootstrap.installing import TOOLS, Installer, pinned, wanted
+from roslings.bootstrap.machine import require_wheels, this_machine
+from roslings.bootstrap.place import Place
+from roslings.bootstrap.progress import DownloadLine
+from roslings.bootstrap.seeds import interpreter
+from roslings.bootstrap.trouble import Trouble, say
+from roslings.bootstrap.virtual import Virtual
+
+
+def fill(place: Place, words: Sequence[str]) -> None:
+    """Puts the wheels of the named groups (of all, where none is named) for this Python into DIR.
+
+    Raises:
+        Trouble: no such group, no such folder, or the wheels do not come.
+    """
+    folder = _folder(words)
+    chosen = _chosen(words[1:], groups.names(place.pyproject))
+    require_wheels(this_machine())
+    with tempfile.TemporaryDirectory(prefix="roslings-") as scratch:
+        _fetch(_installer(place, Path(scratch).resolve() / "venv"), folder, chosen)
+    _tell(folder)
+
+
+def _folder(words: Sequence[str]) -> Path:
+    if not words or words[0].startswith("-"):
+        raise Trouble(
+            "`wheels` needs a folder to put the wheels in.",
+            "For instance: ./roslings wheels /media/usb/roslings-wheels",
+        )
+    folder = Path(words[0]).absolute()
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise Trouble(
+            f"The folder {folder} cannot be made: {error.strerror}.", "Name another folder."
+        ) from None
+    return folder
+
+
+def _chosen(named: Sequence[str], known: Sequence[str]) -> Sequence[str]:
+    for name in named:
+        if name not in known:
+            raise Trouble(f"There is no group `{name}`.", f"The groups are: {', '.join(known)}")
+    return named or known
+
+
+def _installer(place: Place, scratch: Path) -> Installer:
+    virtual = Virtual(scratch)
+    virtual.make(interpreter(), sees_system=False)
+    return Installer(place, virtual, wheels=None)
+
+
+def _fetch(installer: Installer, folder: Path, chosen: Sequence[str]) -> None:
+    total_mb = sizes.megabytes(sys.version_info[:2], chosen)
+    if total_mb is not None:
+        say(f"Up to {total_mb:.0f} MB come from the network. Interrupted, they go on next time.")
+    installer.require_tools()
+    pins = pinned(installer.place.constraints, TOOLS)
+    tools = [f"{name}=={version}" for name, version in pins.items()]
+    words = ["wheel", "--progress-bar=raw", "-w", str(folder), *tools]
+    lines = installer.pip().run(*words, *wanted(installer.place, chosen), cwd=installer.place.root)
+    DownloadLine(total_mb).follow(lines)
+
+
+def _tell(folder: Path) -> None:
+    files = list(folder.glob("*.whl"))
+    mb = sum(file.stat().st_size for file in files) / 1e6
+    version = f"{sys.version_info.major}.{sys.version_info.minor}"
+    say(f"{folder} holds {len(files)} wheels ({mb:.0f} MB), for Python {version}.")
+    say(f"Use it with: ROSLINGS_WHEELS={folder} ./roslings check LAB")
+    say(f"Another Python: ROSLINGS_PYTHON=python3.X ./roslings wheels {folder}")
