@@ -46,6 +46,7 @@ def test_well_talk(machine: Machine) -> None:
 
 
 def test_without_ros_there_is_no_talk(clinic: Clinic) -> None:
+    assert_absent(clinic.look("qos"))
     assert_absent(clinic.no_ros().look("talk"))
     assert_absent(clinic.look("qos"))
 
@@ -119,20 +120,11 @@ def node(ros: Ros, machine: Machine, kind: str, logs: Path) -> Iterator[None]:
         running.stdout.close()
 
 
-def seen(machine: Machine, wanted: Status) -> Finding:
-    """Look until discovery has let the observer see what is there, at most ten times."""
-    for _ in range(10):
-        found = look(machine, "qos")
-        if found.status == wanted:
-            break
-    return found
-
-
 @with_ros
 def test_ill_qos(machine: Machine, tmp_path: Path) -> None:
     assert ROS is not None
     with node(ROS, machine, "talker", tmp_path), node(ROS, machine, "listener", tmp_path):
-        finding = seen(machine, Status.WARNING)
+        finding = look(machine, "qos")
     assert_ill(finding, "warning", "On /scan, eager_listener cannot hear eager_talker", "sensor")
 
 
@@ -144,6 +136,7 @@ def test_well_qos(machine: Machine, tmp_path: Path) -> None:
 
 
 def test_an_observer_that_fails_is_not_guessed(clinic: Clinic) -> None:
+    hold_ports(clinic, 7410)
     clinic.program("python", "exit 1", folder="/course/.venv/bin")
     assert clinic.look("qos").status == Status.UNKNOWN
 
@@ -176,9 +169,20 @@ def test_the_leash_ends_a_program_that_does_not_want_to_end(clinic: Clinic) -> N
     assert running.returncode == -9
 
 
-def test_a_free_domain_is_not_one_in_use(clinic: Clinic) -> None:
-    """Ports of domain 1 to 100 are taken, so 101 is left."""
-    ports = [7400 + 250 * domain for domain in range(1, 101)]
+def hold_ports(clinic: Clinic, *ports: int) -> None:
     lines = [f"  1: 00000000:{port:04X} 00000000:0000 07" for port in ports]
     clinic.file("/proc/net/udp", "\n".join(["  sl  local_address", *lines, ""]))
+
+
+def test_a_free_domain_is_not_one_in_use(clinic: Clinic) -> None:
+    """Ports of domain 1 to 100 are taken, so 101 is left."""
+    hold_ports(clinic, *(7400 + 250 * domain for domain in range(1, 101)))
     assert conversation.free_domain(clinic.machine) == 101
+
+
+def test_running_programs_are_counted_by_their_ports(clinic: Clinic) -> None:
+    """Each holds two ports of its own; the two below 10 are common to all."""
+    hold_ports(clinic, 53, 8650, 8651, 8660, 8661, 8662, 8663, 8910)
+    assert conversation.participants(clinic.machine, 5) == 2
+    assert conversation.participants(clinic.machine, 6) == 1
+    assert conversation.participants(clinic.machine, 7) == 0

@@ -12,7 +12,7 @@ from roslings.doctor.registry import check
 from roslings.doctor.ros import Ros, find_ros
 
 SPEAKING_FOR_S = 8.0
-LOOKING_FOR_S = 0.5
+LOOKING_FOR_S = 3.0
 LAST_LINE = 200  # characters of an error that fit into a message
 
 
@@ -73,7 +73,10 @@ def qos(machine: Machine) -> Finding:
         return not_applicable("ROS 2 Jazzy is not installed")
     if machine.env.get("ROS_AUTOMATIC_DISCOVERY_RANGE") == "OFF":
         return unknown("the discovery range is OFF")
-    seen = conversation.look(machine, ros, LOOKING_FOR_S)
+    running = conversation.participants(machine, conversation.domain_of(machine))
+    if not running:
+        return not_applicable("no ROS node runs on this computer now")
+    seen = conversation.look(machine, ros, running, LOOKING_FOR_S)
     if seen is None:
         return unknown("the observer did not answer; see the check talk")
     clashes = [json.loads(line) for line in seen if '"why"' in line]
@@ -82,7 +85,7 @@ def qos(machine: Machine) -> Finding:
     first = clashes[0]
     return warning(
         f"On {first['topic']}, {first['subscription']} cannot hear {first['publisher']}."
-        f" Their QoS differs: {first['why']}",
+        f" Their QoS differs: {_plain(first['why'])}.",
         say("Give the subscription the same QoS. For a sensor, this one fits:"),
         do(
             "from rclpy.qos import qos_profile_sensor_data\n"
@@ -90,3 +93,8 @@ def qos(machine: Machine) -> Finding:
             "                         qos_profile_sensor_data)"
         ),
     )
+
+
+def _plain(why: str) -> str:
+    """Take the marks away that ROS puts around its reasons."""
+    return why.replace("ERROR:", "").strip().rstrip(";").lower()

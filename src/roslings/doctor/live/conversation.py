@@ -85,15 +85,14 @@ def _last_words(ended: Process) -> str:
     return ""
 
 
-def look(machine: Machine, ros: Ros, seconds: float) -> list[str] | None:
-    """Observe the student's own domain for `seconds`; return what the observer printed.
+def look(machine: Machine, ros: Ros, expected: int, seconds: float) -> list[str] | None:
+    """Observe the student's own domain until `expected` nodes are seen, at most `seconds`.
 
-    Returns None where the observer could not run.
+    Returns what the observer printed, or None where it could not run.
     """
-    domain = machine.env.get("ROS_DOMAIN_ID", "") or "0"
     with tempfile.TemporaryDirectory() as logs:
-        env = quiet(machine, ros, Path(logs), domain)
-        with process(ros, env, "look.py", str(seconds)) as observer:
+        env = quiet(machine, ros, Path(logs), str(domain_of(machine)))
+        with process(ros, env, "look.py", str(expected), str(seconds)) as observer:
             try:
                 answer, _ = observer.communicate(timeout=seconds + 10)
             except subprocess.TimeoutExpired:
@@ -114,13 +113,31 @@ def quiet(machine: Machine, ros: Ros, logs: Path, domain: str) -> dict[str, str]
     }
 
 
+def domain_of(machine: Machine) -> int:
+    """Return the student's domain; 0 where nothing or no number is set."""
+    value = machine.env.get("ROS_DOMAIN_ID", "")
+    return int(value) if value.isdigit() else 0
+
+
+def udp_ports(machine: Machine) -> set[int]:
+    """Return the UDP ports that programs of this computer hold (Linux only)."""
+    lines = machine.read("/proc/net/udp").splitlines()[1:]
+    return {int(line.split()[1].rpartition(":")[2], 16) for line in lines if ":" in line}
+
+
+def participants(machine: Machine, domain: int) -> int:
+    """Count the ROS programs of a domain on this computer, by the ports that DDS gives them.
+
+    A program holds port 7400 + 250 * domain + 10 + 2 * n, with an n of its own.
+    """
+    first = FIRST_PORT + PORTS_PER_DOMAIN * domain
+    places = {port - first for port in udp_ports(machine)}
+    return sum(10 <= place < PORTS_PER_DOMAIN and place % 2 == 0 for place in places)
+
+
 def free_domain(machine: Machine) -> int:
-    """Return a domain in which no process of this computer has a port."""
-    ports = {
-        int(line.split()[1].rpartition(":")[2], 16)
-        for line in machine.read("/proc/net/udp").splitlines()[1:]
-        if ":" in line
-    }
+    """Return a domain in which no program of this computer has a port."""
+    ports = udp_ports(machine)
     used = {(port - FIRST_PORT) // PORTS_PER_DOMAIN for port in ports if port >= FIRST_PORT}
     free = [domain for domain in range(1, LAST_DOMAIN + 1) if domain not in used]
     return random.choice(free or [LAST_DOMAIN])

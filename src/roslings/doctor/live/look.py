@@ -17,6 +17,9 @@ from rclpy.qos import (
 )
 
 OWN = "doctor_observer"
+NAMELESS = "_NODE_NAME_UNKNOWN_"  # what rcl says until discovery has brought the name
+STEP_S = 0.05
+SETTLING_S = 0.3  # endpoints come a little after their nodes
 
 
 def clashes(node: Node, topic: str) -> Iterator[dict[str, str]]:
@@ -34,11 +37,14 @@ def clashes(node: Node, topic: str) -> Iterator[dict[str, str]]:
                 }
 
 
-def main(seconds: float) -> None:
-    """Look for `seconds`, so that discovery can finish, then print what was seen."""
+def main(expected: int, seconds: float) -> None:
+    """Look until `expected` nodes are seen, at most `seconds`; print what was seen."""
     rclpy.init(args=[])
     node = Node(OWN, enable_rosout=False, start_parameter_services=False)
-    time.sleep(seconds)
+    deadline = time.monotonic() + seconds
+    while time.monotonic() < deadline and not complete(node, expected):
+        time.sleep(STEP_S)
+    time.sleep(SETTLING_S)
     topics = [name for name, _ in node.get_topic_names_and_types()]
     for topic in topics:
         for clash in clashes(node, topic):
@@ -47,5 +53,18 @@ def main(seconds: float) -> None:
     rclpy.try_shutdown()
 
 
+def complete(node: Node, expected: int) -> bool:
+    """Tell whether every expected node is there, and the name of every endpoint is known."""
+    if len([name for name in node.get_node_names() if name != OWN]) < expected:
+        return False
+    ends = [
+        end
+        for topic, _ in node.get_topic_names_and_types()
+        for look in (node.get_publishers_info_by_topic, node.get_subscriptions_info_by_topic)
+        for end in look(topic)
+    ]
+    return all(end.node_name != NAMELESS for end in ends)
+
+
 if __name__ == "__main__":
-    main(float(sys.argv[1]))
+    main(int(sys.argv[1]), float(sys.argv[2]))
