@@ -35,7 +35,7 @@ def test_well_system(clinic: Clinic) -> None:
 @pytest.mark.parametrize("version", [(3, 9, 2), (3, 14, 0)])
 def test_ill_python(clinic: Clinic, version: tuple[int, int, int]) -> None:
     clinic.change(interpreter=Interpreter(version, Path("/usr/bin/python3"), Path("/usr")))
-    assert_ill(clinic.look("python"), "fault", f"{version[0]}.{version[1]}.", "python3.12")
+    assert_ill(clinic.look("python"), "fault", f"{version[0]}.{version[1]}.", "./roslings doctor")
 
 
 def test_well_python(clinic: Clinic) -> None:
@@ -112,7 +112,7 @@ def test_well_shared_memory(clinic: Clinic) -> None:
     [
         ("/.dockerenv", "", "Docker"),
         ("/run/.containerenv", "", "Podman"),
-        ("/proc/1/cgroup", "0::/kubepods/besteffort", "kubepods"),
+        ("/proc/1/cgroup", "0::/kubepods/besteffort", "Kubernetes"),
     ],
 )
 def test_ill_container(clinic: Clinic, path: str, text: str, name: str) -> None:

@@ -31,7 +31,9 @@ def board(clinic: Clinic) -> Iterator[Path]:
 
 def test_ill_serial_found(clinic: Clinic) -> None:
     clinic.file("/sys/bus/usb/devices/1-2/idVendor", "1a86\n")
-    assert_ill(clinic.look("serial-found"), "fault", "CH340", "apt remove brltty")
+    assert_ill(clinic.look("serial-found"), "warning", "A board (CH340)")
+    clinic.file("/usr/lib/udev/rules.d/90-brltty-usb-generic.rules")
+    assert_ill(clinic.look("serial-found"), "fault", "brltty", "apt remove brltty")
 
 
 def test_ill_serial_found__in_a_virtual_machine(clinic: Clinic) -> None:
@@ -165,6 +167,12 @@ def test_ill_pi_camera(clinic: Clinic) -> None:
 
 def test_well_pi_camera(clinic: Clinic) -> None:
     assert_absent(clinic.look("pi-camera"))
+    clinic.file("/proc/device-tree/model", PI_5)
+    clinic.file("/home/sam/camera_ws/install/libcamera/lib/libcamera/ipa/ipa_rpi_pisp.so")
+    assert_well(clinic.look("pi-camera"))
+
+
+def test_well_pi_camera__of_the_system(clinic: Clinic) -> None:
     clinic.file("/proc/device-tree/model", PI_5)
     clinic.file("/usr/lib/aarch64-linux-gnu/libcamera/ipa/ipa_rpi_pisp.so")
     assert_well(clinic.look("pi-camera"))

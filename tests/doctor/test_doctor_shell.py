@@ -91,6 +91,12 @@ def test_ill_domain_id(clinic: Clinic, value: str, status: str) -> None:
     assert_ill(clinic.look("domain-id", ROS_DOMAIN_ID=value), status, value, "export ROS_DOMAIN_ID")
 
 
+def test_the_line_that_brings_a_wrong_value_back_is_named(clinic: Clinic) -> None:
+    clinic.file("/home/sam/.bashrc", "# robots\nexport ROS_DOMAIN_ID=seven\n")
+    mend = clinic.look("domain-id", ROS_DOMAIN_ID="seven").mend
+    assert any("Delete line 2 of ~/.bashrc: export ROS_DOMAIN_ID=seven" in s.text for s in mend)
+
+
 @pytest.mark.parametrize("value", ["", "0", "42", "101"])
 def test_well_domain_id(clinic: Clinic, value: str) -> None:
     assert_well(clinic.look("domain-id", ROS_DOMAIN_ID=value))
@@ -177,6 +183,8 @@ def test_ill_multicast() -> None:
 def test_ill_multicast__no_such_card(clinic: Clinic, monkeypatch: pytest.MonkeyPatch) -> None:
     """192.0.2.0/24 is for examples: no network card of a real machine has an address in it."""
     monkeypatch.setattr("roslings.doctor.checks.network.LOOPBACK", "192.0.2.253")
+    assert_ill(clinic.look("multicast"), "fault", "did not come back", "ip link set lo")
+    clinic.program("ufw")
     assert_ill(clinic.look("multicast"), "fault", "did not come back", "ufw allow")
     clinic.file("/.dockerenv")
     assert_ill(clinic.look("multicast"), "warning", "did not come back")

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
+
 from roslings.doctor.finding import Step, do, say
-from roslings.doctor.machine import Machine
+from roslings.doctor.machine import Machine, read_text
 from roslings.doctor.ros import APT_PREFIX, Ros, find_ros
 from roslings.doctor.surroundings import release
 
@@ -14,16 +17,16 @@ NEWEST_PYTHON = (3, 13)
 # https://docs.ros.org/en/jazzy/Installation/Ubuntu-Install-Debs.html, "Enable required
 # repositories": the package carries the address and the key, and keeps both fresh.
 APT_SOURCE = (
-    do("sudo apt update && sudo apt install -y curl", "Get the program that downloads."),
+    do("sudo apt update && sudo apt install -y curl", "Get the program that downloads:"),
     do(
         "U=https://github.com/ros-infrastructure/ros-apt-source/releases\n"
         "V=$(basename \"$(curl -sLo /dev/null -w '%{url_effective}' $U/latest)\")\n"
         "curl -Lo /tmp/ros2-apt-source.deb \\\n"
         "  $U/download/$V/ros2-apt-source_$V.noble_all.deb\n"
         "sudo apt install -y /tmp/ros2-apt-source.deb",
-        "Install the package that holds ROS's address and key.",
+        "Install the package that holds ROS's address and key:",
     ),
-    do("sudo apt update", "Read the lists again."),
+    do("sudo apt update", "Read the lists again:"),
 )
 
 
@@ -35,6 +38,37 @@ def shell_name(machine: Machine) -> str:
 def startup_file(machine: Machine) -> str:
     """Return the file that the student's shell reads when a terminal opens."""
     return f"~/.{shell_name(machine)}rc"
+
+
+STARTUP_FILES = (".bashrc", ".zshrc", ".profile", ".bash_profile", ".zprofile")
+
+
+def lines_that_set(machine: Machine, name: str) -> tuple[Step, ...]:
+    """Return which lines of the start files set a variable, so that it comes back."""
+    pattern = re.compile(rf"\s*(?:export\s+)?{name}=")
+    return tuple(
+        say(f"It comes back in each new terminal. Delete line {number} of ~/{file}: {line.strip()}")
+        for file in STARTUP_FILES
+        for number, line in enumerate(read_text(machine.home / file).splitlines(), start=1)
+        if pattern.match(line)
+    )
+
+
+def unset(machine: Machine, *names: str) -> tuple[Step, ...]:
+    """Return how to take variables away, here and where they come from."""
+    lines = [step for name in names for step in lines_that_set(machine, name)]
+    return (do(f"unset {' '.join(names)}", "In this terminal:"), *lines)
+
+
+def set_to(machine: Machine, name: str, value: str, why: str) -> tuple[Step, ...]:
+    """Return how to give a variable another value, here and where the wrong one comes from."""
+    return (do(f"export {name}={value}", why), *lines_that_set(machine, name))
+
+
+def edit(path: Path, line: int = 1) -> Step:
+    """Return how to open a file of the student's at a line."""
+    place = f"+{line} " if line > 1 else ""
+    return do(f"nano {place}{quoted(path)}", "Open the file and correct it:")
 
 
 def quoted(text: object) -> str:
@@ -104,7 +138,7 @@ def rebuild_environment(machine: Machine) -> tuple[Step, ...]:
     return (
         do(
             f"cd {quoted(machine.clone)}\nrm -rf .venv\n./roslings check topics --solution",
-            "Make the course's environment anew. Your own work is not in it.",
+            "Make the course's environment anew. Your own work is not in it:",
         ),
     )
 

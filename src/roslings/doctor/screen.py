@@ -100,7 +100,7 @@ def _command(step: Step, label: str) -> Iterator[str]:
     if not step.command:
         return
     if label:
-        yield f"{INDENT}{label}"
+        yield from _labelled(label, "Type this:")
     for line in step.command.splitlines():
         yield f"{INDENT * 3}{line}"
 

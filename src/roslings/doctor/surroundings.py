@@ -43,8 +43,17 @@ def container(machine: Machine) -> str:
     if exists(machine.path("/run/.containerenv")):
         return "Podman"
     kind = machine.env.get("container", "")
-    inside = re.search(r"docker|lxc|kubepods|containerd", machine.read("/proc/1/cgroup"))
-    return kind or (inside.group() if inside else "")
+    inside = re.search("|".join(CONTAINERS), machine.read("/proc/1/cgroup"))
+    return CONTAINERS.get(kind, kind) or (CONTAINERS[inside.group()] if inside else "")
+
+
+CONTAINERS = {
+    "docker": "Docker",
+    "podman": "Podman",
+    "lxc": "LXC",
+    "kubepods": "Kubernetes",
+    "containerd": "containerd",
+}
 
 
 def wsl(machine: Machine) -> int:

@@ -78,8 +78,8 @@ def python(machine: Machine) -> Finding:
         return ok(f"Python {text}.")
     return fault(
         f"This is Python {text}. The course needs 3.10, 3.11, 3.12 or 3.13.",
-        say("Install one of these versions beside yours. Then run ./roslings with it:"),
-        do(f"cd {quoted(machine.clone)}\npython3.12 roslings doctor"),
+        say("Install one of these versions beside yours. ./roslings then finds it by itself:"),
+        do(f"cd {quoted(machine.clone)}\n./roslings doctor"),
     )
 
 
@@ -167,7 +167,7 @@ def shared_memory(machine: Machine) -> Finding:
     if not os.access(folder, os.W_OK, effective_ids=os.access in os.supports_effective_ids):
         return fault(
             "You may not write to /dev/shm. Nodes on one machine exchange messages through it.",
-            do("sudo mount -t tmpfs -o mode=1777 tmpfs /dev/shm"),
+            do("sudo mount -t tmpfs -o mode=1777 tmpfs /dev/shm", "Give everybody a new one:"),
         )
     free = machine.free_bytes(folder)
     if free >= SMALL_SHARED_BYTES:
@@ -196,7 +196,7 @@ def in_container(machine: Machine) -> Finding:
     if not kind:
         return ok("No container.")
     return advice(
-        f"This is a {kind} container. The doctor cannot see the host's firewall, clock service"
+        f"This is a container ({kind}). The doctor cannot see the host's firewall, clock service"
         " or USB ports from in here.",
         say("Only if you need a robot or a board. ttyACM0 is the board's port:"),
         container_with("--network=host --ipc=host", "--device=/dev/ttyACM0"),
@@ -261,7 +261,7 @@ def _why_no_sandbox(machine: Machine, said: str) -> Finding:
     if machine.read("/proc/sys/user/max_user_namespaces").strip() == "0":
         return advice(
             "The kernel allows no user namespaces. Labs still work, but less well apart.",
-            do("sudo sysctl -w user.max_user_namespaces=10000"),
+            do("sudo sysctl -w user.max_user_namespaces=10000", "Allow them until the next start:"),
         )
     if container(machine):
         return not_applicable("a container forbids a sandbox inside it; labs work without")

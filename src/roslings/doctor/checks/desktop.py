@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from roslings.doctor.finding import Finding, advice, do, not_applicable, ok, say, warning
 from roslings.doctor.machine import Machine, exists
-from roslings.doctor.mends import startup_file
+from roslings.doctor.mends import startup_file, unset
 from roslings.doctor.registry import check
 from roslings.doctor.ros import APT_PREFIX
 from roslings.doctor.surroundings import container, wsl
@@ -26,7 +26,7 @@ def snap_terminal(machine: Machine) -> Finding:
         return ok("No trace of a snap.")
     return warning(
         f"{names[0]} comes from a snap program, most likely VS Code.",
-        do(f"unset {' '.join(names)}", "In this terminal:"),
+        *unset(machine, *names),
         say("For good: install VS Code from its .deb file instead of the snap."),
     )
 

@@ -67,16 +67,24 @@ def serial_found(machine: Machine) -> Finding:
     chip = _serial_chip(machine)
     if chip and container(machine):
         return advice(
-            f"A {chip} chip is plugged in, but this container was not given its port.",
+            f"A board ({chip}) is plugged in, but this container was not given its port.",
             container_with("--device=/dev/ttyUSB0"),
         )
-    if chip:
+    return _portless(machine, chip) if chip else _no_board(machine)
+
+
+def _portless(machine: Machine, chip: str) -> Finding:
+    again = say("Then pull the plug and put it in again.")
+    if any(machine.path("/usr/lib/udev/rules.d").glob("*brltty*")):
         return fault(
-            f"A {chip} chip is plugged in, but it has no port. On Ubuntu, brltty often takes it.",
-            do("sudo apt remove brltty", "This program is for Braille displays:"),
-            say("Then pull the plug and put it in again."),
+            f"A board ({chip}) is plugged in, but it has no port. brltty may have taken it.",
+            do("sudo apt remove brltty", "Remove brltty. It is for Braille displays:"),
+            again,
         )
-    return _no_board(machine)
+    return warning(
+        f"A board ({chip}) is plugged in, but it has no port.",
+        say("Try another cable and another USB port. Some cables only charge."),
+    )
 
 
 def _serial_chip(machine: Machine) -> str:
@@ -104,7 +112,7 @@ def _no_board(machine: Machine) -> Finding:
     if program:
         return advice(
             f"{none} This is a virtual machine ({program}).",
-            say(f"With a board: in the menu of {program}, choose Devices, then USB, then it."),
+            say(f"With a board: in {program}, hand its USB device to this machine."),
         )
     return not_applicable("no board is plugged in; day 6 has a stand-in without hardware")
 
@@ -152,7 +160,9 @@ def _serial_mend(shown: str, port: Path, problem: int) -> Finding:
 def _forbidden(shown: str, device: Path) -> Finding:
     group = _group(device)
     if group in ("", "root"):  # as a container shows a device of its host
-        return fault(f"You may not use {shown}.", do(f"sudo chmod a+rw {shown}"))
+        return fault(
+            f"You may not use {shown}.", do(f"sudo chmod a+rw {shown}", "Open it for all:")
+        )
     return fault(
         f"You may not use {shown}. It belongs to the group {group}.",
         do(f'sudo usermod -aG {group} "$USER"', "Join that group:"),
@@ -285,26 +295,42 @@ def pi_camera(machine: Machine) -> Finding:
     """camera_ros ends: 'no cameras available'."""
     if not pi_model(machine).startswith("Raspberry Pi 5"):
         return not_applicable("this is not a Raspberry Pi 5")
-    folders = ("usr/lib", "usr/local/lib", "opt/ros/jazzy/lib")
-    found = [path for name in folders for path in (machine.root / name).glob(PISP)]
-    found += [path for name in folders for path in (machine.root / name).glob("*/" + PISP)]
-    if found:
+    if any(_has_pisp(folder) for folder in _library_folders(machine)):
         return ok("libcamera has the part for the Pi 5.")
     if release(machine).id != "ubuntu":
         return advice("libcamera has no part for the Pi 5.", do("sudo apt install libcamera-ipa"))
     return warning(
         "The libcamera of this system does not know the Pi 5.",
-        say("Build the Raspberry Pi's own libcamera in your workspace, beside camera_ros:"),
+        say("Build the Raspberry Pi's own libcamera, beside camera_ros. First get what it needs:"),
         do(
-            "cd ~/roslings_ws/src\n"
+            "sudo apt install -y python3-colcon-meson meson ninja-build \\\n"
+            "  python3-yaml python3-ply python3-jinja2 libgnutls28-dev openssl"
+        ),
+        do(
+            "mkdir -p ~/camera_ws/src\n"
+            "cd ~/camera_ws/src\n"
             "git clone https://github.com/raspberrypi/libcamera.git\n"
             "git clone https://github.com/christianrauch/camera_ros.git\n"
             "cd ..\n"
             "rosdep install -y --from-paths src --ignore-src \\\n"
-            "  --skip-keys=libcamera\n"
-            "colcon build"
+            "  --rosdistro jazzy --skip-keys=libcamera\n"
+            "colcon build",
+            "Then build it, in a workspace of its own:",
         ),
+        do("source ~/camera_ws/install/setup.bash", "In each terminal that uses the camera:"),
     )
+
+
+def _library_folders(machine: Machine) -> Iterator[Path]:
+    for name in ("usr/lib", "usr/local/lib", "opt/ros/jazzy/lib"):
+        yield machine.root / name
+    for workspace in (machine.home / "camera_ws", machine.workspace):
+        yield workspace / "install/libcamera/lib"
+
+
+def _has_pisp(folder: Path) -> bool:
+    """Look in a library folder and one level below, where Debian keeps each processor's."""
+    return any(any(folder.glob(pattern)) for pattern in (PISP, "*/" + PISP))
 
 
 PISP = "libcamera/ipa/ipa_rpi_pisp.so"

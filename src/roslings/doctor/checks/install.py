@@ -26,7 +26,9 @@ from roslings.doctor.mends import (
     new_terminal,
     quoted,
     rebuild_environment,
+    shell_name,
     source,
+    unset,
 )
 from roslings.doctor.openpgp import NotAKey, key_ends
 from roslings.doctor.registry import check
@@ -80,12 +82,12 @@ def one_ros(machine: Machine) -> Finding:
     lines = [line for line in startup_lines(machine) if any(name in line.text for name in other)]
     where = tuple(say(f"Delete line {one.number} of {one.file}:  {one.text}") for one in lines)
     names = " and ".join(sorted(found))
-    setup = f"source /opt/ros/{DISTRO}/setup.bash"
+    setup = do(f"source /opt/ros/{DISTRO}/setup.{shell_name(machine)}", "There, source Jazzy:")
     if DISTRO not in found:
         return fault(
             f"This terminal uses {names}. The course is for Jazzy.", *where, new_terminal()
         )
-    return fault(f"This terminal mixes {names}.", *where, new_terminal(), do(setup))
+    return fault(f"This terminal mixes {names}.", *where, new_terminal(), setup)
 
 
 def _distributions(machine: Machine) -> set[str]:
@@ -116,7 +118,7 @@ def apt_key(machine: Machine) -> Finding:
     old = " ".join(f"{KEYRING}/{path.name}" for path in files)
     return fault(
         f"The key that signs ROS's packages ended on {day}." if last else "The key is unreadable.",
-        do(f"sudo rm -f /etc/apt/sources.list.d/ros2.list \\\n  {old}", "Remove the old key."),
+        do(f"sudo rm -f /etc/apt/sources.list.d/ros2.list \\\n  {old}", "Remove the old key:"),
         *APT_SOURCE,
     )
 
@@ -148,8 +150,8 @@ def apt_release(machine: Machine) -> Finding:
     files = " ".join(f"/etc/apt/sources.list.d/{path.name}" for path in lists)
     asks = f"apt looks for ROS packages of {', '.join(sorted(suites))}. This system is {here}."
     if not release(machine).has_jazzy_in_apt:
-        return warning(asks, do(f"sudo rm {files}"), *install_ros(machine))
-    return fault(asks, do(f"sudo rm {files}"), *APT_SOURCE)
+        return warning(asks, do(f"sudo rm {files}", "Remove that list:"), *install_ros(machine))
+    return fault(asks, do(f"sudo rm {files}", "Remove that list:"), *APT_SOURCE)
 
 
 def _suites(text: str) -> set[str]:
@@ -212,7 +214,7 @@ def _dotted(version: tuple[int, int]) -> str:
 def _again(machine: Machine, ros: Ros) -> tuple[Step, ...]:
     if ros.kind == "wheels":
         return rebuild_environment(machine)
-    return (do("sudo apt install --reinstall ros-jazzy-rclpy"),)
+    return (do("sudo apt install --reinstall ros-jazzy-rclpy", "Install it again:"),)
 
 
 def _right_python(machine: Machine, ros: Ros) -> tuple[Step, ...]:
@@ -249,7 +251,8 @@ def middleware(machine: Machine) -> Finding:
         )
     return fault(
         f"RMW_IMPLEMENTATION is {wanted}, but that middleware is not installed.",
-        do("unset RMW_IMPLEMENTATION", "Use the standard one. All machines of a group must agree:"),
+        say("Use the standard one. All computers of one robot must have the same."),
+        *unset(machine, "RMW_IMPLEMENTATION"),
     )
 
 
@@ -311,8 +314,8 @@ def _judge_em(path: Path, ros: Ros | None) -> Finding:
     text = read_text(path)
     venv = str(ros.python) if ros and ros.kind == "wheels" else "python3"
     flag = "" if ros and ros.kind == "wheels" else "--user --break-system-packages "
-    remove = do(f"{venv} -m pip uninstall -y em empy")
-    right = do(f"{venv} -m pip install {flag}'empy==3.3.4'")
+    remove = do(f"{venv} -m pip uninstall -y em empy", "Remove it:")
+    right = do(f"{venv} -m pip install {flag}'empy==3.3.4'", "Install the right one:")
     if "class Interpreter" not in text:
         return fault("em is another program of the same name. ROS needs empy.", remove, right)
     newer = re.search(r"^__version__ = ['\"]4", text, re.M)
@@ -384,7 +387,8 @@ def _judge_setuptools(machine: Machine, folder: Path, note: str) -> Finding:
     if ros and ros.kind == "wheels":
         mend = install_package(machine, "", "setuptools<80")
     else:
-        mend = (do("python3 -m pip uninstall -y --break-system-packages setuptools"),)
+        remove = "python3 -m pip uninstall -y --break-system-packages setuptools"
+        mend = (do(remove, "Remove yours. The system has one that fits:"),)
     return warning(f"setuptools is {version}, in {folder}. colcon needs one below 80.", *mend)
 
 
@@ -404,8 +408,7 @@ def environment(machine: Machine) -> Finding:
     if active and Path(active) not in ours and exists(Path(active).parent / "roslings"):
         return fault(
             f"The active environment is that of another copy of the course: {active}.",
-            do("deactivate"),
-            do(f"source {quoted(own / 'bin' / 'activate')}"),
+            do(f"deactivate\nsource {quoted(own / 'bin' / 'activate')}", "Leave it for this one:"),
         )
     if exists(own) and not _made_here(own):
         return fault(

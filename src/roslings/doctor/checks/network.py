@@ -21,6 +21,7 @@ from roslings.doctor.finding import (
     warning,
 )
 from roslings.doctor.machine import Machine, exists
+from roslings.doctor.mends import lines_that_set, set_to, unset
 from roslings.doctor.registry import check
 from roslings.doctor.surroundings import container, wsl
 
@@ -44,10 +45,8 @@ def domain_id(machine: Machine) -> Finding:
     value = machine.env.get("ROS_DOMAIN_ID", "")
     if not value:
         return ok("It is not set: the domain is 0.")
-    mend = (
-        do("export ROS_DOMAIN_ID=0", "Use the same number in every terminal of one robot:"),
-        say("Is it set in ~/.bashrc? Then mend it there too."),
-    )
+    why = "Use the same number in every terminal of one robot:"
+    mend = set_to(machine, "ROS_DOMAIN_ID", "0", why)
     if not re.fullmatch(r"\d{1,9}", value):
         return fault(f"ROS_DOMAIN_ID is '{value}'. It must be a whole number.", *mend)
     if int(value) > LAST_DOMAIN:
@@ -74,7 +73,7 @@ def localhost_only(machine: Machine) -> Finding:
         return ok("It is not set.")
     new = "LOCALHOST" if value == "1" else "SUBNET"
     mend = (
-        do("unset ROS_LOCALHOST_ONLY", "Remove it, here and in ~/.bashrc:"),
+        *unset(machine, "ROS_LOCALHOST_ONLY"),
         do(f"export ROS_AUTOMATIC_DISCOVERY_RANGE={new}", "Say the same in Jazzy's words:"),
     )
     if value == "1":
@@ -92,12 +91,16 @@ def localhost_only(machine: Machine) -> Finding:
 def discovery_range(machine: Machine) -> Finding:
     """Two nodes run on one computer, and neither sees the other."""
     value = machine.env.get("ROS_AUTOMATIC_DISCOVERY_RANGE", "")
-    home = do("export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST", "On one computer:")
-    out = do("export ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET", "With a robot in the same network:")
+    name = "ROS_AUTOMATIC_DISCOVERY_RANGE"
+    mend = (
+        do(f"export {name}=LOCALHOST", "On one computer:"),
+        do(f"export {name}=SUBNET", "Or, with a robot in the same network:"),
+        *lines_that_set(machine, name),
+    )
     if value == "OFF":
-        return fault("The discovery range is OFF: no node finds another.", home, out)
+        return fault("The discovery range is OFF: no node finds another.", *mend)
     if value and value not in RANGES:
-        return warning(f"'{value}' is no discovery range. ROS takes LOCALHOST instead.", home, out)
+        return warning(f"'{value}' is no discovery range. ROS takes LOCALHOST instead.", *mend)
     return ok(f"The range is {value or 'SUBNET (nothing is set)'}.")
 
 
@@ -117,11 +120,12 @@ def dds_settings(machine: Machine) -> Finding:
     ):
         value = machine.env.get(name, "").removeprefix("file://")
         if value and "<" not in value and not exists(Path(value)):
-            return warning(f"{name} names a file that is gone: {value}", do(f"unset {name}"))
+            return warning(f"{name} names a file that is gone: {value}", *unset(machine, name))
     if machine.env.get("ROS_DISCOVERY_SERVER"):
         return advice(
             "ROS_DISCOVERY_SERVER is set. Nodes meet only while that server runs.",
-            do("unset ROS_DISCOVERY_SERVER", "If you do not use such a server:"),
+            say("Do you use such a server? Then leave it. If not:"),
+            *unset(machine, "ROS_DISCOVERY_SERVER"),
         )
     return ok("Nothing unusual is set.")
 
@@ -139,7 +143,7 @@ def transport(machine: Machine) -> Finding:
     if value not in ("", "DEFAULT") and near:
         return warning(
             f"FASTDDS_BUILTIN_TRANSPORTS is {value}. With the range LOCALHOST, messages get lost.",
-            do("unset FASTDDS_BUILTIN_TRANSPORTS"),
+            *unset(machine, "FASTDDS_BUILTIN_TRANSPORTS"),
         )
     return ok("They fit.")
 
@@ -162,7 +166,7 @@ def multicast(machine: Machine) -> Finding:
             "sudo ip route add 224.0.0.0/4 dev lo",
             "Allow it on the inner network card:",
         ),
-        *FIREWALL_RULES,
+        *(FIREWALL_RULES if machine.which("ufw") else ()),
     )
     if container(machine):
         return warning(f"A packet to oneself did not come back ({problem}).", *mend)
@@ -236,14 +240,14 @@ def firewall(machine: Machine) -> Finding:
     if re.search(r"^ENABLED=yes", machine.read("/etc/ufw/ufw.conf"), re.M):
         return advice(
             "The firewall ufw is on. It may stop the nodes of other computers.",
-            say("Only if you use a robot or a second computer:"),
+            say("Do this only if you use a robot or a second computer."),
             *FIREWALL_RULES,
         )
     wants = machine.path("/etc/systemd/system/multi-user.target.wants/firewalld.service")
     if wants.is_symlink() or exists(wants):
         return advice(
             "The firewall firewalld is on. It may stop the nodes of other computers.",
-            say("Only if you use a robot or a second computer:"),
+            say("Do this only if you use a robot or a second computer."),
             do("sudo firewall-cmd --add-port=7400-32900/udp"),
         )
     return ok("ufw and firewalld are off.")

@@ -17,10 +17,8 @@ from roslings.doctor.finding import (
     warning,
 )
 from roslings.doctor.machine import Machine, exists, read_text
-from roslings.doctor.mends import new_terminal, quoted, shell_name
+from roslings.doctor.mends import STARTUP_FILES, new_terminal, quoted, shell_name
 from roslings.doctor.registry import check
-
-STARTUP_FILES = (".bashrc", ".zshrc", ".profile", ".bash_profile", ".zprofile")
 
 
 @dataclass(frozen=True)
@@ -69,7 +67,7 @@ def startup_files(machine: Machine) -> Finding:
     return warning(
         f"Line {first.number} of {first.file} sources a file that does not exist: {first.sourced}",
         say(f"Delete this line from {first.file}:  {first.text}"),
-        do(f"nano +{first.number} {first.file}"),
+        do(f"nano +{first.number} {first.file}", "This opens the file at that line:"),
     )
 
 

@@ -19,7 +19,7 @@ from roslings.doctor.finding import (
     warning,
 )
 from roslings.doctor.machine import Machine, exists, read_text
-from roslings.doctor.mends import quoted, shell_name
+from roslings.doctor.mends import edit, quoted, shell_name
 from roslings.doctor.packages import (
     EntryPoint,
     Package,
@@ -96,7 +96,7 @@ def no_packages(machine: Machine) -> Finding:
 def build(machine: Machine, *before: str) -> Step:
     """Return the step that builds the workspace from its root."""
     lines = [f"cd {quoted(machine.workspace)}", *before, "colcon build"]
-    return do("\n".join(lines))
+    return do("\n".join(lines), "Build:")
 
 
 def source_again(machine: Machine) -> Step:
@@ -117,7 +117,7 @@ def valid_xml(machine: Machine) -> Finding:
     def look(machine: Machine, package: Package) -> Finding | None:
         path = package.folder / "package.xml"
         problem = package.manifest.problem
-        return fault(f"In {path}, {problem}.", do(f"nano {quoted(path)}")) if problem else None
+        return fault(f"In {path}, {problem}.", edit(path)) if problem else None
 
     return each_package(machine, look, "Each package.xml is valid.")
 
@@ -162,7 +162,7 @@ def syntax(machine: Machine) -> Finding:
                 return fault(
                     f"{path}, line {tree.lineno or 1}: {tree.msg}.",
                     say("Look at that line and at the one above it."),
-                    do(f"nano +{tree.lineno or 1} {quoted(path)}"),
+                    edit(path, tree.lineno or 1),
                 )
         return None
 
@@ -211,7 +211,7 @@ def marker(machine: Machine) -> Finding:
         path = package.folder / "resource" / package.name
         if not exists(path):
             make = f"mkdir -p {quoted(path.parent)}\ntouch {quoted(path)}"
-            return fault(f"The empty file {path} is missing.", do(make), build(machine))
+            return fault(f"The empty file {path} is missing.", do(make, "Make it:"), build(machine))
         installed = package.setup.installed
         if installed is not None and f"resource/{package.name}" not in installed:
             return fault(
@@ -243,11 +243,11 @@ def entry_points(machine: Machine) -> Finding:
             return None
         path = package.folder / "setup.py"
         if package.setup.problem:
-            return fault(f"In {path}, {package.setup.problem}.", do(f"nano {quoted(path)}"))
+            return fault(f"In {path}, {package.setup.problem}.", edit(path))
         for point in package.setup.entry_points or ():
             wrong = leads_nowhere(package, point)
             if wrong:
-                mend = say("Mend the line in setup.py, or the name in your file. Then build:")
+                mend = say("Mend the line in setup.py, or the name in your file.")
                 return fault(wrong, mend, build(machine))
         return None
 
@@ -366,7 +366,7 @@ def owner(machine: Machine) -> Finding:
         if path.lstat().st_uid == 0:
             return fault(
                 f"{path} belongs to root, not to you.",
-                do(f'sudo chown -R "$USER": {quoted(machine.workspace)}'),
+                do(f'sudo chown -R "$USER": {quoted(machine.workspace)}', "Make it yours again:"),
                 say("Never type sudo before colcon."),
             )
     return ok("The files are yours.")
