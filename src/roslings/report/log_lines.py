@@ -19,7 +19,8 @@ def helpful(lines: Sequence[str], package: str, at_most: int) -> list[str]:
     Colours go, and the path to an installed file of `package` becomes `.../`: the student mends
     the file in src, not the copy that colcon installed.
     """
-    kept = [_COLOUR.sub("", line) for line in lines if line.strip(_EMPTY)]
+    plain = [_COLOUR.sub("", line) for line in lines]
+    kept = [line for line in plain if line.strip(_EMPTY)]
     if len(kept) > at_most:
         kept = _without_library_frames(kept, package)
     installed = re.compile(rf'(File ")[^"]*/site-packages/(?={re.escape(package)}/)')

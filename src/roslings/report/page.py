@@ -18,7 +18,7 @@ MARKS = {"pass": "✓", "fail": "✗", "skip": "○", "inconclusive": "?"}
 ASCII_MARKS = {"pass": "+", "fail": "x", "skip": "-", "inconclusive": "?"}
 LABEL_WIDTH = 10
 LONGEST_TEXT_LINES = 12
-LONGEST_LOG_LINE_LINES = 3
+LONGEST_LOG_LINES = 3  # for each line of the log
 NARROWEST = 24
 
 
@@ -77,9 +77,7 @@ class Page:
         """A short label, and a text of some lines beside it."""
         head = " " * indent + label.ljust(LABEL_WIDTH)
         room = self.width - len(head)
-        lines = wrapped(self.plain(text, keep_newlines=True), room, cell_len)
-        if len(lines) > LONGEST_TEXT_LINES:
-            lines = [*lines[:LONGEST_TEXT_LINES], self._ellipsis]
+        lines = self._bounded(text, room, LONGEST_TEXT_LINES, keep_newlines=True)
         self._beside(head, lines, "bold", style)
 
     def command(self, label: str, text: str, command: str) -> None:
@@ -97,7 +95,7 @@ class Page:
     def boxed(self, title: str, lines: Iterable[str], *, indent: int = 0) -> None:
         """Lines that are somebody else's, e.g. a node's log, in a box of their own."""
         room = self.width - indent - 4
-        shown = [part for line in lines for part in self._log_line(line, room)]
+        shown = [part for line in lines for part in self._bounded(line, room, LONGEST_LOG_LINES)]
         panel = Panel(
             Text("\n".join(shown), no_wrap=True, overflow="ignore"),
             title=Text(cut_to(self.plain(title), room - 2, cell_len, self._ellipsis)),
@@ -108,14 +106,16 @@ class Page:
         )
         self._parts.append(Padding(panel, (0, 0, 0, indent), expand=False))
 
-    def _log_line(self, line: str, room: int) -> list[str]:
-        # Cut before wrapping: a line may be a megabyte long.
-        parts = wrapped(self.plain(line[: room * (LONGEST_LOG_LINE_LINES + 1)]), room, cell_len)
-        if len(parts) <= LONGEST_LOG_LINE_LINES:
-            return parts
-        kept = parts[:LONGEST_LOG_LINE_LINES]
-        last = cut_to(kept[-1], room - len(self._ellipsis), cell_len, "")
-        return [*kept[:-1], last + self._ellipsis]
+    def _bounded(
+        self, text: str, room: int, at_most: int, *, keep_newlines: bool = False
+    ) -> list[str]:
+        """`text` in at most `at_most` lines; where more are missing the last one says so."""
+        enough = text[: room * (at_most + 1)]  # cut before wrapping: it may be a megabyte long
+        lines = wrapped(self.plain(enough, keep_newlines=keep_newlines), room, cell_len)
+        if len(lines) <= at_most and enough == text:
+            return lines
+        *kept, last = lines[:at_most]
+        return [*kept, cut_to(last, room - len(self._ellipsis), cell_len, "") + self._ellipsis]
 
     def height(self) -> int:
         """Lines that the page takes on its console."""
