@@ -16,7 +16,7 @@ from roslings.workspace.sources import BUILT, MADE
 SETTLED_MS = 400
 """An editor saves a file in several steps; they are told as one change."""
 STEP_MS = 100
-LOOK_AGAIN_MS = 1000
+LOOK_AGAIN_MS = 250
 _EDITORS = re.compile(
     r"^\.|~$|^#.*#$|\.py[co]$|\.tmp$|\.swp$|^4913$|___jb_(tmp|old)___$|\.kate-swp$|\.bak$"
 )
@@ -41,34 +41,38 @@ class Saves(BaseFilter):
         return not any(part in MADE or _EDITORS.search(part) for part in parts)
 
 
-def changes(folder: Path, stop: Callable[[], bool] = lambda: False) -> Iterator[frozenset[Path]]:
+def changes(
+    folder: Path, stop: Callable[[], bool] = lambda: False, begin: bool = False
+) -> Iterator[frozenset[Path]]:
     """The paths of each save under `folder`, until Ctrl-C or until `stop()` is true.
 
+    Saves that come while the caller works on one set are kept for the next. With `begin`, the
+    first set is empty and comes as soon as the watch has begun: who works on it misses nothing.
     A folder that vanishes (git checkout, a rename) is waited for; when it is back, that is a
-    change of the folder itself. While the caller works on one set, later saves are kept for the
-    next.
+    change of the folder itself.
     """
     folder = folder.resolve()
     try:
-        yield from _changes(folder, stop)
+        yield from _changes(folder, stop, begin)
     except KeyboardInterrupt:
         return
 
 
-def _changes(folder: Path, stop: Callable[[], bool]) -> Iterator[frozenset[Path]]:
+def _changes(folder: Path, stop: Callable[[], bool], begin: bool) -> Iterator[frozenset[Path]]:
     while _is_back(folder, stop):
         with _held(folder) as is_still_there:
             for found in _watch(folder):
                 if stop() or not is_still_there():
                     break
-                if found:
+                if found or begin:
+                    begin = False
                     yield frozenset(Path(path) for _, path in found)
         if _is_back(folder, stop):
             yield frozenset({folder})
 
 
 def _watch(folder: Path) -> Iterator[set[tuple[Change, str]]]:
-    """Changes, and an empty set each second; ends at once where the folder is gone."""
+    """Changes, and an empty set now and then; ends at once where the folder is gone."""
     with suppress(FileNotFoundError):
         yield from watch(
             folder,

@@ -1,0 +1,158 @@
+"""A save is told once; what tools and editors write is not."""
+
+from __future__ import annotations
+
+import os
+import queue
+import shutil
+import signal
+import subprocess
+import sys
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from roslings.workspace.watch import changes
+
+LONG_S = 60.0
+"""A bound, not a measure: every wait ends when its condition holds."""
+
+
+class Watcher:
+    """A watch in a thread; its sets of paths come through a queue."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder.resolve()
+        self.sets: queue.Queue[frozenset[Path]] = queue.Queue()
+        self.ended = threading.Event()
+        self.thread = threading.Thread(target=self._run, daemon=True)
+
+    def _run(self) -> None:
+        for found in changes(self.folder, self.ended.is_set, begin=True):
+            self.sets.put(found)
+
+    def names(self) -> set[str]:
+        """The names in the next set."""
+        found = self.sets.get(timeout=LONG_S)
+        return {path.relative_to(self.folder).as_posix() for path in found}
+
+    def until(self, name: str) -> set[str]:
+        """All names that were told until `name` was."""
+        told: set[str] = set()
+        while name not in told:
+            told |= self.names()
+        return told
+
+
+@pytest.fixture
+def watcher(package: Path) -> Iterator[Watcher]:
+    """A watch of the package that has begun."""
+    watching = Watcher(package)
+    watching.thread.start()
+    assert watching.sets.get(timeout=LONG_S) == frozenset()
+    yield watching
+    watching.ended.set()
+    watching.thread.join(LONG_S)
+    assert not watching.thread.is_alive()
+
+
+def save_as_vim(path: Path, text: str) -> None:
+    """Vim tests the folder, writes a swap file, moves the old file aside, writes the new one."""
+    (path.parent / "4913").touch()
+    (path.parent / "4913").unlink()
+    swap = path.with_name(f".{path.name}.swp")
+    swap.write_text(text)
+    path.rename(f"{path}~")
+    path.write_text(text)
+    Path(f"{path}~").unlink()
+    swap.unlink()
+
+
+def save_as_gedit(path: Path, text: str) -> None:
+    """gedit writes a new file and renames it over the old one."""
+    new = path.with_name(".goutputstream-ABCDEF")
+    new.write_text(text)
+    new.replace(path)
+
+
+@pytest.mark.parametrize("save", [Path.write_text, save_as_vim, save_as_gedit])
+def test_a_save_is_told_by_its_name_alone(watcher: Watcher, save: object) -> None:
+    """However the editor does it."""
+    assert callable(save)
+    save(watcher.folder / "chatter" / "talker.py", "x = (")
+    assert watcher.until("chatter/talker.py") == {"chatter/talker.py"}
+
+
+def test_what_tools_write_is_not_told(watcher: Watcher) -> None:
+    """Only the last of these is a save."""
+    for name in (
+        "build/x",
+        "install/x",
+        "log/x",
+        ".git/index",
+        "chatter/__pycache__/talker.cpython-312.pyc",
+        "chatter/.talker.py.swp",
+        "chatter/talker.py~",
+        "chatter/#talker.py#",
+        "chatter/talker.py___jb_tmp___",
+    ):
+        (watcher.folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (watcher.folder / name).write_text("made")
+    (watcher.folder / "setup.py").write_text("x")
+    assert watcher.until("setup.py") == {"setup.py"}
+
+
+def test_new_and_removed_files_are_told(watcher: Watcher) -> None:
+    """In new folders too."""
+    (watcher.folder / "chatter" / "new").mkdir()
+    (watcher.folder / "chatter" / "new" / "more.py").touch()
+    watcher.until("chatter/new")
+    (watcher.folder / "setup.cfg").unlink()
+    watcher.until("setup.cfg")
+
+
+def test_a_folder_that_vanishes_is_waited_for(watcher: Watcher, tmp_path: Path) -> None:
+    """When it is back, the folder itself is told, and then each save in it."""
+    shutil.copytree(watcher.folder, tmp_path / "copy")
+    shutil.rmtree(watcher.folder)
+    (tmp_path / "copy").rename(watcher.folder)
+    watcher.until(".")
+    (watcher.folder / "setup.py").write_text("x")
+    watcher.until("setup.py")
+
+
+def test_a_folder_that_is_moved_away_is_waited_for(watcher: Watcher, tmp_path: Path) -> None:
+    """The old one, in its new place, is no longer watched."""
+    watcher.folder.rename(tmp_path / "away")
+    (tmp_path / "away" / "setup.py").write_text("x")
+    shutil.copytree(tmp_path / "away", watcher.folder)
+    watcher.until(".")
+    (watcher.folder / "setup.cfg").write_text("x")
+    assert "setup.py" not in watcher.until("setup.cfg")
+
+
+def test_ctrl_c_ends_the_watch_quietly(package: Path) -> None:
+    """No traceback, and the caller goes on after its loop."""
+    source = """
+import signal, sys
+from pathlib import Path
+from roslings.workspace.watch import changes
+signal.signal(signal.SIGINT, signal.default_int_handler)
+for found in changes(Path(sys.argv[1]), begin=True):
+    print("begun", flush=True)
+print("after")
+"""
+    with subprocess.Popen(
+        [sys.executable, "-c", source, str(package)],
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as watching:
+        assert watching.stdout
+        assert watching.stdout.readline() == "begun\n"
+        watching.send_signal(signal.SIGINT)
+        out, errors = watching.communicate(timeout=LONG_S)
+    assert (out, errors, watching.returncode) == ("after\n", "", 0)
