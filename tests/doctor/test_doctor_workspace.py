@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -11,7 +12,7 @@ from roslings.doctor.finding import Status
 from roslings.doctor.packages import Package, entry_point, read_setup
 from roslings.doctor.registry import all_checks
 
-from clinic import Clinic, assert_absent, assert_ill, assert_well, change_text
+from clinic import Clinic, assert_absent, assert_ill, assert_well, change_text, ordinary_user
 
 STATIC = [check.id for check in all_checks() if check.theme == "workspace"]
 
@@ -301,3 +302,45 @@ def test_an_odd_setup_py_is_read(tmp_path: Path) -> None:
 def test_a_strange_setup_py_is_no_accident(tmp_path: Path, text: str) -> None:
     (tmp_path / "setup.py").write_text(text)
     assert Package(tmp_path).setup is not None
+
+
+def test_the_mend_of_a_missing_setup_cfg_works_when_it_is_typed(clinic: Clinic) -> None:
+    """The commands run as they stand on the screen, with their indentation."""
+    path = clinic.package() / "setup.cfg"
+    healthy = path.read_text()
+    path.unlink()
+    typed = clinic.look("ws-setup-cfg").mend[0].command
+    indented = "\n".join(f"      {line}" for line in typed.splitlines())
+    subprocess.run(["sh", "-c", indented], check=True)
+    assert path.read_text() == healthy
+    assert_well(clinic.look("ws-setup-cfg"))
+
+
+def test_an_odd_workspace_stops_no_check(clinic: Clinic) -> None:
+    """Loops of links, folders where files belong, bytes that are no text, empty files."""
+    folder = clinic.package()
+    (folder.parent / "loop").symlink_to(folder.parent)
+    (folder / "setup.cfg").unlink()
+    (folder / "setup.cfg").mkdir()
+    (folder / "greeter/odd.py").write_bytes(b"\xff\xfe\x00 = \x80")
+    (folder / "greeter/gone.py").symlink_to("/nowhere")
+    (folder / "launch/x.launch.py").mkdir()
+    (folder.parent / "other").mkdir()
+    (folder.parent / "other/package.xml").write_bytes(b"")
+    os.mkdir(os.fsencode(folder.parent) + b"/\xff")  # noqa: PTH102  a name that is no text
+    for id in STATIC:
+        assert clinic.look(id).status != Status.UNKNOWN, clinic.look(id)
+
+
+@pytest.mark.parametrize("name", ["src/greeter", "src", ""])
+def test_a_closed_folder_is_named_and_stops_no_check(clinic: Clinic, name: str) -> None:
+    clinic.installed(clinic.package())
+    closed = clinic.machine.workspace / name
+    closed.chmod(0)
+    with ordinary_user():
+        found = [clinic.look(id) for id in STATIC]
+    closed.chmod(0o755)
+    texts = [one.found for one in found]
+    assert not any("the check itself failed" in text for text in texts)
+    if name != "src/greeter":
+        assert any(text.startswith(f"you may not open {closed}") for text in texts)

@@ -96,6 +96,8 @@ def _at_fault(result: Result | None) -> bool:
 def _examined(machine: Machine, check: Check) -> Finding:
     try:
         return check.examine(machine)
+    except PermissionError as problem:
+        return unknown(f"you may not open {problem.filename}")
     except Exception as problem:  # a strange machine must not hide the other findings
         kind = type(problem).__name__
         return unknown(

@@ -145,7 +145,7 @@ def clock(machine: Machine) -> Finding:
     if machine.now < COURSE_WRITTEN:
         return fault(f"The clock says {today}. That is in the past.", *mend)
     source = machine.workspace / "src"
-    newest = max((path.stat().st_mtime for path in source.glob("*/*.*")), default=0.0)
+    newest = max((path.lstat().st_mtime for path in source.glob("*/*.*")), default=0.0)
     if newest > machine.now + CLOCK_SLACK_S:
         return warning(
             f"The clock says {today}, but your workspace has files from later than now.", *mend

@@ -125,7 +125,7 @@ def _no_board(machine: Machine) -> Finding:
     rows=(27,),
 )
 def serial_open(machine: Machine) -> Finding:
-    """'[Errno 13] Permission denied: /dev/ttyACM0'."""
+    """'could not open port /dev/ttyACM0: [Errno 13] Permission denied'."""
     ports = serial_ports(machine)
     if not ports:
         return not_applicable("there is no serial port")

@@ -16,6 +16,7 @@ from roslings.doctor.finding import (
     not_applicable,
     ok,
     say,
+    unknown,
     warning,
 )
 from roslings.doctor.machine import Machine, exists, read_text
@@ -88,9 +89,18 @@ def packages_of(machine: Machine) -> tuple[Package, ...]:
 
 def no_packages(machine: Machine) -> Finding:
     """Return why the workspace cannot be looked at."""
+    for folder in (machine.workspace, machine.workspace / "src"):
+        if exists(folder) and not may_enter(folder):
+            return unknown(f"you may not open {folder}")
     if exists(machine.workspace):
         return not_applicable(f"there is no package in {machine.workspace}/src yet")
     return not_applicable(f"there is no workspace at {machine.workspace} yet")
+
+
+def may_enter(folder: Path) -> bool:
+    """Tell whether this user may list a folder."""
+    effective = os.access in os.supports_effective_ids
+    return os.access(folder, os.R_OK | os.X_OK, effective_ids=effective)
 
 
 def build(machine: Machine, *before: str) -> Step:
@@ -184,11 +194,16 @@ def setup_cfg(machine: Machine) -> Finding:
         if not package.is_python or f"$base/lib/{package.name}" in read_text(path):
             return None
         text = "is missing" if not exists(path) else f"does not say $base/lib/{package.name}"
-        lines = f"[develop]\nscript_dir=$base/lib/{package.name}\n[install]\n"
-        lines += f"install_scripts=$base/lib/{package.name}"
+        place = f"$base/lib/{package.name}"
         return fault(
             f"{path} {text}.",
-            do(f"cat > {quoted(path)} <<'END'\n{lines}\nEND", "Write it:"),
+            do(
+                "printf '%s\\n' \\\n"
+                f"  '[develop]' 'script_dir={place}' \\\n"
+                f"  '[install]' 'install_scripts={place}' \\\n"
+                f"  > {quoted(path)}",
+                "Write it:",
+            ),
             build(machine),
         )
 
@@ -374,7 +389,7 @@ def owner(machine: Machine) -> Finding:
 
 def _near_the_top(workspace: Path) -> Iterator[Path]:
     for folder in (workspace, *(workspace / name for name in ("src", *BUILT_FOLDERS))):
-        if folder.is_dir() and os.access(folder, os.R_OK | os.X_OK):
+        if folder.is_dir() and may_enter(folder):
             yield folder
             yield from sorted(folder.iterdir())
 
