@@ -74,6 +74,8 @@ def _files() -> list[Path]:
     home = Path(os.path.expanduser("~"))  # noqa: PTH111 - Path raises without a home
     config = Path(os.environ.get("XDG_CONFIG_HOME") or home / ".config")
     named = os.environ.get("PIP_CONFIG_FILE")
+    if named == os.devnull:  # pip's own way to say: no configuration
+        return []
     return [
         *([Path(named)] if named else []),
         config / "pip/pip.conf",

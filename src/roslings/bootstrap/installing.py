@@ -53,8 +53,10 @@ class Installer:
         if not seed.is_dir():
             seed = find_seed(python, scratch)
         first = replace(self.pip(), command=(python, str(seed)))
-        words = [f"{name}=={version}" for name, version in pins.items()]
-        drain(first, ["install", "--ignore-installed", "--no-deps", *words], self.place.root)
+        # Compiling all of the two takes longer than all else here, and little of them is ever used.
+        words = ["install", "--ignore-installed", "--no-deps", "--no-compile"]
+        tools = [f"{name}=={version}" for name, version in pins.items()]
+        drain(first, [*words, *tools], self.place.root)
 
     def missing(self, groups: Sequence[str]) -> list[str]:
         """The packages (`name==version`) that `groups` still need."""
@@ -92,7 +94,7 @@ class Installer:
         """The environment's own pip."""
         return Pip(
             command=(str(self.virtual.python), "-m", "pip"),
-            log=self.virtual.folder / "pip.log",
+            log=self.place.log,
             cache=None if _home_keeps_downloads() else self.place.cache,
             wheels=self.wheels,
             sees_path=self.sees_path,

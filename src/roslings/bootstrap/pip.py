@@ -75,7 +75,7 @@ class Pip:
                 f"This cannot be written: {found[1]}", "Give it to your own user with chown."
             )
         return Trouble(
-            f"pip could not install the packages. {_last_error(output)}",
+            f"pip could not install the packages. {_last_error(output)}".rstrip(),
             f"Read its report: {self.log}",
         )
 
@@ -121,5 +121,5 @@ def _unreachable() -> Trouble:
 
 
 def _last_error(output: str) -> str:
-    errors = [line for line in output.splitlines() if line.startswith("ERROR:")]
+    errors = [line for line in output.splitlines() if line.lower().lstrip().startswith("error:")]
     return errors[-1] if errors else ""

@@ -46,6 +46,11 @@ class Place:
         return self.root / f"{self.name}.lock"
 
     @property
+    def log(self) -> Path:
+        """All that pip said at the last change."""
+        return self.root / f"{self.name}.log"
+
+    @property
     def cache(self) -> Path:
         """Downloads, where the user has no folder for them."""
         return self.root / ".venv.cache"

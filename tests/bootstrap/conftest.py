@@ -1,0 +1,89 @@
+"""Tiny courses with real pip and real virtual environments."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+import pytest
+from course_copy import CourseCopy, plain_environment
+from package_index import PackageIndex
+from tiny_wheels import make_wheel, wheel_of_installed
+
+TOOLS = ("pip", "setuptools")
+BASE = getattr(sys, "_base_executable", "") or sys.executable
+
+
+def find_python(minor: int) -> str:
+    """The path of a Python 3.`minor` that runs; skips the test where there is none."""
+    from roslings.bootstrap.seeds import other_pythons
+
+    for python in [BASE, *other_pythons(f"python3.{minor}")]:
+        ask = [python, "-c", f"import sys; sys.exit(sys.version_info[:2] != (3, {minor}))"]
+        if subprocess.run(ask, capture_output=True, check=False).returncode == 0:
+            return python
+    pytest.skip(f"this machine has no Python 3.{minor}")
+
+
+@pytest.fixture(scope="session")
+def wheels_for_all(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with pip, setuptools and the tiny packages."""
+    folder = tmp_path_factory.mktemp("wheels")
+    for tool in TOOLS:
+        try:
+            wheel_of_installed(folder, tool)
+        except PackageNotFoundError:
+            pytest.skip(f"{tool} is not installed beside pytest: run the tests with ./roslings test")
+    for name in ("ros-x", "col-x", "draw-x"):
+        make_wheel(folder, name, "1.0")
+    program = {"check_x.py": "def main():\n    print('checked')\n"}
+    make_wheel(folder, "check-x", "1.0", program, scripts={"check-x": "check_x:main"})
+    make_wheel(folder, "ros-x", "2.0", {"ros_x.py": "", "ros_x.libs/libx.so": "no library"})
+    return folder
+
+
+@pytest.fixture
+def wheels(wheels_for_all: Path, tmp_path: Path) -> Path:
+    """The same folder, for one test to change."""
+    return Path(shutil.copytree(wheels_for_all, tmp_path / "wheels"))
+
+
+@pytest.fixture
+def make_course(wheels: Path, tmp_path: Path) -> Callable[[str], CourseCopy]:
+    """Lays a course out in a folder of the given name."""
+
+    def make(name: str, python: str = BASE) -> CourseCopy:
+        environment = plain_environment(tmp_path / "home", python)
+        course = CourseCopy(
+            tmp_path / name, wheels, environment | {"ROSLINGS_WHEELS": str(wheels)}
+        )
+        course.pins |= {tool: version(tool) for tool in TOOLS}
+        course.lay_out()
+        return course
+
+    return make
+
+
+@pytest.fixture
+def course(make_course: Callable[[str], CourseCopy]) -> CourseCopy:
+    """A fresh clone; everything that it installs is a tiny wheel in a folder."""
+    return make_course("course")
+
+
+@pytest.fixture
+def index(wheels: Path) -> Iterator[PackageIndex]:
+    """A package index on this machine that serves the tiny wheels."""
+    with PackageIndex(wheels) as running:
+        yield running
+
+
+@pytest.fixture
+def online(course: CourseCopy, index: PackageIndex) -> CourseCopy:
+    """A fresh clone whose packages come from `index`."""
+    course.environment.pop("ROSLINGS_WHEELS")
+    course.environment |= {"PIP_INDEX_URL": index.address, "no_proxy": "*", "PIP_RETRIES": "0"}
+    return course
