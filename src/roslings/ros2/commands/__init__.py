@@ -1,0 +1,1 @@
+"""One module a command: its verbs, their options, and what each prints."""

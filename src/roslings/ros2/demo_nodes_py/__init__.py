@@ -1,0 +1,1 @@
+"""The talker and the listener that every guide starts with, under the names they have there."""

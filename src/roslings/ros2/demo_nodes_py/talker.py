@@ -1,0 +1,38 @@
+"""`ros2 run demo_nodes_py talker`: says hello once a second, and counts."""
+
+import rclpy
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from std_msgs.msg import String
+
+
+class Talker(Node):
+    """Publishes a numbered text on `chatter`."""
+
+    def __init__(self) -> None:
+        super().__init__("talker")
+        self.count = 0
+        self.voice = self.create_publisher(String, "chatter", 10)
+        self.timer = self.create_timer(1.0, self.say_hello)
+
+    def say_hello(self) -> None:
+        """Publish the next text, and log it."""
+        message = String(data=f"Hello World: {self.count}")
+        self.count += 1
+        self.get_logger().info(f'Publishing: "{message.data}"')
+        self.voice.publish(message)
+
+
+def main() -> None:
+    """Run the node until Ctrl-C."""
+    try:
+        rclpy.init()
+        rclpy.spin(Talker())
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    finally:
+        rclpy.try_shutdown()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,213 @@
+"""A node of our own that looks at the graph, and knows when it has seen all of it.
+
+Discovery takes between 0.05 s and 3 s, by luck, so waiting for a fixed time is wrong both ways.
+But each program that takes part in ROS on this computer holds UDP ports of its domain, and the
+kernel lists them: so it is known how many must answer, and the look ends when all have.
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from types import TracebackType
+from typing import Any
+
+from roslings.ros2.names import is_hidden, node_name
+from roslings.ros2.participants import participants_here
+from roslings.ros2.problem import Problem
+from roslings.ros2.surroundings import domain_id, looks_beyond_this_computer
+
+QUIET_S = 0.12
+"""After all have answered: the last endpoints come within this time of each other."""
+
+QUIET_BEYOND_S = 1.5
+"""Where other computers may answer too, nothing new for this long means that it is all."""
+
+SILENT_S = 4.0
+"""A program that is alive speaks every 3 s; who is silent for longer is stuck or is not ROS."""
+
+LOOK_EVERY_S = 0.01
+WHO = "ros_discovery_info"
+"""On this topic each participant writes which nodes it has; DDS shows it, ROS hides it."""
+
+UNNAMED = "_NODE_NAME_UNKNOWN_"
+ROS_TOPICS = ("rt/", "rq/", "rr/")
+"""How ROS marks its topics, requests and replies in DDS."""
+
+PREFIX, HOST = 12, 4
+"""The first bytes of an endpoint's id name its participant, and of these the first its computer."""
+
+
+class NodeVanished(Problem):
+    """A node ended while we looked at it."""
+
+    def __init__(self, node: str) -> None:
+        super().__init__(f"Unable to find node '{node}': it ended just now. Start it again.")
+
+
+@dataclass(frozen=True)
+class Sight:
+    """What DDS has told so far: participants, those whose nodes are known, endpoints, nodes."""
+
+    here: frozenset[bytes]
+    named: frozenset[bytes]
+    endpoints: int
+    unnamed: int
+    nodes: int
+
+    def complete(self, expected: int) -> bool:
+        """Everybody on this computer has said all."""
+        return len(self.here) >= expected and self.here <= self.named and not self.unnamed
+
+
+class Eye:
+    """Our node, in a context of its own. A context manager: leaving the block ends both."""
+
+    def __init__(self, name: str = "") -> None:
+        """`name` is the node's; by default a hidden one, as the real tool has it."""
+        self._name = name or f"_ros2cli_{os.getpid()}"
+
+    def __enter__(self) -> Eye:
+        import rclpy
+        from rclpy.executors import SingleThreadedExecutor
+        from rclpy.node import Node
+        from rclpy.signals import SignalHandlerOptions
+
+        self.domain = domain_id()
+        self.context = rclpy.Context()
+        rclpy.init(
+            args=[], context=self.context, domain_id=self.domain,
+            signal_handler_options=SignalHandlerOptions.NO,
+        )  # fmt: skip
+        self.node = Node(
+            self._name, context=self.context, use_global_arguments=False,
+            enable_rosout=False, start_parameter_services=False,
+        )  # fmt: skip
+        self._executor = SingleThreadedExecutor(context=self.context)
+        self._executor.add_node(self.node)
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self._executor.shutdown()
+        self.node.destroy_node()
+        self.context.try_shutdown()
+
+    def settle(self) -> Eye:
+        """Wait until the graph is complete."""
+        settling = Settling(self.domain)
+        while not settling.after(self._sight()):
+            time.sleep(LOOK_EVERY_S)
+        return self
+
+    def until(self, condition: Callable[[], Any], within_s: float | None = None) -> bool:
+        """Run callbacks until `condition()` holds, at most `within_s`. Whether it does."""
+        end_s = None if within_s is None else time.monotonic() + within_s
+        while not condition():
+            if end_s is not None and time.monotonic() >= end_s:
+                return False
+            self._executor.spin_once(timeout_sec=0.05)
+        return True
+
+    def nodes(self, hidden: bool = False) -> list[str]:
+        """Full names of all nodes but our own, in order; one name as often as it is there."""
+        pairs = self.node.get_node_names_and_namespaces()
+        names = sorted(node_name(name, space) for name, space in pairs if name != self._name)
+        return [name for name in names if hidden or not is_hidden(name)]
+
+    def topics(self, hidden: bool = True) -> dict[str, list[str]]:
+        """Every topic that somebody else takes part in, with its types."""
+        found = self.node.get_topic_names_and_types()
+        return {
+            name: list(types)
+            for name, types in sorted(found)
+            if (hidden or not is_hidden(name)) and (self.publishers(name) or self.ears(name))
+        }
+
+    def publishers(self, topic: str) -> list[Any]:
+        """What is known of each publisher of `topic` but our own."""
+        return self._others(self.node.get_publishers_info_by_topic(topic))
+
+    def ears(self, topic: str) -> list[Any]:
+        """What is known of each subscription to `topic` but our own."""
+        return self._others(self.node.get_subscriptions_info_by_topic(topic))
+
+    def services(self, hidden: bool = True) -> dict[str, list[str]]:
+        """Every service that another node offers, with its types."""
+        own = set(self._by_node("service", f"/{self._name}"))
+        found = self.node.get_service_names_and_types()
+        return {
+            name: list(types)
+            for name, types in sorted(found)
+            if name not in own and (hidden or not is_hidden(name))
+        }
+
+    def of_node(self, what: str, full_name: str) -> dict[str, list[str]]:
+        """Names and types of what a node has: `publisher`, `subscriber`, `service`, `client`.
+
+        Raises NodeVanished.
+        """
+        try:
+            return dict(sorted(self._by_node(what, full_name).items()))
+        except RuntimeError:
+            raise NodeVanished(full_name) from None
+
+    def _by_node(self, what: str, full_name: str) -> dict[str, list[str]]:
+        space, _, name = full_name.rpartition("/")
+        read = getattr(self.node, f"get_{what}_names_and_types_by_node")
+        return {found: list(types) for found, types in read(name, space or "/")}
+
+    def _others(self, infos: Iterable[Any]) -> list[Any]:
+        return [info for info in infos if info.node_name not in (self._name, UNNAMED)]
+
+    def _sight(self) -> Sight:
+        raw = [name for name, _ in self.node.get_topic_names_and_types(no_demangle=True)]
+        seen = {
+            bytes(info.endpoint_gid): info.node_name
+            for name in raw
+            if name.startswith(ROS_TOPICS)
+            for info in self._infos(name)
+        }
+        own = next((gid for gid, node in seen.items() if node == self._name), b"")
+        who = {bytes(i.endpoint_gid)[:PREFIX] for i in self._infos(WHO)}
+        return Sight(
+            here=frozenset(prefix for prefix in who if prefix[:HOST] == own[:HOST]),
+            named=frozenset(gid[:PREFIX] for gid, node in seen.items() if node != UNNAMED),
+            endpoints=len(seen),
+            unnamed=sum(node == UNNAMED for node in seen.values()),
+            nodes=len(self.node.get_node_names()),
+        )
+
+    def _infos(self, raw_topic: str) -> list[Any]:
+        node = self.node
+        return [
+            *node.get_publishers_info_by_topic(raw_topic, no_mangle=True),
+            *node.get_subscriptions_info_by_topic(raw_topic, no_mangle=True),
+        ]
+
+
+class Settling:
+    """Tells when nothing more is to come."""
+
+    def __init__(self, domain: int) -> None:
+        self._domain = domain
+        self._before: Sight | None = None
+        self._since_s = time.monotonic()
+
+    def after(self, sight: Sight) -> bool:
+        """Whether `sight`, the newest, is the whole graph."""
+        now_s = time.monotonic()
+        if sight != self._before:
+            self._before, self._since_s = sight, now_s
+        quiet_s = now_s - self._since_s
+        if quiet_s < QUIET_S:
+            return False
+        if not sight.complete(participants_here(self._domain)):
+            return quiet_s >= SILENT_S
+        return quiet_s >= (QUIET_BEYOND_S if looks_beyond_this_computer() else QUIET_S)

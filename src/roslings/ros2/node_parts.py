@@ -1,0 +1,37 @@
+"""What one node has: subscriptions, publishers, services, actions."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from roslings.ros2.names import is_hidden
+
+TypesByName = dict[str, list[str]]
+SEND_GOAL, FEEDBACK = "/_action/send_goal", "/_action/feedback"
+GOAL_SUFFIX, FEEDBACK_SUFFIX = "_SendGoal", "_FeedbackMessage"
+
+
+def parts_of(eye: Any, node: str, hidden: bool = False) -> dict[str, TypesByName]:
+    """The parts that `ros2 node info` shows, by their titles, in order."""
+    services, clients = eye.of_node("service", node), eye.of_node("client", node)
+    return {
+        "Subscribers": _shown(eye.of_node("subscriber", node), hidden),
+        "Publishers": _shown(eye.of_node("publisher", node), hidden),
+        "Service Servers": _shown(services, hidden),
+        "Service Clients": _shown(clients, hidden),
+        "Action Servers": actions_in(services),
+        "Action Clients": actions_in(clients),
+    }
+
+
+def _shown(entries: TypesByName, hidden: bool) -> TypesByName:
+    return {name: types for name, types in entries.items() if hidden or not is_hidden(name)}
+
+
+def actions_in(services: TypesByName) -> TypesByName:
+    """An action is a goal service by a name of its own; its type is the service's without suffix."""
+    return {
+        name.removesuffix(SEND_GOAL): [kind.removesuffix(GOAL_SUFFIX) for kind in types]
+        for name, types in services.items()
+        if name.endswith(SEND_GOAL)
+    }

@@ -1,0 +1,19 @@
+"""What a command cannot do, said in words that name the next step."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+
+class Problem(Exception):
+    """A command cannot go on; its text is shown, and `exit_code` is handed to the shell."""
+
+    exit_code = 1
+
+
+def did_you_mean(wanted: str, names: Iterable[str]) -> str:
+    """` Did you mean NAME?` for the most similar name; empty where none is similar."""
+    from roslings.near import nearest
+
+    near = nearest(wanted, names)
+    return f" Did you mean {near.found}?" if near and near.how != "other" else ""
