@@ -155,7 +155,7 @@ def test_ascii_where_the_encoding_lacks_the_marks() -> None:
     assert "x fail    0/5  talker_runs:" in text
     assert "+ pass" in text
     assert "- skip" in text
-    assert "  +- What your program wrote last -" in text
+    assert "  +- The last lines that came out -" in text
 
 
 def test_ascii_on_the_linux_text_console(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -85,4 +85,4 @@ def _title(check: CheckResult) -> str:
 def _put_log(page: Page, log: Sequence[str], package: str) -> None:
     lines = helpful(log, package, LOG_LINES)
     if lines:
-        page.boxed("What your program wrote last", lines, indent=INDENT)
+        page.boxed("The last lines that came out", lines, indent=INDENT)

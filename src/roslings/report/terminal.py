@@ -20,6 +20,8 @@ from roslings.report.hint_page import first_failed, hint_command, put_hint
 from roslings.report.page import Page
 from roslings.verdict import CheckOutcome, CheckResult, Verdict
 
+NOT_JUDGED: tuple[CheckOutcome, ...] = ("skip", "inconclusive")
+
 
 class NoSuchCheck(Exception):
     """The verdict has no check of the name that was asked for."""
@@ -87,10 +89,8 @@ def _filled(page: Page, verdict: Verdict, put: Put) -> Page:
     width = max((len(points_of(check)) for check in verdict.checks), default=0)
     put_title(page, verdict)
     put(page, _of(verdict, "pass"), width)
-    for reason, checks in _by_reason([*_of(verdict, "skip"), *_of(verdict, "inconclusive")]):
-        page.blank()
-        put(page, checks, width)
-        page.labelled("why", reason, indent=INDENT)
+    for outcome in NOT_JUDGED:
+        _put_not_judged(page, _of(verdict, outcome), width, put)
     for check in verdict.failed():
         page.blank()
         put_heading(page, check, width)
@@ -102,16 +102,24 @@ def _filled(page: Page, verdict: Verdict, put: Put) -> Page:
     return page
 
 
+def _put_not_judged(page: Page, checks: Sequence[CheckResult], width: int, put: Put) -> None:
+    if checks:
+        page.blank()
+    for reason, group in _by_reason(checks):
+        put(page, group, width)
+        page.labelled("why", reason, indent=INDENT)
+
+
 def _of(verdict: Verdict, outcome: CheckOutcome) -> list[CheckResult]:
     return [check for check in verdict.checks if check.outcome == outcome]
 
 
 def _by_reason(checks: Sequence[CheckResult]) -> list[tuple[str, list[CheckResult]]]:
     """Checks that were not judged, put together where the reason is the same."""
-    groups: dict[tuple[str, str], list[CheckResult]] = {}
+    groups: dict[str, list[CheckResult]] = {}
     for check in checks:
-        groups.setdefault((check.outcome, check.why or "not said"), []).append(check)
-    return [(reason, group) for (_, reason), group in groups.items()]
+        groups.setdefault(check.why or "not said", []).append(check)
+    return list(groups.items())
 
 
 def _each_on_a_line(page: Page, checks: Sequence[CheckResult], points_width: int) -> None:
@@ -180,6 +188,6 @@ def _put_mend(page: Page, verdict: Verdict, first: CheckResult) -> None:
 
 def _put_look_again(page: Page, verdict: Verdict) -> None:
     if verdict.outcome == "inconclusive":
-        page.labelled("", "This is not your fault: this machine could not look everywhere.")
+        page.labelled("", "This is not your fault: not everything could be looked at.")
     page.command("Next", "Check again:", f"./roslings check {verdict.lab}")
     page.command("", "If it stays so, look at the machine:", "./roslings doctor")
