@@ -187,7 +187,7 @@ def test_together(together: ExperimentView) -> None:
     together.must(hold_just([TALKER, LISTENER], CHATTER))
 
 
-@check(needs=["talker_runs", "listener_runs"])
+@check(needs=["talker_stays", "listener_runs"])
 def test_ends(talking: ExperimentView, hearing: ExperimentView) -> None:
     """Both nodes end within {CARD.ends_within_s:g} s of Ctrl-C."""
     talking.process(TALKER).must(end_within(CARD.ends_within_s))

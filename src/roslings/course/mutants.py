@@ -25,6 +25,9 @@ class Mutant(Contract):
     name: str = Field(default="", description="The file's name; not written in it")
     what: str = Field(description="The mistake, as the student would tell it")
     fails: tuple[str, ...] = Field(min_length=1, description="The checks that must fail, no others")
+    skips: tuple[str, ...] = Field(
+        default=(), description="Checks that have nothing to judge then, beside the dependants"
+    )
     faults: dict[str, str] = Field(default_factory=dict, description="Check to kind of fault")
     edits: tuple[Edit, ...] = ()
     remove: tuple[str, ...] = ()

@@ -32,7 +32,6 @@ class Scene:
         self._random = random.Random(seed)
         self._ends_within_s = ends_within_s
         arena.on_change = probe.notify
-        probe.graph_while(arena.all_alive)
 
     @property
     def seen(self) -> ExperimentSeen:

@@ -237,9 +237,8 @@ def hold_just(nodes: Sequence[NodeContract], topic: TopicContract) -> Demand[Exp
         wanted = tuple(sorted(node.node for node in nodes))
         if tuple(sorted(graph.nodes)) != wanted:
             raise faults.NotTheAskedGraph(wanted, tuple(graph.nodes), "the nodes are")
-        edges = tuple(
-            sorted(f"{e.node} ({e.kind})" for e in own_endpoints(graph) if e.topic == topic.topic)
-        )
+        ends = {(e.node, e.kind) for e in own_endpoints(graph) if e.topic == topic.topic}
+        edges = tuple(f"{node} ({kind})" for node, kind in sorted(ends))
         asked = tuple(sorted(_asked_edges(nodes, topic)))
         if edges != asked:
             raise faults.NotTheAskedGraph(asked, edges, f"on {topic.topic} there are")

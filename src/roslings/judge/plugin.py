@@ -12,6 +12,7 @@ import pytest
 from roslings.course import Hint
 from roslings.judge.check import check_of
 from roslings.judge.faults import Fault, Inconclusive, NothingToJudge, Unmet
+from roslings.judge.sheet import title_of
 from roslings.judge.views import View
 from roslings.verdict import CheckResult
 
@@ -56,11 +57,11 @@ class Collector:
         hint = self._hints.get(name)
         words: dict[str, Any] = {
             "id": name,
-            "title": title_of(item),
+            "title": title_of(_function(item)),
             "points": worth if error is None else 0.0,
             "max_points": worth,
             "lesson": hint.lesson if hint else None,
-            **_words_for(error, title_of(item)),
+            **_words_for(error, title_of(_function(item))),
         }
         if words["outcome"] == "fail" and hint:
             words["hints"] = hint.steps
@@ -104,13 +105,6 @@ def _function(item: pytest.Item) -> Any:
 def check_name(item: pytest.Item) -> str:
     """`rate` for the function `test_rate`."""
     return item.name.removeprefix("test_")
-
-
-def title_of(item: pytest.Item) -> str:
-    """The docstring's first line, with the grader's own names put in."""
-    function = _function(item)
-    first = (function.__doc__ or item.name).strip().splitlines()[0]
-    return first.format_map(function.__globals__)
 
 
 def evidence_plugin(views: dict[str, View]) -> types.ModuleType:

@@ -36,7 +36,6 @@ class Probe:
         self._publishers: dict[str, Any] = {}
         self._changed = threading.Condition()
         self._closing = threading.Event()
-        self._holds: Condition = lambda: True
 
     def __enter__(self) -> Probe:
         import rclpy
@@ -76,10 +75,6 @@ class Probe:
             recorder.read_contents()
             self.seen.topics[name] = recorder.seen
 
-    def graph_while(self, holds: Condition) -> None:
-        """Keep the graph only while `holds()`: a node that died must not blur what was there."""
-        self._holds = holds
-
     def until(self, condition: Condition, within_s: float) -> bool:
         """Watch until `condition()` is true, at most `within_s`. Whether it became true.
 
@@ -97,9 +92,13 @@ class Probe:
                 self._changed.wait(min(LOOK_EVERY_S, left_s))
 
     def look(self) -> GraphSeen:
-        """Read the graph once, and start to record what is new in it."""
+        """Read the graph once, and start to record what is new in it.
+
+        The fullest graph is the one that is kept: a node that crashes leaves the graph before its
+        process ends, and must not blur what was there.
+        """
         graph = read_graph(self._eye)
-        if self._holds():
+        if fullness(graph) >= fullness(self.seen.graph):
             self.seen.graph = graph
         for endpoint in own_endpoints(graph):
             if self._records and endpoint.kind == "publisher":
@@ -204,6 +203,11 @@ class Probe:
             now_s = time.monotonic()
             self.seen.stall_s = max(self.seen.stall_s, now_s - before_s - HEARTBEAT_S)
             before_s = now_s
+
+
+def fullness(graph: GraphSeen) -> tuple[int, int]:
+    """How much is in a graph: nodes first, then endpoints."""
+    return len(graph.nodes), len(graph.endpoints)
 
 
 def offering(qos: Qos) -> Any:

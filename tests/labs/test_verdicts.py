@@ -1,0 +1,88 @@
+"""Every lab, graded for real: solution, starter and mutants, each with the verdict it must get."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from roslings.course import Lab, Mutant, all_labs
+from roslings.judge.sheet import dependants
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What the command said of a package."""
+
+    status: int
+    verdict: dict[str, Any]
+
+    def ids(self, outcome: str) -> set[str]:
+        """Names of the checks with an outcome."""
+        return {c["id"] for c in self.verdict["checks"] if c["outcome"] == outcome}
+
+    def faults(self) -> dict[str, str]:
+        """Failed check to kind of fault."""
+        return {c["id"]: c["fault"] for c in self.verdict["checks"] if c["outcome"] == "fail"}
+
+
+def check(lab: Lab, package: Path, folder: Path) -> Answer:
+    """Grade a package with the command that a student types."""
+    file = folder / "verdict.json"
+    command = [
+        sys.executable,
+        "-m",
+        "roslings",
+        "check",
+        lab.name,
+        str(package),
+        "--json",
+        str(file),
+    ]
+    ran = subprocess.run(command, capture_output=True, text=True, check=False, cwd=folder)
+    assert file.is_file(), ran.stderr
+    return Answer(ran.returncode, json.loads(file.read_text("utf-8")))
+
+
+def labs() -> list[Any]:
+    """Each lab once."""
+    return [pytest.param(lab, id=lab.name) for lab in all_labs()]
+
+
+def mutants() -> list[Any]:
+    """Each mutant of each lab."""
+    pairs = [(lab, mutant) for lab in all_labs() for mutant in lab.mutants()]
+    return [pytest.param(lab, mutant, id=f"{lab.name}-{mutant.name}") for lab, mutant in pairs]
+
+
+@pytest.mark.parametrize("lab", labs())
+def test_the_solution_gets_the_full_score(lab: Lab, tmp_path: Path) -> None:
+    """Nothing in the card asks for more than the solution does."""
+    answer = check(lab, lab.solution, tmp_path)
+    assert answer.faults() == {}
+    assert answer.verdict["score"] == 100
+    assert answer.status == 0
+
+
+@pytest.mark.parametrize("lab", labs())
+def test_the_starter_does_not_pass(lab: Lab, tmp_path: Path) -> None:
+    """Who has done nothing has not done the lab."""
+    answer = check(lab, lab.starter, tmp_path)
+    assert answer.verdict["outcome"] == "fail"
+    assert answer.status == 1
+
+
+@pytest.mark.parametrize(("lab", "mutant"), mutants())
+def test_a_mutant_fails_where_it_says(lab: Lab, mutant: Mutant, tmp_path: Path) -> None:
+    """The failed checks are exactly those that it names; the skipped ones are their dependants."""
+    package = mutant.make(lab.solution, tmp_path / "src" / lab.card.package)
+    answer = check(lab, package, tmp_path)
+    assert answer.ids("fail") == set(mutant.fails), answer.faults()
+    assert answer.ids("inconclusive") == set()
+    assert answer.ids("skip") == dependants(lab, set(mutant.fails)) | set(mutant.skips)
+    assert mutant.faults.items() <= answer.faults().items()
