@@ -128,9 +128,13 @@ def check_options(word: argparse.ArgumentParser) -> None:
     word.add_argument(
         "--solution", action="store_true", help="check the course's own solution instead"
     )
-    word.add_argument("--json", metavar="FILE", type=Path, help="write the verdict to FILE (- here)")
+    word.add_argument(
+        "--json", metavar="FILE", type=Path, help="write the verdict to FILE (- here)"
+    )
     word.add_argument("--only", metavar="ID", help="show one check only, by its short name")
-    word.add_argument("--seed", metavar="N", type=int, help="repeat the random choices of a verdict")
+    word.add_argument(
+        "--seed", metavar="N", type=int, help="repeat the random choices of a verdict"
+    )
     word.add_argument(
         "--hint", metavar="STEP", type=int, choices=(1, 2, 3), nargs="?", const=1,
         help="a hint for what your last check found: 1 where, 2 which idea, 3 other code",

@@ -23,15 +23,17 @@ class Collector:
     def __init__(self, points: dict[str, float], hints: dict[str, Hint]) -> None:
         self.results: list[CheckResult] = []
         self.problems: list[str] = []
+        self._roots: dict[str, str] = {}
         self._points = points
         self._hints = hints
 
     def pytest_runtest_setup(self, item: pytest.Item) -> None:
         """Skip a check whose need has not passed."""
-        passed = {r.id for r in self.results if r.outcome == "pass"}
         for need in check_of(_function(item)).needs:
-            if need not in passed:
-                pytest.skip(self._title_of(need))
+            root = self._root_of(need)
+            if root is not None:
+                self._roots[check_name(item)] = root
+                pytest.skip(f"first mend: {self._title_of(root)}")
 
     @pytest.hookimpl(wrapper=True)
     def pytest_runtest_makereport(
@@ -47,9 +49,14 @@ class Collector:
         if report.failed:
             self.problems.append(str(report.longrepr))
 
+    def _root_of(self, need: str) -> str | None:
+        """The check to mend first: what `need` itself waits for, else `need`; None if it passed."""
+        passed = any(r.id == need and r.outcome == "pass" for r in self.results)
+        return None if passed else self._roots.get(need, need)
+
     def _title_of(self, name: str) -> str:
         titles = {result.id: result.title for result in self.results}
-        return f"first mend: {titles.get(name, name)}"
+        return titles.get(name, name)
 
     def _result(self, item: pytest.Item, error: BaseException | None) -> CheckResult:
         name = check_name(item)

@@ -52,7 +52,7 @@ class Setup:
     console_scripts: dict[str, str] = field(default_factory=dict)
     """Name of an executable to `module:function`."""
     markers: list[str] = field(default_factory=list)
-    """Files that it installs into the index of packages, e.g. `resource/chatter`."""
+    """Files that it installs into the index of packages, e.g. `resource/lamp`."""
 
 
 def read_setup(tree: ast.Module) -> Setup:

@@ -82,7 +82,7 @@ def start(lab: Lab, workspace: Path | None = None) -> Started:
     with reading(root):
         standing = package if os.path.lexists(package) else started_package(lab, root)
     if standing:
-        raise _already_started(lab, standing)
+        raise _already_started(lab, standing, root)
     copy_package(lab.starter, package)
     return Started(package, len(files(package)))
 
@@ -124,22 +124,23 @@ def stage(package: Path, into: Path, limits: Limits | None = None) -> Path:
     return copy_package(package, into, limits)
 
 
-def _already_started(lab: Lab, standing: Path) -> AlreadyThere:
+def _already_started(lab: Lab, standing: Path, root: Path) -> AlreadyThere:
     return AlreadyThere(
-        f"There is {_what_stands(lab, standing)} at {shown(standing)}. It stays as it is.",
-        f"Go on with it. What you changed since the starter: ./roslings diff {lab.name}\n"
-        f"For a fresh starter, move it away first: mv {quoted(standing)} {_aside(standing)}",
+        f"There is {_what_stands(lab, standing)}:\n  {shown(standing)}\nIt stays as it is.",
+        f"Go on with it. What you changed so far: ./roslings diff {lab.name}\n"
+        f"For a fresh starter, move it out of the workspace first:\n"
+        f"  mv {quoted(standing)} {quoted(_free_name(standing.name, root.parent))}",
     )
 
 
 def _what_stands(lab: Lab, standing: Path) -> str:
     if not standing.is_dir():
-        return "a file"
+        return "a file already"
     if not (standing / "package.xml").is_file():
-        return "a folder without package.xml"
+        return "already a folder without package.xml"
     if not changes_since(lab.starter, standing):
-        return "the starter, without any change,"
-    return f"your package (last changed {_last_change(standing):%Y-%m-%d %H:%M})"
+        return "the starter already, without any change"
+    return f"your package already (last changed {_last_change(standing):%Y-%m-%d %H:%M})"
 
 
 def _last_change(package: Path) -> datetime:
@@ -147,8 +148,7 @@ def _last_change(package: Path) -> datetime:
     return datetime.fromtimestamp(max(stamps, default=package.stat().st_mtime))
 
 
-def _aside(standing: Path) -> str:
-    """A name outside src/, so that colcon does not find two packages; one that is free."""
-    outside = standing.parent.parent
-    names = (f"{standing.name}_old{number}" for number in ("", *range(2, 1000)))
-    return quoted(next(outside / name for name in names if not (outside / name).exists()))
+def _free_name(name: str, folder: Path) -> Path:
+    """A name outside the workspace: inside, colcon would find two packages."""
+    names = (f"{name}_old{number}" for number in ("", *range(2, 1000)))
+    return next(folder / name for name in names if not os.path.lexists(folder / name))

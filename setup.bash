@@ -1,0 +1,29 @@
+# Makes this terminal ready for ROS 2, as /opt/ros/jazzy/setup.bash does where ROS is installed:
+#
+#     source setup.bash          (in each new terminal, from anywhere: source PATH/setup.bash)
+#
+# Where a ROS 2 Jazzy is already sourced, it adds nothing but the command `roslings`.
+
+_roslings=$(CDPATH= cd -- "$(dirname -- "${BASH_SOURCE[0]:-$0}")" && pwd -P)
+
+if [ -z "${ROS_DISTRO-}" ]; then
+    [ -e "$_roslings/.venv/roslings" ] || "$_roslings/roslings" >&2
+    case :$PATH: in
+        *":$_roslings/.venv/bin:"*) ;;
+        *) export PATH=$_roslings/.venv/bin:$PATH ;;
+    esac
+    case :${AMENT_PREFIX_PATH-}: in
+        *":$_roslings/.venv:"*) ;;
+        *) export AMENT_PREFIX_PATH=${AMENT_PREFIX_PATH:+$AMENT_PREFIX_PATH:}$_roslings/.venv ;;
+    esac
+fi
+
+# Your nodes talk to each other on this computer only, and not with the neighbour's robot. With a
+# robot of your own on the network, say SUBNET before you source this file.
+export ROS_AUTOMATIC_DISCOVERY_RANGE=${ROS_AUTOMATIC_DISCOVERY_RANGE:-LOCALHOST}
+
+case :$PATH: in
+    *":$_roslings:"*) ;;
+    *) export PATH=$PATH:$_roslings ;;
+esac
+unset _roslings
