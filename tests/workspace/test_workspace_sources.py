@@ -88,7 +88,7 @@ def test_pipes_are_left_out(package: Path, tmp_path: Path) -> None:
 def test_too_much_is_refused_with_the_largest_part(package: Path, tmp_path: Path) -> None:
     """A bag or a video in the package; nothing is half made."""
     with (package / "bag.mcap").open("wb") as bag:
-        bag.truncate(201 * 2**20)
+        bag.truncate(201_000_000)
     with pytest.raises(trouble.TooLarge, match=r"bag\.mcap"):
         stage(package, tmp_path / "staged")
     (package / "bag.mcap").unlink()

@@ -66,9 +66,10 @@ def test_start_puts_the_starter_into_src(topics: Lab, workspace: Path) -> None:
 
 def test_start_never_writes_over_work(topics: Lab, package: Path) -> None:
     """It says what stands there, how to compare, and a free name to move it to."""
-    (package.parents[1] / "chatter_old").touch()
+    (package.parents[2] / "chatter_old").touch()
     before = texts(package)
-    with pytest.raises(trouble.AlreadyThere, match=r"your package \(last changed") as refusal:
+    stands = r"your package already \(last changed"
+    with pytest.raises(trouble.AlreadyThere, match=stands) as refusal:
         start(topics)
     assert texts(package) == before
     assert "./roslings diff topics" in refusal.value.next_step
@@ -78,7 +79,7 @@ def test_start_never_writes_over_work(topics: Lab, package: Path) -> None:
 def test_start_twice_says_that_nothing_was_changed_yet(topics: Lab, workspace: Path) -> None:
     """The starter as it came is no work to fear for."""
     start(topics)
-    with pytest.raises(trouble.AlreadyThere, match="the starter, without any change"):
+    with pytest.raises(trouble.AlreadyThere, match="the starter already, without any change"):
         start(topics)
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import queue
 import shutil
-import signal
 import subprocess
 import sys
 import threading
@@ -136,23 +135,32 @@ def test_a_folder_that_is_moved_away_is_waited_for(watcher: Watcher, tmp_path: P
 def test_ctrl_c_ends_the_watch_quietly(package: Path) -> None:
     """No traceback, and the caller goes on after its loop."""
     source = """
-import signal, sys
+import os, signal, sys, threading, time
 from pathlib import Path
 from roslings.workspace.watch import changes
+
+def press_ctrl_c_while_it_waits(thread):
+    waits = False
+    while not waits:
+        time.sleep(0.01)
+        frame = sys._current_frames().get(thread)
+        while frame and not waits:
+            waits = frame.f_code.co_name == "_changes"
+            frame = frame.f_back
+    os.kill(os.getpid(), signal.SIGINT)
+
 signal.signal(signal.SIGINT, signal.default_int_handler)
+main = threading.get_ident()
 for found in changes(Path(sys.argv[1]), begin=True):
-    print("begun", flush=True)
+    threading.Thread(target=press_ctrl_c_while_it_waits, args=[main], daemon=True).start()
 print("after")
 """
-    with subprocess.Popen(
+    ended = subprocess.run(
         [sys.executable, "-c", source, str(package)],
         env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
+        capture_output=True,
         text=True,
-    ) as watching:
-        assert watching.stdout
-        assert watching.stdout.readline() == "begun\n"
-        watching.send_signal(signal.SIGINT)
-        out, errors = watching.communicate(timeout=LONG_S)
-    assert (out, errors, watching.returncode) == ("after\n", "", 0)
+        check=False,
+        timeout=LONG_S,
+    )
+    assert (ended.stdout, ended.stderr, ended.returncode) == ("after\n", "", 0)

@@ -89,6 +89,6 @@ def _may_replace(out: Path, name: str) -> bool:
         if f"{name}/package.xml" in old.namelist():
             return True
     raise AlreadyThere(
-        f"There is already a file {shown(out)}, and it is no zip of {name!r}. It stays.",
+        f"{shown(out)}\nis there already, and is no zip of {name!r}. It stays as it is.",
         "Give another name: --out FILE",
     )

@@ -16,14 +16,13 @@ from roslings.workspace.trouble import LinkLeadsOutside, TooLarge, reading
 BUILT = frozenset({"build", "install", "log"})
 """colcon's folders; a package built in its own folder has them at its top."""
 MADE = frozenset({"__pycache__", "node_modules"})
-MEBIBYTE = 2**20
 
 
 @dataclass(frozen=True)
 class Limits:
     """The most that a package of a lab may hold."""
 
-    bytes: int = 200 * MEBIBYTE
+    bytes: int = 200_000_000
     files: int = 20_000
 
 

@@ -43,7 +43,7 @@ class NoWorkspace(WorkspaceError):
     def __init__(self, path: Path) -> None:
         super().__init__(
             f"There is no workspace yet: {shown(path)}.",
-            "Make it with `./roslings start LAB`, for example `./roslings start topics`.",
+            "Make it with `./roslings start LAB`, for example:\n./roslings start topics",
         )
 
 
@@ -72,9 +72,8 @@ class NoPackage(WorkspaceError):
 
     def __init__(self, path: Path, name: str) -> None:
         super().__init__(
-            f"There is no ROS package in {shown(path)}: no folder there has a package.xml.",
-            f"Give the folder of the package {name!r}, or get a starter with"
-            " `./roslings start LAB`.",
+            f"There is no ROS package in {shown(path)}:\nno folder there has a package.xml.",
+            f"Give the folder of the package {name!r},\nor get a starter: ./roslings start LAB",
         )
 
 
@@ -83,7 +82,7 @@ class NoPackageXml(WorkspaceError):
 
     def __init__(self, folder: Path) -> None:
         super().__init__(
-            f"{shown(folder)} has no package.xml, so ROS does not see a package there.",
+            f"{shown(folder)} has no package.xml.\nROS does not see a package there.",
             "Write package.xml, or get it from a new package: `ros2 pkg create` makes one.",
         )
 
@@ -116,7 +115,7 @@ class NoSetupPy(WorkspaceError):
     """The package has no setup.py, so it is no Python package."""
 
     def __init__(self, folder: Path, has_cmake: bool) -> None:
-        kind = " It has CMakeLists.txt: it is a package for C++." if has_cmake else ""
+        kind = "\nIt has CMakeLists.txt: it is a package for C++." if has_cmake else ""
         super().__init__(
             f"{shown(folder)} has no setup.py.{kind}",
             "The lab asks for a Python package (ament_python), and those have a setup.py.\n"
@@ -142,7 +141,7 @@ class LinkLeadsOutside(WorkspaceError):
 
     def __init__(self, link: Path, target: Path) -> None:
         super().__init__(
-            f"{shown(link)} is a link to {shown(target)}, which is outside the package.",
+            f"{shown(link)} is a link to\n{shown(target)}, outside the package.",
             "A package must hold its own files. Replace the link by a copy of the file.",
         )
 
@@ -152,8 +151,8 @@ class TooLarge(WorkspaceError):
 
     def __init__(self, folder: Path, largest: Path, size: str, limit: str) -> None:
         super().__init__(
-            f"{shown(folder)} is too large: {size}. The limit is {limit}.",
-            f"Move what is not code out of it. The largest part is {shown(largest)}.",
+            f"{shown(folder)} is too large:\n{size}. The limit is {limit}.",
+            f"Move what is not code out of it. The largest part is\n{shown(largest)}",
         )
 
 
@@ -169,7 +168,7 @@ class CannotRead(MachineTrouble):
 
     def __init__(self, path: Path) -> None:
         super().__init__(
-            f"{shown(path)} cannot be read: you do not have the permission.",
+            f"{shown(path)} cannot be read:\nyou do not have the permission.",
             f"Look at who owns it: ls -ld {quoted(path)}\n"
             "Never use sudo to build or edit: the files then belong to root.",
         )
@@ -180,7 +179,7 @@ class CannotWrite(MachineTrouble):
 
     def __init__(self, path: Path) -> None:
         super().__init__(
-            f"{shown(path)} cannot be written: it is read-only, or it belongs to someone else.",
+            f"{shown(path)} cannot be written:\nit is read-only, or it belongs to someone else.",
             f"Look at who owns it: ls -ld {quoted(path.parent)}\n"
             "Or choose another folder: the variable ROSLINGS_WS names your workspace.",
         )
@@ -191,7 +190,7 @@ class DiskFull(MachineTrouble):
 
     def __init__(self, path: Path) -> None:
         super().__init__(
-            f"The disk is full: {shown(path)} could not be written. Nothing was changed.",
+            f"The disk is full. This could not be written:\n{shown(path)}\nNothing was changed.",
             f"Make room, then try again. See how much there is: df -h {quoted(path.parent)}",
         )
 
@@ -234,9 +233,9 @@ def shown(path: Path) -> str:
         home = Path.home()
     except RuntimeError:  # a user without a home
         return str(path)
-    return (
-        f"~/{path.relative_to(home)}" if path.is_relative_to(home) and path != home else str(path)
-    )
+    if path == home:
+        return "~"
+    return f"~/{path.relative_to(home)}" if path.is_relative_to(home) else str(path)
 
 
 def quoted(path: Path) -> str:
