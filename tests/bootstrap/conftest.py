@@ -37,7 +37,9 @@ def wheels_for_all(tmp_path_factory: pytest.TempPathFactory) -> Path:
         try:
             wheel_of_installed(folder, tool)
         except PackageNotFoundError:
-            pytest.skip(f"{tool} is not installed beside pytest: run the tests with ./roslings test")
+            pytest.skip(
+                f"{tool} is not installed beside pytest: run the tests with ./roslings test"
+            )
     for name in ("ros-x", "col-x", "draw-x"):
         make_wheel(folder, name, "1.0")
     program = {"check_x.py": "def main():\n    print('checked')\n"}
@@ -52,26 +54,49 @@ def wheels(wheels_for_all: Path, tmp_path: Path) -> Path:
     return Path(shutil.copytree(wheels_for_all, tmp_path / "wheels"))
 
 
+def lay_out(folder: Path, name: str, wheels: Path, python: str) -> CourseCopy:
+    """A fresh clone called `name` in `folder`; all that it installs is a tiny wheel in `wheels`."""
+    environment = plain_environment(folder / "home", python)
+    course = CourseCopy(folder / name, wheels, environment | {"ROSLINGS_WHEELS": str(wheels)})
+    course.pins |= {tool: version(tool) for tool in TOOLS}
+    course.lay_out()
+    return course
+
+
 @pytest.fixture
-def make_course(wheels: Path, tmp_path: Path) -> Callable[[str], CourseCopy]:
-    """Lays a course out in a folder of the given name."""
+def make_course(wheels: Path, tmp_path: Path) -> Callable[..., CourseCopy]:
+    """Lays a course out in a folder of the given name, for the given Python."""
 
     def make(name: str, python: str = BASE) -> CourseCopy:
-        environment = plain_environment(tmp_path / "home", python)
-        course = CourseCopy(
-            tmp_path / name, wheels, environment | {"ROSLINGS_WHEELS": str(wheels)}
-        )
-        course.pins |= {tool: version(tool) for tool in TOOLS}
-        course.lay_out()
-        return course
+        return lay_out(tmp_path, name, wheels, python)
 
     return make
 
 
 @pytest.fixture
-def course(make_course: Callable[[str], CourseCopy]) -> CourseCopy:
-    """A fresh clone; everything that it installs is a tiny wheel in a folder."""
+def course(make_course: Callable[..., CourseCopy]) -> CourseCopy:
+    """A fresh clone."""
     return make_course("course")
+
+
+@pytest.fixture(scope="session")
+def standing(wheels_for_all: Path, tmp_path_factory: pytest.TempPathFactory) -> CourseCopy:
+    """A course whose environment stands; no test changes it."""
+    course = lay_out(tmp_path_factory.mktemp("standing"), "course", wheels_for_all, BASE)
+    outcome = course.run("check")
+    assert "ready" in outcome.err, outcome.err
+    return course
+
+
+@pytest.fixture
+def ready(standing: CourseCopy, wheels: Path, tmp_path: Path) -> CourseCopy:
+    """A copy of it, for one test to change. That a copy mends itself is what makes this quick."""
+    shutil.copytree(standing.root, tmp_path / "ready", symlinks=True)
+    environment = standing.environment | {"ROSLINGS_WHEELS": str(wheels)}
+    copy = CourseCopy(tmp_path / "ready", wheels, environment, dict(standing.pins))
+    outcome = copy.run("check")
+    assert "moved or copied" in outcome.err, outcome.err
+    return copy
 
 
 @pytest.fixture

@@ -61,7 +61,7 @@ class _Answer(BaseHTTPRequestHandler):
     folder: Path
     traffic_of_index: Traffic
 
-    def do_GET(self) -> None:  # noqa: N802 - http.server's name
+    def do_GET(self) -> None:
         """A list of links, or a file."""
         if self.path.startswith("/simple/"):
             self._list(self.path.strip("/").split("/")[1])

@@ -20,7 +20,8 @@ _UNREACHABLE = re.compile(
     r"|Could not fetch URL|Network is unreachable|RemoteDisconnected|SSLError"
 )
 _DISK_FULL = re.compile(r"No space left on device|Errno 28|Disk quota exceeded|Errno 122")
-_NO_WHEEL = re.compile(r"No matching distribution found for ([^\s(]+)")
+# pip says the second where a pinned version is not among those found.
+_NO_WHEEL = re.compile(r"(?:No matching distribution found for|ERROR: Cannot install) ([\w.=-]+)")
 _FORBIDDEN = re.compile(r"Errno (?:13|30)\] [^:]+: '?([^'\n]+)")
 
 

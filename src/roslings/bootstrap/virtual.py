@@ -32,7 +32,8 @@ class Virtual:
         """Whether its Python starts, and takes this folder for its own."""
         try:
             done = subprocess.run(
-                [self.python, "-I", "-S", "-c", _FACTS],
+                [self.python, "-I", "-c", _FACTS],
+                env={"_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1"},  # once is enough to say it
                 capture_output=True,
                 stdin=subprocess.DEVNULL,
                 text=True,
