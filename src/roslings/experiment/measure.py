@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
@@ -13,9 +14,11 @@ from roslings.evidence import Evidence, PackageSeen
 from roslings.experiment.assignment import Assignment
 from roslings.experiment.run_folder import run_folder
 from roslings.workspace.student import stage
+from roslings.workspace.trouble import DiskFull
 
 ENDS_WITHIN_S = 30.0
 LAST_WORDS = 20
+ROOM_NEEDED_BYTES = 1024 * 1024
 
 
 class MeasuringFailed(Exception):
@@ -48,7 +51,7 @@ def measure(
 
 
 def _follow(command: list[str], folder: Path, on_step: Callable[[str], None]) -> None:
-    """Run the measuring process to its end, in the run's folder. Raises MeasuringFailed.
+    """Run the measuring process to its end, in the run's folder. Raises MeasuringFailed, DiskFull.
 
     Not in the student's folder: a file `random.py` there would be imported in Python's place.
     """
@@ -59,6 +62,8 @@ def _follow(command: list[str], folder: Path, on_step: Callable[[str], None]) ->
             on_step(line.rstrip())
         status = process.wait()
     if status:
+        if shutil.disk_usage(folder).free < ROOM_NEEDED_BYTES:
+            raise DiskFull(folder)
         words = errors.read_text("utf-8", errors="replace").splitlines()[-LAST_WORDS:]
         raise MeasuringFailed(status, "\n".join(words))
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from roslings.arena import Installed, Launch, Process, base_environment
-from roslings.evidence import BuildSeen
+from roslings.evidence import BuildSeen, ProcessSeen
 
 BUILD_BOUND_S = 180.0
 LAST_LINES = 40
@@ -38,6 +38,11 @@ class BuildRoom:
         return self.installed / "lib" / self.package
 
     @property
+    def complaint(self) -> Path:
+        """What Python says of setup.py, where the build failed."""
+        return self.folder / "complaint"
+
+    @property
     def sourced(self) -> Path:
         """The environment after `source install/setup.bash`, as `env -0` writes it."""
         return self.folder / "environment"
@@ -46,47 +51,54 @@ class BuildRoom:
 def build(room: BuildRoom, home: Path, namespaces: bool) -> tuple[BuildSeen, Installed | None]:
     """Build the package in `room` and source the result; None where nothing was installed."""
     environment = base_environment(home, hidden_package=room.package)
-    launch = Launch(
-        ["bash", "--noprofile", "--norc", "-c", _script(room)], environment, room.folder, namespaces
+    shell = ["bash", "--noprofile", "--norc", "-c", _script(room)]
+    with Process("colcon", Launch(shell, environment, room.folder, namespaces)) as process:
+        process.wait_ended(BUILD_BOUND_S)
+    succeeded = process.seen.status == 0 and room.sourced.is_file()
+    seen = BuildSeen(
+        succeeded=succeeded,
+        recognised_as=_recognised(room),
+        seconds=_seconds(process.seen),
+        output=_last_words(room, process),
+        executables=executables(room.programs),
     )
-    with Process("colcon", launch) as process:
-        ended = process.wait_ended(BUILD_BOUND_S)
-    seen = process.seen
-    output = [line.text for line in seen.lines[-LAST_LINES:]]
+    return seen, Installed(room.programs, read_environment(room.sourced)) if succeeded else None
+
+
+def _seconds(seen: ProcessSeen) -> float:
+    return round(((seen.ended_ns or seen.started_ns) - seen.started_ns) / 1e9, 3)
+
+
+def _last_words(room: BuildRoom, process: Process) -> list[str]:
+    """What tells most about a failure: Python's own words on setup.py, else colcon's."""
     if process.refused:
-        output.append(process.refused)
-    if not ended:
-        output.append(f"The build did not end within {BUILD_BOUND_S:g} s.")
-    succeeded = ended and seen.status == 0 and room.sourced.is_file()
-    took_s = ((seen.ended_ns or seen.started_ns) - seen.started_ns) / 1e9
-    return (
-        BuildSeen(
-            succeeded=succeeded,
-            recognised_as=_recognised(room),
-            seconds=round(took_s, 3),
-            output=output,
-            executables=executables(room.programs),
-        ),
-        Installed(room.programs, read_environment(room.sourced)) if succeeded else None,
-    )
+        return [process.refused]
+    lines = [line.text for line in process.seen.lines]
+    if room.complaint.is_file():
+        lines = room.complaint.read_text("utf-8", errors="replace").splitlines() or lines
+    if not process.seen.ended_by_itself:
+        lines.append(f"The build did not end within {BUILD_BOUND_S:g} s.")
+    return lines[-LAST_LINES:]
 
 
 def _script(room: BuildRoom) -> str:
-    """colcon, then the setup script that every student sources."""
-    words = [
-        colcon(),
-        "--log-base",
-        "log",
-        "build",
-        "--base-paths",
-        "src",
-        "--packages-select",
-        room.package,
-        "--event-handlers",
-        "console_direct+",
-        "desktop_notification-",
-    ]
-    return f"{shlex.join(words)} && source install/setup.bash && env -0 > {room.sourced.name}"
+    """colcon, then the setup script that every student sources.
+
+    Where colcon fails it hides a mistake in setup.py behind a page of its own calls: then
+    setup.py is run once more, alone, for the line that the student can mend.
+    """
+    words = [colcon(), "--log-base", "log", "build", "--base-paths", "src", "--packages-select"]
+    handlers = ["--event-handlers", "console_direct+", "desktop_notification-"]
+    python = shlex.join([sys.executable, "setup.py", "--name"])
+    complaint = shlex.quote(str(room.complaint))
+    return f"""
+        if {shlex.join([*words, room.package, *handlers])}; then
+            source install/setup.bash && env -0 > {room.sourced.name}
+        else
+            cd {shlex.quote(str(room.source))}
+            {python} > {complaint} 2>&1 && rm {complaint}
+            exit 1
+        fi"""
 
 
 def colcon() -> str:

@@ -1,0 +1,338 @@
+"""`check` where things go wrong: each a clear answer, nothing left behind, nothing lost."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from roslings.course import Edit, Lab, Mutant, lab
+
+TOPICS = lab("topics")
+LONG_S = 120.0
+START = '"""'
+CONSTRUCTOR = "super().__init__("
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> Path:
+    """A right package in a workspace of the test's own."""
+    return copy(TOPICS, tmp_path / "ws/src/chatter")
+
+
+@pytest.fixture(autouse=True)
+def nothing_left(tmp_path: Path) -> Iterator[None]:
+    """No folder of a run, no shared memory and no process stays behind."""
+    yield
+    wait_until(lambda: not run_folders(tmp_path))
+    wait_until(lambda: not processes_of(tmp_path))
+
+
+def copy(lab: Lab, to: Path) -> Path:
+    """The solution at a place where it may be injured."""
+    shutil.copytree(lab.solution, to)
+    return to
+
+
+def injured(tmp_path: Path, *edits: Edit) -> Path:
+    """The solution with edits."""
+    mutant = Mutant(name="it", what="it", fails=("rate",), edits=edits)
+    return mutant.make(TOPICS.solution, tmp_path / "ws/src/chatter")
+
+
+def edit(find: str, replace: str, file: str = "chatter/talker.py") -> Edit:
+    """One edit of the talker."""
+    return Edit(file=file, find=find, replace=replace)
+
+
+def at_start(code: str) -> Edit:
+    """Code that runs when the talker's program starts."""
+    return edit("def main(", f"{code}\n\n\ndef main(")
+
+
+def command(*words: str | Path) -> list[str]:
+    """The command line, as `./roslings` runs it."""
+    return [sys.executable, "-m", "roslings", *map(str, words)]
+
+
+def surroundings(tmp_path: Path, **more: str) -> dict[str, str]:
+    """This environment, with home, workspace and temporary files inside the test's folder."""
+    temporary = tmp_path / "tmp"
+    temporary.mkdir(exist_ok=True)
+    own = {"HOME": str(tmp_path), "ROSLINGS_WS": str(tmp_path / "ws"), "TMPDIR": str(temporary)}
+    kept = {k: v for k, v in os.environ.items() if k != "PYTHONUNBUFFERED"}
+    return {**kept, **own, **more}
+
+
+def run(tmp_path: Path, *words: str | Path, **more: str) -> subprocess.CompletedProcess[str]:
+    """Run a command to its end; our own traceback is never an answer."""
+    ran = subprocess.run(
+        command(*words), cwd=tmp_path, env=surroundings(tmp_path, **more), text=True,
+        capture_output=True, check=False, stdin=subprocess.DEVNULL,
+    )  # fmt: skip
+    assert "Traceback" not in ran.stderr, ran.stderr
+    return ran
+
+
+def verdict(tmp_path: Path, *words: str | Path, **more: str) -> dict[str, Any]:
+    """The verdict on a package."""
+    file = tmp_path / "verdict.json"
+    ran = run(tmp_path, "check", "topics", *words, "--json", file, **more)
+    assert file.is_file(), ran.stderr
+    found: dict[str, Any] = json.loads(file.read_text("utf-8"))
+    return found
+
+
+def faults(found: dict[str, Any]) -> dict[str, str]:
+    """Failed check to its kind of fault."""
+    return {c["id"]: c["fault"] for c in found["checks"] if c["outcome"] == "fail"}
+
+
+def fingerprint(folder: Path) -> dict[str, str]:
+    """Every file under a folder, and what is in it."""
+    return {
+        str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
+        for path in sorted(folder.rglob("*"))
+        if path.is_file()
+    }
+
+
+def run_folders(tmp_path: Path) -> list[Path]:
+    """Folders of runs that are not gone."""
+    return list((tmp_path / "tmp").glob("roslings-*"))
+
+
+def processes_of(tmp_path: Path) -> list[str]:
+    """Living processes that name the test's folder."""
+    found = []
+    for entry in Path("/proc").iterdir():
+        if entry.name.isdigit() and int(entry.name) != os.getpid():
+            try:
+                line = (entry / "cmdline").read_bytes().replace(b"\0", b" ").decode()
+            except OSError:
+                continue
+            if str(tmp_path) in line:
+                found.append(line)
+    return found
+
+
+def wait_until(condition: Callable[[], bool]) -> None:
+    """Wait for a condition; fail when it never holds."""
+    deadline_s = time.monotonic() + LONG_S
+    while not condition():
+        assert time.monotonic() < deadline_s
+        time.sleep(0.02)
+
+
+# --- packages ----------------------------------------------------------------------------------
+
+
+def test_the_students_files_stay_as_they_are(package: Path, tmp_path: Path) -> None:
+    """Spaces and letters of other alphabets in the path, an old build, a read-only folder."""
+    place = tmp_path / "my wörkspace 工作/src/chatter"
+    place.parent.mkdir(parents=True)
+    package.rename(place)
+    for name in ("build", "install", "log"):
+        (place / name).mkdir()
+        (place / name / "old.py").write_text("raise RuntimeError('another Python built this')")
+    place.chmod(0o555)
+    before = fingerprint(place)
+    found = verdict(tmp_path, place.parent.parent)
+    place.chmod(0o755)
+    assert found["score"] == 100
+    assert fingerprint(place) == before
+
+
+def test_windows_line_ends_are_no_fault(package: Path, tmp_path: Path) -> None:
+    """A package that was edited on Windows."""
+    for path in package.rglob("*"):
+        if path.is_file() and path.suffix != ".png":
+            path.write_bytes(path.read_bytes().replace(b"\n", b"\r\n"))
+    assert verdict(tmp_path, package)["score"] == 100
+
+
+@pytest.mark.parametrize(
+    ("injury", "words"),
+    [
+        (lambda p: p.rename(p.parent / "gone"), "no"),
+        (lambda p: (p / "setup.py").unlink(), "setup.py"),
+        (lambda p: (p / "package.xml").unlink(), "package.xml"),
+        (lambda p: shutil.copytree(p, p.parent / "again"), "several"),
+        (
+            lambda p: (p / "package.xml").write_text(
+                (p / "package.xml").read_text().replace("<name>chatter<", "<name>chatty<")
+            ),
+            "chatty",
+        ),
+    ],
+    ids=["no-path", "no-setup", "no-manifest", "two", "named-otherwise"],
+)
+def test_what_is_no_package_is_said(
+    package: Path, tmp_path: Path, injury: Callable[[Path], object], words: str
+) -> None:
+    """Wrong use, one clear message, the next step, and no measuring."""
+    injury(package)
+    path = package if words == "no" else package.parent
+    ran = run(tmp_path, "check", "topics", path)
+    assert ran.returncode == 2
+    assert words in ran.stderr
+    assert len(ran.stderr.splitlines()) <= 8
+
+
+def test_a_build_that_fails_shows_why(tmp_path: Path) -> None:
+    """The last words of colcon stand in the verdict."""
+    place = injured(tmp_path, edit("setup(\n", "raise SystemExit('no glue')\nsetup(\n", "setup.py"))
+    found = verdict(tmp_path, place)
+    assert faults(found) == {"builds": "BuildFailed"}
+    log = next(c["log"] for c in found["checks"] if c["id"] == "builds")
+    assert any("no glue" in line for line in log)
+
+
+# --- nodes -------------------------------------------------------------------------------------
+
+
+def test_a_node_that_never_starts_is_given_up(tmp_path: Path) -> None:
+    """It hangs before it makes a node."""
+    place = injured(tmp_path, at_start("import time\ntime.sleep(10000)"))
+    assert faults(verdict(tmp_path, place)) == {"talker_runs": "DidNotComeUp"}
+
+
+def test_a_flood_of_output_is_survived(tmp_path: Path) -> None:
+    """Endless output beside the right one costs nothing but the time."""
+    flood = (
+        "import threading\n\n\ndef flood():\n    while True:\n        print('x' * 1000)\n\n\n"
+        "threading.Thread(target=flood, daemon=True).start()"
+    )
+    found = verdict(tmp_path, injured(tmp_path, at_start(flood)))
+    assert "talker_runs" not in faults(found)
+    assert next(c for c in found["checks"] if c["id"] == "hears")["outcome"] == "pass"
+
+
+def test_a_daemon_is_found_and_ended(tmp_path: Path) -> None:
+    """A process that the node leaves behind."""
+    daemon = "import subprocess\nsubprocess.Popen(['sleep', '10000'], start_new_session=True)"
+    found = verdict(tmp_path, injured(tmp_path, at_start(daemon)))
+    assert faults(found) == {"ends": "LeavesProcesses"}
+
+
+def test_bytes_that_are_no_text_harm_nobody(tmp_path: Path) -> None:
+    """They are shown as such, and the verdict is the same."""
+    noise = "import sys\nsys.stdout.buffer.write(bytes(range(256)) * 10)"
+    assert verdict(tmp_path, injured(tmp_path, at_start(noise)))["score"] == 100
+
+
+# --- machines ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("wall", ["domain", "auto"])
+def test_the_solution_passes_behind_both_walls(package: Path, tmp_path: Path, wall: str) -> None:
+    """With namespaces and without, the verdict is the same."""
+    found = verdict(tmp_path, package, ROSLINGS_ISOLATION=wall)
+    assert found["score"] == 100, faults(found)
+    assert wall == "auto" or found["environment"]["isolation"] == "domain"
+
+
+def test_a_parent_that_ignores_ctrl_c_changes_nothing(package: Path, tmp_path: Path) -> None:
+    """A background job, or CI."""
+    file = tmp_path / "verdict.json"
+    words = command("check", "topics", package, "--json", file)
+    ignoring = ["sh", "-c", 'trap "" INT; exec "$@"', "sh", *words]
+    subprocess.run(ignoring, env=surroundings(tmp_path), cwd=tmp_path, check=True)
+    assert json.loads(file.read_text())["score"] == 100
+
+
+def test_an_ordinary_user_gets_the_same_verdict(package: Path, tmp_path: Path) -> None:
+    """Without a single capability, as user 1000."""
+    if os.getuid() != 0:
+        pytest.skip("this is an ordinary user already")
+    drop = ["unshare", "--user", "--map-user=1000", "--map-group=1000"]
+    if subprocess.run([*drop, "true"], capture_output=True, check=False).returncode:
+        pytest.skip("this machine refuses user namespaces")
+    file = tmp_path / "verdict.json"
+    words = [*drop, *command("check", "topics", package, "--json", file)]
+    subprocess.run(words, env=surroundings(tmp_path), cwd=tmp_path, check=True)
+    assert json.loads(file.read_text())["score"] == 100
+
+
+def test_two_at_once_do_not_meet(package: Path, tmp_path: Path) -> None:
+    """Two gradings on one machine, without namespaces: neither hears the other."""
+    files = [tmp_path / f"{number}.json" for number in range(2)]
+    env = surroundings(tmp_path, ROSLINGS_ISOLATION="domain")
+    running = [
+        subprocess.Popen(command("check", "topics", package, "--json", file), env=env, cwd=tmp_path)
+        for file in files
+    ]
+    assert [each.wait() for each in running] == [0, 0]
+
+
+def test_a_full_disk_is_said(package: Path, tmp_path: Path) -> None:
+    """A temporary folder without room: the machine's fault, so no verdict."""
+    small = tmp_path / "small"
+    small.mkdir()
+    mount = f'mount -t tmpfs -o size=200k none {small} && exec "$@"'
+    inside = ["unshare", "--user", "--map-root-user", "--mount", "sh", "-c", mount, "sh"]
+    if subprocess.run([*inside, "true"], capture_output=True, check=False).returncode:
+        pytest.skip("this machine refuses to mount a small disk")
+    env = surroundings(tmp_path, TMPDIR=str(small))
+    ran = subprocess.run(
+        [*inside, *command("check", "topics", package)], env=env, cwd=tmp_path, text=True,
+        capture_output=True, check=False,
+    )  # fmt: skip
+    assert ran.returncode == 3, ran.stderr
+    assert "Traceback" not in ran.stderr
+    assert "disk" in ran.stderr or "space" in ran.stderr
+
+
+# --- the end -----------------------------------------------------------------------------------
+
+
+def started(package: Path, tmp_path: Path) -> subprocess.Popen[str]:
+    """A check in a session of its own, far enough that the student's nodes run."""
+    running = subprocess.Popen(
+        command("check", "topics", package), cwd=tmp_path, env=surroundings(tmp_path), text=True,
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True,
+    )  # fmt: skip
+    wait_until(lambda: any("lib/chatter/talker" in line for line in processes_of(tmp_path)))
+    return running
+
+
+def test_ctrl_c_ends_all_at_once(package: Path, tmp_path: Path) -> None:
+    """The nodes, the probe and the guardian end; the message is one line."""
+    running = started(package, tmp_path)
+    os.killpg(running.pid, signal.SIGINT)
+    _, errors = running.communicate()
+    assert running.returncode == 130
+    assert "Stopped." in errors
+    assert "Traceback" not in errors
+    assert processes_of(tmp_path) == []
+
+
+def test_a_killed_check_leaves_nothing_that_runs(package: Path, tmp_path: Path) -> None:
+    """The kernel ends the nodes; the next check removes the folder."""
+    running = started(package, tmp_path)
+    running.kill()
+    running.communicate()
+    wait_until(lambda: processes_of(tmp_path) == [])
+    assert run_folders(tmp_path)
+    assert verdict(tmp_path, package)["score"] == 100
+
+
+def test_temporary_files_of_others_are_left_alone(tmp_path: Path) -> None:
+    """The sweep takes folders of runs, and no other."""
+    from roslings.experiment.run_folder import sweep
+
+    other = Path(tempfile.mkdtemp(prefix="roslings-other-"))
+    sweep()
+    assert other.is_dir()
+    other.rmdir()
