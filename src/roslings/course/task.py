@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 import sys
 from collections.abc import Callable, Iterable
+from pathlib import PurePosixPath
 
 from roslings.course.card import Card, NodeContract, PictureContract, QosContract, TopicContract
 from roslings.course.files import BadCourseFile
@@ -146,7 +147,9 @@ def _save_picture(lab: Lab) -> Iterable[str]:
     package = f"~/roslings_ws/src/{lab.card.package}"
     yield "```bash"
     for picture in lab.card.pictures:
-        yield f"./roslings graph --save {package}/{picture.path}"
+        file = PurePosixPath(package, picture.path)
+        yield f"mkdir -p {file.parent}"
+        yield f"./roslings graph --save {file}"
     yield "```"
 
 
