@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import re
 import threading
+import zipfile
 from dataclasses import dataclass, field
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
@@ -28,6 +29,7 @@ class PackageIndex:
     """Serves the wheels of a folder on a port of its own, until the block ends."""
 
     def __init__(self, wheels: Path) -> None:
+        self.folder = wheels
         self.traffic = Traffic()
         traffic = self.traffic
 
@@ -65,18 +67,29 @@ class _Answer(BaseHTTPRequestHandler):
         """A list of links, or a file."""
         if self.path.startswith("/simple/"):
             self._list(self.path.strip("/").split("/")[1])
+        elif self.path.endswith(".metadata"):
+            self._send_metadata(
+                self.folder / self.path.rsplit("/", 1)[-1].removesuffix(".metadata")
+            )
         else:
             self._send(self.folder / self.path.rsplit("/", 1)[-1])
 
     def _list(self, project: str) -> None:
         files = [f for f in sorted(self.folder.glob("*.whl")) if _project(f.name) == project]
         page = "".join(
-            f'<a href="/files/{f.name}#sha256={hashlib.sha256(f.read_bytes()).hexdigest()}">'
-            f"{f.name}</a>\n"
+            f'<a href="/files/{f.name}#sha256={hashlib.sha256(f.read_bytes()).hexdigest()}"'
+            f' data-core-metadata="true">{f.name}</a>\n'
             for f in files
         )
         self._begin(200 if files else 404, len(page), {"Content-Type": "text/html"})
         self.wfile.write(page.encode())
+
+    def _send_metadata(self, file: Path) -> None:
+        with zipfile.ZipFile(file) as wheel:
+            name = next(n for n in wheel.namelist() if n.endswith(".dist-info/METADATA"))
+            content = wheel.read(name)
+        self._begin(200, len(content), {"Content-Type": "text/plain"})
+        self.wfile.write(content)
 
     def _send(self, file: Path) -> None:
         content = file.read_bytes()

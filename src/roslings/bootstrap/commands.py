@@ -7,7 +7,7 @@ from pathlib import Path
 from roslings.bootstrap.environment import Wish, make_ready
 from roslings.bootstrap.pins import write_pins
 from roslings.bootstrap.place import Place
-from roslings.bootstrap.trouble import Trouble, say
+from roslings.bootstrap.trouble import Trouble, of_the_disk, say
 from roslings.bootstrap.wheels import fill
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -19,6 +19,9 @@ def main(words: Sequence[str]) -> int:
         return _run(words)
     except Trouble as trouble:
         say(f"roslings: {trouble}")
+        return 2
+    except OSError as error:
+        say(f"roslings: {of_the_disk(error, ROOT)}")
         return 2
     except KeyboardInterrupt:
         say("\nInterrupted. Run the same command again: it goes on from here.")

@@ -137,9 +137,10 @@ class _Work:
     def _install(self, groups: Sequence[str]) -> None:
         installer = self._installer()
         installer.require_tools()
-        packages = installer.missing(groups)
+        total_mb = sizes.megabytes(sys.version_info[:2], groups)
+        packages = installer.missing(groups, total_mb)
         if packages:
-            wheels = installer.fetch(packages, sizes.megabytes(sys.version_info[:2], groups))
+            wheels = installer.fetch(packages, total_mb)
             say(f"Installing {len(packages)} packages.")
             self.record.put_aside()
             installer.install(packages, wheels)

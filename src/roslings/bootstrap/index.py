@@ -6,9 +6,9 @@ no registry.
 
 import configparser
 import hashlib
+import http.client
 import os
 import re
-import urllib.error
 import urllib.parse
 import urllib.request
 from collections.abc import Iterator
@@ -112,7 +112,7 @@ def _read(address: str) -> bytes | None:
     try:
         with urllib.request.urlopen(address, timeout=_TIMEOUT_S) as answer:
             return bytes(answer.read())
-    except (OSError, ValueError, urllib.error.URLError):
+    except (OSError, ValueError, http.client.HTTPException):  # URLError is an OSError
         return None
 
 

@@ -58,11 +58,16 @@ class Installer:
         tools = [f"{name}=={version}" for name, version in pins.items()]
         drain(first, [*words, *tools], self.place.root)
 
-    def missing(self, groups: Sequence[str]) -> list[str]:
-        """The packages (`name==version`) that `groups` still need."""
+    def missing(self, groups: Sequence[str], total_mb: float | None) -> list[str]:
+        """The packages (`name==version`) that `groups` still need.
+
+        An index that does not serve what packages need beside them (PEP 658) makes pip download
+        them here already; they are then at hand when they are fetched.
+        """
         report = self.virtual.folder / "plan.json"
-        words = ["install", "--dry-run", "--report", str(report), *wanted(self.place, groups)]
-        drain(self.pip(), words, self.place.root)
+        words = ["install", "--dry-run", "--progress-bar=raw", "--report", str(report)]
+        lines = self.pip().run(*words, *wanted(self.place, groups), cwd=self.place.root)
+        DownloadLine(total_mb).follow(lines)
         plan = json.loads(report.read_text(encoding="utf-8"))
         report.unlink()
         return [_pin(item["metadata"]) for item in plan["install"]]

@@ -8,8 +8,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from roslings.bootstrap.trouble import Trouble
-from roslings.bootstrap.virtual import disk_full
+from roslings.bootstrap.trouble import Trouble, disk_full
 
 # Settings of the user's own shell that would send packages elsewhere than into the environment.
 _LEADING_ASTRAY = ("PIP_TARGET", "PIP_PREFIX", "PIP_ROOT", "PIP_USER", "PIP_REQUIRE_VIRTUALENV")
@@ -17,7 +16,7 @@ _LEADING_ASTRAY = ("PIP_TARGET", "PIP_PREFIX", "PIP_ROOT", "PIP_USER", "PIP_REQU
 _UNREACHABLE = re.compile(
     r"NewConnectionError|ConnectTimeout|NameResolutionError|ReadTimeout|Connection (broken|refused"
     r"|reset|aborted)|IncompleteDownload|incomplete-download|Max retries exceeded|ProxyError"
-    r"|Could not fetch URL|Network is unreachable|RemoteDisconnected|SSLError"
+    r"|Could not fetch URL|from versions: none|Network is unreachable|RemoteDisconnected|SSLError"
 )
 _DISK_FULL = re.compile(r"No space left on device|Errno 28|Disk quota exceeded|Errno 122")
 # pip says the second where a pinned version is not among those found.

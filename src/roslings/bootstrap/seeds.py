@@ -20,6 +20,8 @@ from pathlib import Path
 from roslings.bootstrap.index import wheel_from_index
 from roslings.bootstrap.trouble import Trouble
 
+SYSTEM_FOLDERS = (Path("/usr/bin"), Path("/usr/local/bin"))  # whatever PATH says
+
 # Run by the Python that is asked: prints where its pip lies, the ensurepip wheels before all.
 _ASK = """
 import glob, importlib.util as u, os, sysconfig
@@ -63,8 +65,9 @@ def _ways(python: str, scratch: Path) -> list[Callable[[], Iterator[Path]]]:
 
 
 def _answers(python: str, seed: Path) -> bool:
+    """An older pip may tell a newer Python its version, and fail at all else."""
     done = subprocess.run(
-        [python, "-I", str(seed), "--version"],
+        [python, "-I", str(seed), "list"],
         capture_output=True,
         stdin=subprocess.DEVNULL,
         check=False,
@@ -102,7 +105,7 @@ def other_pythons(name: str) -> list[str]:
     """Every Python called `name` on PATH, and those of version managers; each real file once."""
     versions = Path(os.environ.get("PYENV_ROOT") or "~/.pyenv") / "versions"
     folders = [Path(folder) for folder in os.get_exec_path() if folder]
-    folders += [Path("/usr/bin"), Path("/usr/local/bin"), *_matching(versions, "*/bin")]
+    folders += [*SYSTEM_FOLDERS, *_matching(versions, "*/bin")]
     found = [python for folder in folders for python in _matching(folder, name)]
     return list({python.resolve(): str(python) for python in found if _program(python)}.values())
 

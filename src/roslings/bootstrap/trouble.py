@@ -1,7 +1,9 @@
 """What can go wrong on the way to an environment, each with the next step."""
 
+import errno
 import sys
 import textwrap
+from pathlib import Path
 
 
 class Trouble(Exception):
@@ -14,6 +16,24 @@ class Trouble(Exception):
 
     def __str__(self) -> str:
         return "\n".join([wrapped(self.what), *map(_step, self.steps)])
+
+
+def disk_full(near: Path) -> Trouble:
+    """The trouble of a full disk that `near` lies on."""
+    return Trouble(
+        f"The disk is full: {near}",
+        "Free about 500 MB (look with: df -h .), and run the same command again.",
+    )
+
+
+def of_the_disk(error: OSError, root: Path) -> Trouble:
+    """What the system refused while the environment in `root` was being changed."""
+    if error.errno in (errno.ENOSPC, errno.EDQUOT):
+        return disk_full(root)
+    return Trouble(
+        f"{error.strerror or error}: {error.filename or root}",
+        "Give the folder to your own user with chown, or take a copy in your home folder.",
+    )
 
 
 def wrapped(text: str, first: str = "", later: str = "") -> str:

@@ -7,7 +7,7 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-from roslings.bootstrap.trouble import Trouble
+from roslings.bootstrap.trouble import Trouble, disk_full
 
 _FACTS = "import sys, sysconfig; print(sys.prefix); print(sysconfig.get_path('purelib'))"
 
@@ -101,10 +101,3 @@ def _no_venv(python: str, folder: Path, output: str) -> Trouble:
         "Take another Python: ROSLINGS_PYTHON=/path/to/python3.12 ./roslings",
     )
 
-
-def disk_full(near: Path) -> Trouble:
-    """The trouble of a full disk that `near` lies on."""
-    return Trouble(
-        f"The disk is full: {near}",
-        "Free about 500 MB (look with: df -h .), and run the same command again.",
-    )

@@ -1,5 +1,6 @@
 """`./roslings wheels DIR [GROUP...]`: a folder that sets roslings up where there is no network."""
 
+import shlex
 import sys
 import tempfile
 from collections.abc import Sequence
@@ -71,9 +72,10 @@ def _fetch(installer: Installer, folder: Path, chosen: Sequence[str]) -> None:
 
 
 def _tell(folder: Path) -> None:
+    quoted = shlex.quote(str(folder))
     files = list(folder.glob("*.whl"))
     mb = sum(file.stat().st_size for file in files) / 1e6
     version = f"{sys.version_info.major}.{sys.version_info.minor}"
     say(f"{folder} holds {len(files)} wheels ({mb:.0f} MB), for Python {version}.")
-    say(f"Use it with: ROSLINGS_WHEELS={folder} ./roslings check LAB")
-    say(f"Another Python: ROSLINGS_PYTHON=python3.X ./roslings wheels {folder}")
+    say(f"Use it with: ROSLINGS_WHEELS={quoted} ./roslings check LAB")
+    say(f"Another Python: ROSLINGS_PYTHON=python3.X ./roslings wheels {quoted}")

@@ -1,0 +1,101 @@
+"""A terminal that has ROS sourced: Jazzy is used as it is, another distribution is named."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import sys
+from importlib.metadata import Distribution, distributions
+from pathlib import Path
+
+import pytest
+from course_copy import CourseCopy
+
+from roslings.bootstrap.packages import installed
+from roslings.bootstrap.virtual import Virtual
+
+NEEDED_BY_ROS = ("numpy", "pyyaml", "lark-parser")
+
+
+@pytest.fixture(scope="module")
+def jazzy(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+    """A prefix with the real rclpy, and what sourcing its setup.bash would set."""
+    if importlib.util.find_spec("rclpy") is None:
+        pytest.skip("rclpy is not installed here")
+    prefix = tmp_path_factory.mktemp("opt") / "jazzy"
+    site = prefix / f"lib/python3.{sys.version_info.minor}/site-packages"
+    site.mkdir(parents=True)
+    for package in distributions():
+        name = str(package.metadata["Name"]).lower()
+        if name.startswith("ros-") or name in NEEDED_BY_ROS:
+            _link(package, site)
+    libraries = [Path(sys.prefix) / "lib", *site.glob("ros_*.libs")]
+    return {
+        "ROS_DISTRO": "jazzy",
+        "ROS_VERSION": "2",
+        "PYTHONPATH": str(site),
+        "AMENT_PREFIX_PATH": sys.prefix,
+        "LD_LIBRARY_PATH": os.pathsep.join(map(str, libraries)),
+    }
+
+
+def _link(package: Distribution, site: Path) -> None:
+    """Everything of the package at the top of `site`, but what runs at the start of Python."""
+    for name in {path.parts[0] for path in package.files or () if path.parts[0] != ".."}:
+        real = Path(str(package.locate_file(name)))
+        if real.exists() and not (site / name).exists() and real.suffix != ".pth":
+            (site / name).symlink_to(real)
+
+
+def test_a_sourced_jazzy_is_used(
+    standing: CourseCopy, course: CourseCopy, jazzy: dict[str, str]
+) -> None:
+    """None of the wheels of ROS is installed, and rclpy is seen."""
+    outcome = course.run("check", **jazzy)
+    assert outcome.code == 0, outcome.err
+    assert outcome.seen["prefix"] == str(course.root / ".venv-apt")
+    assert set(outcome.seen["has"]) == {"col_x", "check_x", "rclpy"}
+    assert outcome.seen["libraries"] == jazzy["LD_LIBRARY_PATH"]
+    assert course.run("check", **jazzy).err == ""
+
+
+def test_two_terminals_do_not_undo_each_other(ready: CourseCopy, jazzy: dict[str, str]) -> None:
+    """One has ROS sourced and one has not."""
+    assert ready.run("check", **jazzy).seen["prefix"] == str(ready.root / ".venv-apt")
+    without = ready.run("check")
+    assert (without.err, without.seen["prefix"]) == ("", str(ready.venv))
+    assert ready.run("check", **jazzy).err == ""
+
+
+def test_colcon_of_the_system_is_used(
+    course: CourseCopy, jazzy: dict[str, str], tmp_path: Path
+) -> None:
+    """Where it is on PATH, no second one is installed."""
+    (tmp_path / "bin").mkdir()
+    (tmp_path / "bin/colcon").write_text("#!/bin/sh\n")
+    (tmp_path / "bin/colcon").chmod(0o755)
+    path = f"{tmp_path}/bin:{course.environment['PATH']}"
+    assert course.run("check", **jazzy, PATH=path).code == 0
+    assert "col-x" not in installed(Virtual(course.root / ".venv-apt").site)
+
+
+@pytest.mark.parametrize("distribution", ["humble", "kilted", "rolling", "lyrical"])
+def test_another_distribution_is_named(ready: CourseCopy, distribution: str) -> None:
+    """Even where an environment stands; plain commands run."""
+    outcome = ready.run("check", ROS_DISTRO=distribution)
+    assert outcome.code == 2
+    assert distribution.capitalize() in outcome.err
+    assert "new terminal" in outcome.err
+    assert not (ready.root / ".venv-apt").exists()
+    assert ready.run("doctor", ROS_DISTRO=distribution).code == 0
+
+
+def test_a_jazzy_without_rclpy_is_named(ready: CourseCopy, tmp_path: Path) -> None:
+    """The variable lingers, but the folders behind it are gone or broken."""
+    (tmp_path / "rclpy").mkdir()
+    (tmp_path / "rclpy/__init__.py").write_text("import no_such_library\n")
+    for path in ("/nowhere", str(tmp_path)):
+        outcome = ready.run("check", ROS_DISTRO="jazzy", PYTHONPATH=path)
+        assert outcome.code == 2
+        assert "import rclpy" in " ".join(outcome.err.split())
+        assert "ros-jazzy-rclpy" in outcome.err
