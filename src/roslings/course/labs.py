@@ -57,6 +57,12 @@ class Lab:
         """The package that gets the full score."""
         return self.folder / "solution" / self.card.package
 
+    def lesson_of(self, check: str) -> str | None:
+        """Anchor of the paragraph that explains a check; None where the lesson is not there."""
+        hint = self.hints.get(check)
+        day = root() / hint.lesson.partition("#")[0] if hint else None
+        return hint.lesson if hint and day and day.is_dir() else None
+
     def mutants(self) -> list[Mutant]:
         """The wrong packages, by name. Raises BadCourseFile."""
         files = sorted((self.folder / "mutants").glob("*.yaml"))

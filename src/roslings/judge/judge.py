@@ -44,7 +44,7 @@ def judge(lab: Lab, evidence: Evidence, total_s: float = 0.0) -> Verdict:
 
 def run_checks(lab: Lab, evidence: Evidence) -> tuple[CheckResult, ...]:
     """The outcome of every check, in the grader's order."""
-    collector = Collector(lab.card.points, lab.hints)
+    collector = Collector(lab)
     views = views_of(evidence)
     for name in _experiment_names(lab.grader):
         views.setdefault(name, ExperimentView(ExperimentSeen(name=name, clock="wall")))
@@ -63,6 +63,7 @@ def run_checks(lab: Lab, evidence: Evidence) -> tuple[CheckResult, ...]:
         "-p",
         "no:xdist",
         "--noconftest",
+        "--import-mode=importlib",
     ]
     pytest.main(options, plugins=[evidence_plugin(views), collector])
     _require_all(lab, collector)

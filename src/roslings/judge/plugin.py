@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from roslings.course import Hint
+from roslings.course import Lab
 from roslings.judge.check import check_of
 from roslings.judge.faults import Fault, Inconclusive, NothingToJudge, Unmet
 from roslings.judge.sheet import title_of
@@ -20,12 +20,11 @@ from roslings.verdict import CheckResult
 class Collector:
     """Runs each check once its needs have passed, and writes down what came of it."""
 
-    def __init__(self, points: dict[str, float], hints: dict[str, Hint]) -> None:
+    def __init__(self, lab: Lab) -> None:
         self.results: list[CheckResult] = []
         self.problems: list[str] = []
         self._roots: dict[str, str] = {}
-        self._points = points
-        self._hints = hints
+        self._lab = lab
 
     def pytest_runtest_setup(self, item: pytest.Item) -> None:
         """Skip a check whose need has not passed."""
@@ -60,14 +59,14 @@ class Collector:
 
     def _result(self, item: pytest.Item, error: BaseException | None) -> CheckResult:
         name = check_name(item)
-        worth = self._points.get(name, 0.0)
-        hint = self._hints.get(name)
+        worth = self._lab.card.points.get(name, 0.0)
+        hint = self._lab.hints.get(name)
         words: dict[str, Any] = {
             "id": name,
             "title": title_of(_function(item)),
             "points": worth if error is None else 0.0,
             "max_points": worth,
-            "lesson": hint.lesson if hint else None,
+            "lesson": self._lab.lesson_of(name),
             **_words_for(error, title_of(_function(item))),
         }
         if words["outcome"] == "fail" and hint:

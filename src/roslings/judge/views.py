@@ -200,6 +200,12 @@ class ExperimentView(View):
         """What subscribes to the topic, or the nearest to it."""
         return self._endpoint(node, topic, "subscription")
 
+    def published_by(self, node: NodeContract) -> list[str]:
+        """The topics that a node publishes, without those of ROS itself."""
+        name = self.node(node).near.found
+        ends = own_endpoints(self.seen.graph)
+        return sorted({e.topic for e in ends if e.kind == "publisher" and e.node == name})
+
     def topic(self, contract: TopicContract) -> TopicView:
         """The messages on the topic, or on the nearest to it.
 

@@ -1,0 +1,212 @@
+"""Faults in the ROS graph."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from roslings.evidence import Qos
+from roslings.judge.faults.base import Fault
+from roslings.near import Near
+
+
+@dataclass(eq=False)
+class WrongNodeName(Fault):
+    """The node is there, under another name."""
+
+    near: Near
+    why = "Other nodes and tools find a node by its name."
+
+    @property
+    def expected(self) -> str:
+        """The full name."""
+        return f"a node {self.near.wanted}"
+
+    @property
+    def measured(self) -> str:
+        """The name that is there."""
+        return (
+            f"there is no {self.near.wanted}, but {self.near.found} is running{_guess(self.near)}"
+        )
+
+    @property
+    def hint(self) -> str:
+        """Where the name is given."""
+        if self.near.how == "namespace":
+            return "Look for namespace= where your class calls super().__init__(...)."
+        return "The name is the first text in super().__init__(...) of your class."
+
+
+@dataclass(eq=False)
+class WrongTopic(Fault):
+    """The node uses a topic, but under another name."""
+
+    near: Near
+    verb: str
+    type: str
+    why = "Publisher and subscription meet only when both use the very same name."
+
+    @property
+    def expected(self) -> str:
+        """The topic."""
+        return f"a node that {self.verb} {self.near.wanted}"
+
+    @property
+    def measured(self) -> str:
+        """The topic that is there, and the likely slip."""
+        return (
+            f"there is no {self.near.wanted}, but {self.near.found} carries"
+            f" {self.type}{_guess(self.near)}"
+        )
+
+    @property
+    def hint(self) -> str:
+        """Where the name is given."""
+        call = "create_publisher" if self.verb.startswith("publishes") else "create_subscription"
+        return f"Look at the text in {call}(...). Check with `ros2 topic list`."
+
+
+@dataclass(eq=False)
+class NoTopic(Fault):
+    """The node uses no topic of this kind at all."""
+
+    topic: str
+    verb: str
+    why = "Without a topic, no message can go from one node to another."
+
+    @property
+    def expected(self) -> str:
+        """The topic."""
+        return f"a node that {self.verb} {self.topic}"
+
+    @property
+    def measured(self) -> str:
+        """That there is none."""
+        return f"it {self.verb} no topic of its own"
+
+    @property
+    def hint(self) -> str:
+        """Which call is missing."""
+        call = "create_publisher" if self.verb.startswith("publishes") else "create_subscription"
+        return (
+            f"Call self.{call}(...) in __init__ of your class, and see that main() makes the node."
+        )
+
+
+@dataclass(eq=False)
+class WrongType(Fault):
+    """The topic carries another kind of message."""
+
+    topic: str
+    wanted: str
+    found: str
+    why = "A topic carries one type of message. Other types are not delivered, without an error."
+
+    @property
+    def expected(self) -> str:
+        """The type."""
+        return f"{self.topic} carries {self.wanted}"
+
+    @property
+    def measured(self) -> str:
+        """The type that is there."""
+        return f"it carries {self.found}"
+
+    @property
+    def hint(self) -> str:
+        """Where the type is given."""
+        return "The type is the first word in create_publisher(...) or create_subscription(...)."
+
+
+@dataclass(eq=False)
+class QosCannotMatch(Fault):
+    """The quality of service keeps publisher and subscription apart."""
+
+    topic: str
+    policy: str
+    wanted: str
+    found: str
+    why = "If one side asks for more than the other offers, no message is delivered."
+
+    @property
+    def expected(self) -> str:
+        """What the other side uses."""
+        return f"a QoS on {self.topic} that works with {self.policy} {self.wanted}"
+
+    @property
+    def measured(self) -> str:
+        """What is there."""
+        return f"{self.policy} is {self.found}: the two can never be joined"
+
+    @property
+    def hint(self) -> str:
+        """The simple way."""
+        return "Give the number 10 in place of the QoS profile: that is the usual, reliable one."
+
+
+@dataclass(eq=False)
+class TwoPublishers(Fault):
+    """One publisher was asked for, more are there."""
+
+    topic: str
+    nodes: tuple[str, ...]
+    why = "Two publishers on one topic mix their messages, and the counting seems to jump."
+    hint = "Count the calls of create_publisher in your code. One for each topic is enough."
+
+    @property
+    def expected(self) -> str:
+        """One."""
+        return f"one publisher on {self.topic}"
+
+    @property
+    def measured(self) -> str:
+        """How many."""
+        return f"{len(self.nodes)} publishers, from {', '.join(self.nodes)}"
+
+
+@dataclass(eq=False)
+class NotTheAskedGraph(Fault):
+    """With both nodes running, the graph has something missing or something too much."""
+
+    wanted: tuple[str, ...]
+    found: tuple[str, ...]
+    what: str
+    why = "The graph is the plan of the robot's program. Each part in it must be there on purpose."
+    hint = "Run both nodes and look: `./roslings graph`. Does one name appear twice?"
+
+    @property
+    def expected(self) -> str:
+        """The asked graph."""
+        return f"just {', '.join(self.wanted)}"
+
+    @property
+    def measured(self) -> str:
+        """What is there instead."""
+        return f"{self.what}: {', '.join(self.found) or 'nothing'}"
+
+
+def qos_conflict(
+    kind: str, qos: Qos, reliability: str, durability: str
+) -> tuple[str, str, str] | None:
+    """Policy, asked, found where an endpoint cannot be joined with the contract's other side.
+
+    DDS joins a publisher and a subscription where the publisher offers at least what the
+    subscription asks for (OMG DDS 1.4, 2.2.3; the same rule as rclpy's
+    qos_check_compatible).
+    """
+    for policy, asked, found, weak in (
+        ("reliability", reliability, qos.reliability, "best_effort"),
+        ("durability", durability, qos.durability, "volatile"),
+    ):
+        offered, requested = (found, asked) if kind == "publisher" else (asked, found)
+        if offered == weak and requested != weak:
+            return policy, asked, found
+    return None
+
+
+def _guess(near: Near) -> str:
+    sentences = {
+        "namespace": ": another namespace?",
+        "case": ": capital letters?",
+        "spelling": ": a spelling?",
+    }
+    return sentences.get(near.how, "")

@@ -1,0 +1,124 @@
+"""Faults of a process."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from roslings.judge.faults.base import Fault
+
+
+@dataclass(eq=False)
+class DidNotComeUp(Fault):
+    """The process ended before its node could do anything, or never made a node."""
+
+    executable: str
+    how: str
+    why = "A node that ends at once can neither send nor receive."
+
+    @property
+    def expected(self) -> str:
+        """A running node."""
+        return f"{self.executable} starts, makes a node and keeps running"
+
+    @property
+    def measured(self) -> str:
+        """How it went."""
+        return self.how
+
+    @property
+    def hint(self) -> str:
+        """What to try."""
+        return (
+            "Start it by hand with `ros2 run` and read the last line of what it prints. "
+            "Without an error: does main() call rclpy.spin(node)?"
+        )
+
+
+@dataclass(eq=False)
+class StoppedByItself(Fault):
+    """The node ran for a while and then ended, though nobody asked it to."""
+
+    executable: str
+    after_s: float
+    how: str
+    why = "A robot's node runs until somebody stops it."
+    hint = "Read the last lines below: the last one names the error, the one above it the place."
+
+    @property
+    def expected(self) -> str:
+        """A node that stays."""
+        return f"{self.executable} runs until Ctrl-C"
+
+    @property
+    def measured(self) -> str:
+        """When it ended, and how."""
+        return f"it ended by itself after {self.after_s:.1f} s ({self.how})"
+
+
+@dataclass(eq=False)
+class DoesNotEnd(Fault):
+    """Ctrl-C does not end the node in time."""
+
+    executable: str
+    within_s: float
+    after_s: float | None
+    why = "Who cannot stop a robot's program with Ctrl-C cannot stop the robot."
+    hint = "Does your code catch KeyboardInterrupt and go on, or wait in a loop that never ends?"
+
+    @property
+    def expected(self) -> str:
+        """The time that it has."""
+        return f"{self.executable} ends within {self.within_s:g} s of Ctrl-C"
+
+    @property
+    def measured(self) -> str:
+        """The time that it took."""
+        if self.after_s is None:
+            return "it was still running and had to be killed"
+        return f"it ended after {self.after_s:.1f} s"
+
+
+@dataclass(eq=False)
+class UncleanExit(Fault):
+    """Ctrl-C ends the node with an error."""
+
+    executable: str
+    how: str
+    why = (
+        "Much tutorial code ends like this. It is a small thing, but other programs take the "
+        "error for a crash."
+    )
+    hint = (
+        "Catch KeyboardInterrupt and ExternalShutdownException around rclpy.spin(), and end "
+        "with rclpy.try_shutdown()."
+    )
+
+    @property
+    def expected(self) -> str:
+        """A clean end."""
+        return f"{self.executable} ends after Ctrl-C with exit code 0 and no traceback"
+
+    @property
+    def measured(self) -> str:
+        """How it ended."""
+        return self.how
+
+
+@dataclass(eq=False)
+class LeavesProcesses(Fault):
+    """The node ended, but processes that it started did not."""
+
+    executable: str
+    count: int
+    why = "A forgotten process still sends messages, and the next start meets it."
+    hint = "End what your node starts (subprocess, multiprocessing) before the node itself ends."
+
+    @property
+    def expected(self) -> str:
+        """Nothing left."""
+        return f"nothing that {self.executable} started outlives it"
+
+    @property
+    def measured(self) -> str:
+        """How many were left."""
+        return f"{self.count} process(es) still ran after it had ended"

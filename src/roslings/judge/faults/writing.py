@@ -1,0 +1,69 @@
+"""Faults in what a node writes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from roslings.judge.faults.base import Fault
+
+
+@dataclass(eq=False)
+class NotLogged(Fault):
+    """The node does not write the line that it should."""
+
+    executable: str
+    wanted: str
+    found: str | None
+    why = "The log is the first place to look when a robot does something strange."
+
+    @property
+    def expected(self) -> str:
+        """The line."""
+        return f"{self.executable} writes {self.wanted!r}"
+
+    @property
+    def measured(self) -> str:
+        """The most similar line."""
+        return f"the nearest line is {self.found!r}" if self.found else "it wrote nothing"
+
+    @property
+    def hint(self) -> str:
+        """How to write a line."""
+        return "Write it with self.get_logger().info(...) in the function that has the message."
+
+
+@dataclass(eq=False)
+class DoesNotRepeat(Fault):
+    """The listener got a message and wrote nothing about it."""
+
+    template: str
+    said: str
+    wrote: str | None
+    why = "A subscription only helps when its callback does something with the message."
+    hint = "Is the callback the one given to create_subscription? Does it log msg.data?"
+
+    @property
+    def expected(self) -> str:
+        """The echo."""
+        return f"it writes {self.template.format(text=self.said)!r}"
+
+    @property
+    def measured(self) -> str:
+        """What it wrote."""
+        return f"it wrote {self.wrote!r}" if self.wrote else "it wrote nothing"
+
+
+@dataclass(eq=False)
+class FixedText(DoesNotRepeat):
+    """The listener writes a text of its own, whatever it receives."""
+
+    why = "The listener must write what it hears. This text is always the same."
+    hint = "Put the message's own text into the line: its field is msg.data."
+
+
+@dataclass(eq=False)
+class AlmostRepeats(DoesNotRepeat):
+    """The listener repeats the message inside a different sentence."""
+
+    why = "The message arrives. Only the words around it are not the ones asked for."
+    hint = "Compare the line letter by letter with the one expected."

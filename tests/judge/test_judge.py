@@ -1,0 +1,112 @@
+"""Judging is pure: the same evidence, the same verdict; another card, another verdict."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from roslings import course
+from roslings.course import Lab, lab
+from roslings.evidence import Evidence
+from roslings.experiment import measure
+from roslings.judge import BadGrader, judge
+from roslings.verdict import Verdict
+from roslings.workspace.inspect import inspect_package
+
+
+@pytest.fixture(scope="module")
+def evidence() -> Evidence:
+    """What was seen of a real run of the solution."""
+    topics = lab("topics")
+    files = inspect_package(topics.solution, topics.card)
+    return measure("topics", topics.solution, files, 1, lambda step: None)
+
+
+@pytest.fixture
+def other_course(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A copy of the course that a test may change."""
+    for folder in ("labs", "graders"):
+        shutil.copytree(course.root() / folder, tmp_path / folder)
+    monkeypatch.setenv("ROSLINGS_COURSE", str(tmp_path))
+    return tmp_path
+
+
+def change(file: Path, find: str, replace: str) -> Lab:
+    """Change one place of the copied course; returns its lab."""
+    text = file.read_text("utf-8")
+    assert text.count(find) == 1
+    file.write_text(text.replace(find, replace), "utf-8")
+    return lab("topics")
+
+
+def outcomes(verdict: Verdict) -> dict[str, str]:
+    """Check to outcome, of those that did not pass."""
+    return {check.id: check.outcome for check in verdict.checks if check.outcome != "pass"}
+
+
+def test_evidence_that_was_saved_is_judged_alike(evidence: Evidence, tmp_path: Path) -> None:
+    """Written, read back, judged again: nothing differs."""
+    file = tmp_path / "evidence.json"
+    file.write_text(evidence.model_dump_json(by_alias=True), "utf-8")
+    again = Evidence.model_validate_json(file.read_text("utf-8"))
+    assert judge(lab("topics"), again) == judge(lab("topics"), evidence)
+    assert judge(lab("topics"), evidence).score == 100
+
+
+def test_a_changed_limit_changes_that_check_alone(evidence: Evidence, other_course: Path) -> None:
+    """An instructor asks for 4 Hz: the same evidence now fails the rate."""
+    topics = change(other_course / "labs/topics/card.yaml", "hz: 2.0", "hz: 4.0")
+    verdict = judge(topics, evidence)
+    assert outcomes(verdict) == {"rate": "fail"}
+    rate = next(check for check in verdict.checks if check.id == "rate")
+    assert rate.fault == "TooSlow"
+    assert "4 messages a second" in rate.title
+
+
+def test_nothing_seen_is_skipped_and_not_failed(evidence: Evidence) -> None:
+    """Without experiments there is nothing to judge about the nodes."""
+    empty = evidence.model_copy(update={"experiments": {}})
+    verdict = judge(lab("topics"), empty)
+    assert set(outcomes(verdict).values()) == {"skip"}
+
+
+def test_a_mistake_of_the_grader_costs_the_student_nothing(
+    evidence: Evidence, other_course: Path
+) -> None:
+    """An error in a check is inconclusive: no score, and who to tell."""
+    topics = change(
+        other_course / "graders/grade_topics.py",
+        "    talking.topic(CHATTER).must(count_up)",
+        "    talking.topic(CHATTER).no_such_thing()",
+    )
+    verdict = judge(topics, evidence)
+    assert outcomes(verdict) == {"counting": "inconclusive"}
+    assert verdict.score is None
+
+
+def test_a_bare_assert_works(evidence: Evidence, other_course: Path) -> None:
+    """Its message is what the student reads."""
+    topics = change(
+        other_course / "graders/grade_topics.py",
+        "    talking.topic(CHATTER).must(count_up)",
+        "    assert talking.published_by(TALKER) == [], 'it publishes'",
+    )
+    failed = judge(topics, evidence).failed()
+    assert [check.id for check in failed] == ["counting"]
+    assert "it publishes" in str(failed[0].expected)
+
+
+@pytest.mark.parametrize(
+    ("find", "replace"),
+    [("def test_figure", "def test_picture"), ("import lab\n", "import no_such_word\n")],
+    ids=["a check without points", "a file that cannot be read"],
+)
+def test_a_grader_that_does_not_fit_its_card_is_refused(
+    evidence: Evidence, other_course: Path, find: str, replace: str
+) -> None:
+    """The course is at fault, and says where."""
+    topics = change(other_course / "graders/grade_topics.py", find, replace)
+    with pytest.raises((BadGrader, ImportError)):
+        judge(topics, evidence)

@@ -1,0 +1,88 @@
+"""The arithmetic of rates, on messages whose times are known."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+from judge_messages import MS, messages
+
+from roslings.rates import measure_rate
+
+
+def grid(period_ms: float, count: int) -> list[float]:
+    """Times of a perfect timer."""
+    return [n * period_ms for n in range(count)]
+
+
+def test_a_perfect_timer_is_measured_exactly() -> None:
+    """2 Hz is 2 Hz, and nothing is uncertain."""
+    rate = measure_rate(messages(grid(500, 11)))
+    assert rate is not None
+    assert rate.hz == pytest.approx(2.0)
+    assert rate.uncertainty_hz < 1e-6
+    assert rate.lost == 0
+    assert rate.from_stamps
+
+
+def test_a_lost_message_is_a_loss_and_not_slowness() -> None:
+    """Gaps in the sequence count as sent."""
+    kept = [n for n in range(21) if n % 3 != 1]
+    rate = measure_rate(messages([n * 100 for n in kept], [n + 1 for n in kept]))
+    assert rate is not None
+    assert rate.hz == pytest.approx(10.0)
+    assert rate.lost == 21 - len(kept)
+    assert rate.uneven_share() == 0
+
+
+def test_a_queue_does_not_bend_the_rate() -> None:
+    """Everything arrives late and at once: the publisher's stamps still tell 10 Hz."""
+    seen = messages(grid(100, 21))
+    for message in seen[5:10]:
+        message.arrival_ns = seen[10].arrival_ns
+    rate = measure_rate(seen)
+    assert rate is not None
+    assert rate.hz == pytest.approx(10.0)
+
+
+def test_stamps_that_disagree_with_arrival_are_not_believed() -> None:
+    """A publisher whose clock runs twice as fast does not make its rate half as high."""
+    seen = messages(grid(100, 21))
+    for n, message in enumerate(seen):
+        message.source_ns = 1_700_000_000_000_000_000 + n * 200 * MS
+    rate = measure_rate(seen)
+    assert rate is not None
+    assert not rate.from_stamps
+    assert rate.hz == pytest.approx(10.0)
+
+
+@pytest.mark.parametrize("count", range(5))
+def test_few_messages_have_no_rate(count: int) -> None:
+    """Fewer than four intervals say nothing."""
+    assert (measure_rate(messages(grid(500, count))) is None) == (count < 5)
+
+
+def test_bursts_are_uneven_though_their_mean_is_right() -> None:
+    """Four messages at once, every two seconds."""
+    times = [start + n for start in range(0, 12_000, 2000) for n in range(4)]
+    rate = measure_rate(messages([float(t) for t in times]))
+    assert rate is not None
+    assert rate.uneven_share() > 0.9
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_the_uncertainty_covers_the_error_of_a_jittering_timer(seed: int) -> None:
+    """A timer that keeps its grid and is late by up to 40 ms: three standard errors hold it."""
+    late = random.Random(seed)
+    rate = measure_rate(messages([t + late.uniform(0, 40) for t in grid(500, 11)]))
+    assert rate is not None
+    assert abs(rate.hz - 2.0) < 1.5 * rate.uncertainty_hz
+
+
+def test_an_answer_that_more_messages_could_change_is_not_clear() -> None:
+    """The limit lies within the uncertainty, or it does not."""
+    late = random.Random(1)
+    rate = measure_rate(messages([t + late.uniform(0, 40) for t in grid(500, 11)]))
+    assert rate is not None
+    assert rate.clear_of([1.5, 2.5])
+    assert not rate.clear_of([rate.hz])
