@@ -115,10 +115,9 @@ def watch(options: argparse.Namespace) -> int:
 
     lab = course.lab(options.lab)
     folder = package_of(lab, options.path)
-    _check_again(options)
-    print("\nWatching. Save a file to check again; Ctrl-C ends it.", flush=True)
-    for saved in changes(folder):
-        print(f"\nSaved: {_names(saved, folder)}", flush=True)
+    for saved in changes(folder, begin=True):  # begun first: a save during a check is not missed
+        if saved:
+            print(f"\nSaved: {_names(saved, folder)}", flush=True)
         _check_again(options)
         print("\nWatching. Save a file to check again; Ctrl-C ends it.", flush=True)
     return OK

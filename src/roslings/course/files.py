@@ -36,6 +36,8 @@ def read_yaml(path: Path, model: type[Model]) -> Model:
     tree = _compose(path)
     try:
         return model.model_validate(yaml.safe_load(path.read_text("utf-8")))
+    except yaml.YAMLError as error:
+        raise _bad_yaml(path, error) from error
     except ValidationError as error:
         first = error.errors()[0]
         problem = f"{'.'.join(map(str, first['loc']))}: {first['msg']}"
@@ -47,11 +49,16 @@ def _compose(path: Path) -> yaml.Node | None:
         return yaml.compose(path.read_text("utf-8"), Loader=yaml.SafeLoader)
     except FileNotFoundError:
         raise BadCourseFile(path, 1, "this file is missing") from None
-    except (yaml.YAMLError, UnicodeDecodeError) as error:
-        mark = getattr(error, "problem_mark", None)
-        line = mark.line + 1 if mark else 1
-        problem = getattr(error, "problem", None) or "this is not UTF-8 text"
-        raise BadCourseFile(path, line, problem) from error
+    except UnicodeDecodeError as error:
+        raise BadCourseFile(path, 1, "this is not UTF-8 text") from error
+    except yaml.YAMLError as error:
+        raise _bad_yaml(path, error) from error
+
+
+def _bad_yaml(path: Path, error: yaml.YAMLError) -> BadCourseFile:
+    mark = getattr(error, "problem_mark", None)
+    problem = getattr(error, "problem", None) or str(error)
+    return BadCourseFile(path, mark.line + 1 if mark else 1, problem)
 
 
 def _line_of(tree: yaml.Node | None, location: Location) -> int:

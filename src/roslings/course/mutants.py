@@ -31,6 +31,9 @@ class Mutant(Contract):
     faults: dict[str, str] = Field(default_factory=dict, description="Check to kind of fault")
     edits: tuple[Edit, ...] = ()
     remove: tuple[str, ...] = ()
+    write: dict[str, bytes] = Field(
+        default_factory=dict, description="Files with other content; YAML's !!binary for a picture"
+    )
 
     def make(self, solution: Path, package: Path) -> Path:
         """Copy `solution` to `package` and injure it; returns `package`.
@@ -42,6 +45,8 @@ class Mutant(Contract):
             self._apply(edit, package / edit.file)
         for name in self.remove:
             (package / name).unlink()
+        for name, content in self.write.items():
+            (package / name).write_bytes(content)
         return package
 
     def _apply(self, edit: Edit, path: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from pathlib import Path
 
 import pytest
@@ -65,6 +66,7 @@ def run_checks(lab: Lab, evidence: Evidence) -> tuple[CheckResult, ...]:
         "--noconftest",
         "--import-mode=importlib",
     ]
+    sys.modules.pop(lab.grader.stem, None)  # another course may have a grader of this name
     pytest.main(options, plugins=[evidence_plugin(views), collector])
     _require_all(lab, collector)
     return tuple(collector.results)
