@@ -29,7 +29,7 @@ class BadPicture(Fault):
     @property
     def hint(self) -> str:
         """How to make it."""
-        return f"Run both nodes. In the package: ./roslings graph --save {self.path}"
+        return f"Run both nodes. In the package's folder: roslings graph --save {self.path}"
 
 
 @dataclass(eq=False)
