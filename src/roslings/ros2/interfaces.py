@@ -102,3 +102,13 @@ def _candidates(type_name: str) -> Iterator[Path]:
         return
     for kind in kinds:
         yield share / kind / f"{parts[-1]}.{kind}"
+
+
+def empty_message(type_name: str) -> Any:
+    """The message of a type, the request of a service, the goal of an action, with its defaults.
+
+    Raises UnknownInterface.
+    """
+    kind = file_of(type_name).parent.name
+    cls = class_of(full_name(type_name, kind), kind)
+    return {"msg": lambda: cls, "srv": lambda: cls.Request, "action": lambda: cls.Goal}[kind]()()

@@ -1,0 +1,127 @@
+"""`ros2 action`: which actions there are, who offers them, and sending a goal."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING, Any
+
+from roslings.ros2.names import absolute
+from roslings.ros2.shared_options import complete_interfaces, count_only, node_options, show_types
+from roslings.ros2.words import OK, Verbs, add
+
+if TYPE_CHECKING:
+    from roslings.ros2.eye import Eye
+
+ABSENT = {"type": "the type of an action", "find": "actions of a type", "echo": "action events"}
+Party = tuple[str, list[str]]
+
+
+def declare(command: argparse.ArgumentParser) -> None:
+    """The verbs."""
+    verbs = Verbs(command, ABSENT)
+    listing = verbs("list", "Output a list of action names", list_actions)
+    show_types(listing, "action")
+    count_only(listing, "actions")
+    info = verbs("info", "Print information about an action", show_info)
+    _action_name(info)
+    show_types(info, "action")
+    info.add_argument(
+        "-c", "--count", action="store_true",
+        help="Only display the number of action clients and action servers",
+    )  # fmt: skip
+    for verb in (listing, info):
+        node_options(verb)
+    send = verbs("send_goal", "Send an action goal", send_goal)
+    _action_name(send)
+    add(
+        send, "action_type", complete=complete_interfaces("action"),
+        help="Type of the ROS action (e.g. 'test_msgs/action/Fibonacci')",
+    )  # fmt: skip
+    send.add_argument("goal", help="Goal request values in YAML format (e.g. '{order: 10}')")
+    send.add_argument(
+        "-f", "--feedback", action="store_true", help="Echo feedback messages for the goal"
+    )
+
+
+def _action_name(parser: argparse.ArgumentParser) -> None:
+    add(
+        parser, "action_name", complete=complete_actions,
+        help="Name of the ROS action (e.g. '/fibonacci')",
+    )  # fmt: skip
+
+
+def complete_actions(**_: Any) -> list[str]:
+    """Every action, for the Tab key."""
+    from roslings.ros2.eye import Eye
+
+    with Eye() as eye:
+        return list(actions(eye.settle()))
+
+
+def actions(eye: Eye) -> dict[str, list[str]]:
+    """Every action in the graph, with its types: of servers and of clients."""
+    found: dict[str, list[str]] = {}
+    for name, parties in (*by_action(eye, "service"), *by_action(eye, "client")):
+        types = found.setdefault(name, [])
+        types += [kind for _, kinds in parties for kind in kinds if kind not in types]
+    return dict(sorted(found.items()))
+
+
+def by_action(eye: Eye, role: str) -> list[tuple[str, list[Party]]]:
+    """Each action with the nodes that serve it (role `service`) or use it (`client`)."""
+    from roslings.ros2.node_parts import actions_in
+
+    found: dict[str, list[Party]] = {}
+    for node in eye.nodes(hidden=True):
+        for name, types in actions_in(eye.of_node(role, node)).items():
+            found.setdefault(name, []).append((node, types))
+    return sorted(found.items())
+
+
+def list_actions(options: argparse.Namespace) -> int:
+    """`ros2 action list`."""
+    from roslings.ros2.eye import Eye
+
+    with Eye() as eye:
+        found = actions(eye.settle())
+    if options.count:
+        print(len(found))
+        return OK
+    for name, types in found.items():
+        print(f"{name} [{', '.join(types)}]" if options.show_types else name)
+    return OK
+
+
+def show_info(options: argparse.Namespace) -> int:
+    """`ros2 action info ACTION`."""
+    from roslings.ros2.eye import Eye
+
+    name = absolute(options.action_name)
+    with Eye() as eye:
+        eye.settle()
+        _say_near(eye, name)
+        clients = dict(by_action(eye, "client")).get(name, [])
+        servers = dict(by_action(eye, "service")).get(name, [])
+    print(f"Action: {options.action_name}")
+    for title, parties in (("Action clients", clients), ("Action servers", servers)):
+        print(f"{title}: {len(parties)}")
+        for node, types in parties if not options.count else ():
+            print(f"    {node} [{', '.join(types)}]" if options.show_types else f"    {node}")
+    return OK
+
+
+def _say_near(eye: Eye, name: str) -> None:
+    import sys
+
+    from roslings.ros2.problem import did_you_mean
+
+    there = actions(eye)
+    if name not in there:
+        print(f"No node has the action '{name}'.{did_you_mean(name, there)}", file=sys.stderr)
+
+
+def send_goal(options: argparse.Namespace) -> int:
+    """`ros2 action send_goal ACTION TYPE GOAL`."""
+    from roslings.ros2.goal import send
+
+    return send(options)

@@ -1,0 +1,104 @@
+"""`ros2 interface`: the types of messages, services and actions."""
+
+from __future__ import annotations
+
+import argparse
+from typing import Any
+
+from roslings.ros2.interfaces import KINDS
+from roslings.ros2.words import OK, Verbs, add
+
+TITLES = {"msg": "Messages:", "srv": "Services:", "action": "Actions:"}
+
+
+def declare(command: argparse.ArgumentParser) -> None:
+    """The verbs."""
+    verbs = Verbs(command, absent={})
+    listing = verbs("list", "List all interface types available", list_all)
+    for flag, kind in (("-m", "msg"), ("-s", "srv"), ("-a", "action")):
+        listing.add_argument(
+            flag, f"--only-{kind}s" if kind != "action" else "--only-actions", dest="only",
+            action="append_const", const=kind, help=f"Print out only the {KINDS[kind]} types",
+        )  # fmt: skip
+    show = verbs("show", "Output the interface definition", show_text)
+    _type_name(show)
+    comments = show.add_mutually_exclusive_group()
+    comments.add_argument("--all-comments", action="store_true", help="Show comments of all types")
+    comments.add_argument("--no-comments", action="store_true", help="Show no comments")
+    proto = verbs("proto", "Output an interface prototype", show_prototype)
+    _type_name(proto)
+    proto.add_argument(
+        "--no-quotes", action="store_true", help="If true output has no outer quotes"
+    )
+    package = verbs("package", "Output a list of available interface types within one package",
+                    list_package)  # fmt: skip
+    package.add_argument("package_name", help="Name of the ROS package")
+    verbs("packages", "Output a list of packages that provide interfaces", list_packages)
+
+
+def _type_name(parser: argparse.ArgumentParser) -> None:
+    add(
+        parser, "type", complete=complete_all,
+        help="Name of the ROS type (e.g. 'std_msgs/msg/String')",
+    )  # fmt: skip
+
+
+def complete_all(**_: Any) -> list[str]:
+    """Every installed type, for the Tab key."""
+    from roslings.ros2.interfaces import installed
+
+    return installed()
+
+
+def list_all(options: argparse.Namespace) -> int:
+    """`ros2 interface list`."""
+    from roslings.ros2.interfaces import installed
+
+    names = installed()
+    for kind in options.only or TITLES:
+        print(TITLES[kind])
+        print("".join(f"    {name}\n" for name in names if f"/{kind}/" in name), end="")
+    return OK
+
+
+def list_package(options: argparse.Namespace) -> int:
+    """`ros2 interface package PACKAGE`."""
+    from roslings.ros2.interfaces import installed
+    from roslings.ros2.packages import prefix_of
+
+    prefix_of(options.package_name)
+    for name in installed():
+        if name.startswith(f"{options.package_name}/"):
+            print(name)
+    return OK
+
+
+def list_packages(_: argparse.Namespace) -> int:
+    """`ros2 interface packages`."""
+    from roslings.ros2.interfaces import installed
+
+    print("\n".join(sorted({name.partition("/")[0] for name in installed()})))
+    return OK
+
+
+def show_text(options: argparse.Namespace) -> int:
+    """`ros2 interface show TYPE`."""
+    from roslings.ros2.interface_text import Comments, shown_lines
+
+    comments = Comments.TOP
+    if options.all_comments:
+        comments = Comments.ALL
+    elif options.no_comments:
+        comments = Comments.NONE
+    print("\n".join(shown_lines(options.type, comments)))
+    return OK
+
+
+def show_prototype(options: argparse.Namespace) -> int:
+    """`ros2 interface proto TYPE`."""
+    from roslings.ros2.interfaces import empty_message
+    from roslings.ros2.yaml_out import Shape, as_yaml
+
+    text = as_yaml(empty_message(options.type), Shape(longest=None))
+    print(text if options.no_quotes else f'"{text}"')
+    return OK

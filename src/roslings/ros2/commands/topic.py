@@ -1,0 +1,242 @@
+"""`ros2 topic`: which topics there are, what is said on them, and saying something oneself."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from roslings.ros2.names import absolute
+from roslings.ros2.problem import Problem, did_you_mean
+from roslings.ros2.qos import add_qos_options
+from roslings.ros2.shared_options import (
+    complete_interfaces,
+    count_only,
+    hidden_topics,
+    node_options,
+    show_types,
+    topic_name,
+)
+from roslings.ros2.words import FAILED, OK, Verbs, add, not_negative, positive, rate, seconds
+
+ABSENT = {"delay": "the age of stamped messages"}
+DEFAULT_LENGTH, HZ_WINDOW, BW_WINDOW = 128, 10_000, 100
+
+
+class TopicNotFound(Problem):
+    """No node has the topic."""
+
+    def __init__(self, topic: str, there: list[str]) -> None:
+        super().__init__(
+            f"Unknown topic '{topic}'.{did_you_mean(topic, there)}\n"
+            "To see what there is: ros2 topic list"
+        )
+
+
+def declare(command: argparse.ArgumentParser) -> None:
+    """The verbs."""
+    verbs = Verbs(command, ABSENT)
+    _declare_looking(verbs)
+    _declare_echo(verbs)
+    _declare_measuring(verbs)
+    _declare_pub(verbs)
+
+
+def _declare_looking(verbs: Verbs) -> None:
+    listing = verbs("list", "Output a list of available topics", list_topics)
+    show_types(listing, "topic")
+    count_only(listing, "topics")
+    listing.add_argument(
+        "-v", "--verbose", action="store_true", help="List full details about each topic"
+    )
+    hidden_topics(listing)
+    info = verbs("info", "Print information about a topic", show_info)
+    topic_name(info)
+    info.add_argument(
+        "-v", "--verbose", action="store_true",
+        help="Prints the nodes publishing to and subscribing to this topic, with their QoS",
+    )  # fmt: skip
+    kind = verbs("type", "Print a topic's type", show_type)
+    topic_name(kind)
+    find = verbs("find", "Output a list of available topics of a given type", find_topics)
+    add(
+        find, "topic_type", complete=complete_interfaces("msg"),
+        help="Name of the ROS topic type to filter for (e.g. 'std_msgs/msg/String')",
+    )  # fmt: skip
+    count_only(find, "topics")
+    hidden_topics(find)
+    for verb in (listing, info, kind, find):
+        node_options(verb)
+
+
+def _declare_echo(verbs: Verbs) -> None:
+    from_home = "roslings.ros2.echoing"
+    echo = verbs("echo", "Output messages from a topic", _later(from_home, "echo"))
+    topic_name(echo)
+    add(
+        echo, "message_type", nargs="?", complete=complete_interfaces("msg"),
+        help="Type of the ROS message (e.g. 'std_msgs/msg/String')",
+    )  # fmt: skip
+    echo.add_argument("--once", action="store_true", help="Print the first message and exit")
+    echo.add_argument("--timeout", metavar="N", type=seconds, help="Exit after N seconds")
+    echo.add_argument(
+        "--field", action="append", help="Echo a selected field of a message, e.g. linear.x"
+    )
+    echo.add_argument("--csv", action="store_true", help="One line a message, parted by commas")
+    echo.add_argument("--flow-style", action="store_true", help="YAML in one line")
+    echo.add_argument("--no-arr", action="store_true", help="Don't print array fields")
+    echo.add_argument("--no-str", action="store_true", help="Don't print string fields")
+    echo.add_argument(
+        "-f", "--full-length", action="store_true", help="Do not cut long arrays and texts"
+    )
+    echo.add_argument(
+        "-l", "--truncate-length", type=not_negative, default=DEFAULT_LENGTH, metavar="N",
+        help=f"Cut arrays, bytes and texts after N (default: {DEFAULT_LENGTH})",
+    )  # fmt: skip
+    _listening_options(echo)
+
+
+def _declare_measuring(verbs: Verbs) -> None:
+    home = "roslings.ros2.measuring"
+    hz = verbs("hz", "Print the average publishing rate to screen", _later(home, "hz"))
+    bw = verbs("bw", "Display bandwidth used by topic", _later(home, "bw"))
+    for verb, window in ((hz, HZ_WINDOW), (bw, BW_WINDOW)):
+        topic_name(verb)
+        verb.add_argument(
+            "-w", "--window", type=positive, default=window, metavar="N",
+            help=f"window size, in # of messages (default: {window})",
+        )  # fmt: skip
+        _listening_options(verb)
+    hz.add_argument("--wall-time", action="store_true", help=argparse.SUPPRESS)
+
+
+def _listening_options(verb: argparse.ArgumentParser) -> None:
+    add_qos_options(verb, "subscribe")
+    node_options(verb)
+    verb.add_argument("--include-hidden-topics", action="store_true", help=argparse.SUPPRESS)
+
+
+def _declare_pub(verbs: Verbs) -> None:
+    pub = verbs("pub", "Publish a message to a topic", _later("roslings.ros2.publishing", "publish"))
+    topic_name(pub)
+    add(
+        pub, "message_type", complete=complete_interfaces("msg"),
+        help="Type of the ROS message (e.g. 'std_msgs/msg/String')",
+    )  # fmt: skip
+    pub.add_argument(
+        "values", nargs="?", default="{}",
+        help="Values to fill the message with in YAML format (e.g. '{data: Hello World}')",
+    )  # fmt: skip
+    pub.add_argument(
+        "-r", "--rate", metavar="N", type=rate, default=1.0,
+        help="Publishing rate in Hz (default: 1)",
+    )  # fmt: skip
+    pub.add_argument(
+        "-p", "--print", metavar="N", type=not_negative, default=1,
+        help="Only print every N-th published message (default: 1)",
+    )  # fmt: skip
+    count = pub.add_mutually_exclusive_group()
+    count.add_argument("-1", "--once", action="store_true", help="Publish one message and exit")
+    count.add_argument(
+        "-t", "--times", type=not_negative, default=0, help="Publish this number of times, exit"
+    )
+    pub.add_argument(
+        "-w", "--wait-matching-subscriptions", metavar="N", type=not_negative,
+        help="Wait for N subscriptions (default: 1 with --once and --times, else 0)",
+    )  # fmt: skip
+    pub.add_argument(
+        "--max-wait-time-secs", metavar="S", type=seconds, help="... but not longer than S seconds"
+    )
+    pub.add_argument(
+        "--keep-alive", metavar="S", type=seconds, default=0.1,
+        help="Stay for S seconds after the last message (default: 0.1)",
+    )  # fmt: skip
+    pub.add_argument("-n", "--node-name", help="Name of the created publishing node")
+    add_qos_options(pub, "publish")
+    pub.add_argument("--spin-time", type=seconds, help=argparse.SUPPRESS)
+
+
+def _later(home: str, function: str) -> object:
+    """The function of a module that is imported when it is called."""
+
+    def call(options: argparse.Namespace) -> int:
+        from importlib import import_module
+
+        return int(getattr(import_module(home), function)(options))
+
+    return call
+
+
+def list_topics(options: argparse.Namespace) -> int:
+    """`ros2 topic list`."""
+    from roslings.ros2.eye import Eye
+
+    with Eye() as eye:
+        topics = eye.settle().topics(hidden=options.include_hidden_topics)
+        if options.count:
+            print(len(topics))
+        elif options.verbose:
+            _print_verbose(eye, topics)
+        else:
+            for name, types in topics.items():
+                print(f"{name} [{', '.join(types)}]" if options.show_types else name)
+    return OK
+
+
+def _print_verbose(eye: object, topics: dict[str, list[str]]) -> None:
+    for title, word, infos in (
+        ("Published topics", "publisher", eye.publishers),  # type: ignore[attr-defined]
+        ("Subscribed topics", "subscriber", eye.ears),  # type: ignore[attr-defined]
+    ):
+        print(f"{title}:")
+        for name, types in topics.items():
+            if count := len(infos(name)):
+                plural = "s" if count > 1 else ""
+                print(f" * {name} [{', '.join(types)}] {count} {word}{plural}")
+        print()
+
+
+def show_info(options: argparse.Namespace) -> int:
+    """`ros2 topic info TOPIC`."""
+    from roslings.ros2.eye import Eye
+
+    topic = absolute(options.topic_name)
+    with Eye() as eye:
+        types = eye.settle().topics().get(topic)
+        if types is None:
+            raise TopicNotFound(options.topic_name, list(eye.topics(hidden=False)))
+        voices, ears = eye.publishers(topic), eye.ears(topic)
+        space = "\n" if options.verbose else ""
+        print(f"Type: {types[0] if len(types) == 1 else types}{space}")
+        for title, infos in (("Publisher count", voices), ("Subscription count", ears)):
+            print(f"{title}: {len(infos)}{space}")
+            for info in infos if options.verbose else ():
+                print(f"{info}\n")
+    return OK
+
+
+def show_type(options: argparse.Namespace) -> int:
+    """`ros2 topic type TOPIC`."""
+    from roslings.ros2.eye import Eye
+
+    with Eye() as eye:
+        topics = eye.settle().topics()
+    types = topics.get(absolute(options.topic_name))
+    if not types:
+        near = did_you_mean(options.topic_name, topics)
+        print(f"No node has the topic '{options.topic_name}'.{near}", file=sys.stderr)
+        return FAILED
+    print("\n".join(types))
+    return OK
+
+
+def find_topics(options: argparse.Namespace) -> int:
+    """`ros2 topic find TYPE`."""
+    from roslings.ros2.eye import Eye
+    from roslings.ros2.interfaces import full_name
+
+    wanted = full_name(options.topic_type, "msg")
+    with Eye() as eye:
+        topics = eye.settle().topics(hidden=options.include_hidden_topics)
+    names = [name for name, types in topics.items() if wanted in types]
+    print("\n".join(names) if not options.count else len(names), end="\n" if names else "")
+    return OK

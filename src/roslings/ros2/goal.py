@@ -1,0 +1,91 @@
+"""`ros2 action send_goal`: send a goal, show what comes back, cancel it on Ctrl-C."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from typing import Any
+
+from roslings.ros2.calling import answer_of
+from roslings.ros2.commands.action import actions
+from roslings.ros2.eye import Eye
+from roslings.ros2.interfaces import class_of, full_name
+from roslings.ros2.names import checked_topic
+from roslings.ros2.problem import Problem, did_you_mean
+from roslings.ros2.words import OK
+from roslings.ros2.yaml_in import filled
+from roslings.ros2.yaml_out import as_indented
+
+STATUS = {1: "ACCEPTED", 2: "EXECUTING", 3: "CANCELING", 4: "SUCCEEDED", 5: "CANCELED", 6: "ABORTED"}
+"""action_msgs/msg/GoalStatus."""
+
+CANCEL_WITHIN_S = 3.0
+
+
+class OtherType(Problem):
+    """The action is there, with another type than the one typed."""
+
+    def __init__(self, action: str, typed: str, right: str) -> None:
+        super().__init__(
+            f"The action '{action}' has the type {right}, not {typed}."
+            f" Type: ros2 action send_goal {action} {right}"
+        )
+
+
+def send(options: argparse.Namespace) -> int:
+    """Send the goal of `options` and wait for its end."""
+    from rclpy.action import ActionClient
+
+    action = checked_topic(options.action_name)
+    type_name = full_name(options.action_type, "action")
+    cls = class_of(type_name, "action")
+    goal = cls.Goal()
+    filled(goal, options.goal)
+    with Eye() as eye:
+        client = ActionClient(eye.node, cls, action)
+        try:
+            _await(eye, client, action, type_name)
+            _run(eye, client, goal, options.feedback)
+        finally:
+            client.destroy()
+    return OK
+
+
+def _await(eye: Eye, client: Any, action: str, type_name: str) -> None:
+    print("Waiting for an action server to become available...")
+    if eye.until(client.server_is_ready, 0.05):
+        return
+    there = actions(eye.settle())
+    if action in there and type_name not in there[action]:
+        raise OtherType(action, type_name, there[action][0])
+    others = [name for name in there if name != action]
+    if not client.server_is_ready() and (near := did_you_mean(action, others)):
+        print(f"No node serves '{action}' yet.{near}", file=sys.stderr)
+    eye.until(client.server_is_ready)
+
+
+def _run(eye: Eye, client: Any, goal: Any, feedback: bool) -> None:
+    print(f"Sending goal:\n     {as_indented(goal)}")
+    asked = client.send_goal_async(goal, feedback_callback=_show_feedback if feedback else None)
+    accepted = answer_of(eye, "send_goal", asked, None)
+    if not accepted.accepted:
+        print("Goal was rejected.")
+        return
+    print(f"Goal accepted with ID: {bytes(accepted.goal_id.uuid).hex()}\n")
+    try:
+        result = answer_of(eye, "get_result", accepted.get_result_async(), None)
+    except KeyboardInterrupt:
+        _cancel(eye, accepted)
+        raise
+    print(f"Result:\n    {as_indented(result.result)}")
+    print(f"Goal finished with status: {STATUS.get(result.status, 'UNKNOWN')}")
+
+
+def _show_feedback(message: Any) -> None:
+    print(f"Feedback:\n    {as_indented(message.feedback)}")
+
+
+def _cancel(eye: Eye, accepted: Any) -> None:
+    print("Canceling goal...")
+    answer = answer_of(eye, "cancel_goal", accepted.cancel_goal_async(), CANCEL_WITHIN_S)
+    print("Goal canceled." if answer.goals_canceling else "Failed to cancel goal")

@@ -1,0 +1,100 @@
+"""Quality of service: what the options ask for, what fits the others, what cannot match."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from roslings.ros2.words import not_negative, seconds
+
+PRESETS = ("default", "parameters", "sensor_data", "services_default", "system_default")
+POLICIES = {
+    "history": ("keep_last", "keep_all", "system_default"),
+    "reliability": ("reliable", "best_effort", "system_default"),
+    "durability": ("volatile", "transient_local", "system_default"),
+    "liveliness": ("automatic", "manual_by_topic", "system_default"),
+}
+DEFAULT_DEPTH = 10
+
+
+def add_qos_options(parser: argparse.ArgumentParser, subject: str) -> None:
+    """The `--qos-*` options; `subject` is what they are for."""
+    group = parser.add_argument_group(f"quality of service to {subject} with")
+    group.add_argument("--qos-profile", choices=PRESETS, help="a preset, for all of them")
+    group.add_argument("--qos-depth", metavar="N", type=not_negative, help="queue size")
+    for policy, choices in POLICIES.items():
+        group.add_argument(f"--qos-{policy}", choices=choices, help=policy)
+    group.add_argument(
+        "--qos-liveliness-lease-duration-seconds", metavar="S", type=seconds,
+        help="liveliness lease duration",
+    )  # fmt: skip
+
+
+def chosen(options: argparse.Namespace, preset: str = "default") -> Any:
+    """The QoSProfile that the options ask for, on top of `preset`."""
+    from rclpy.duration import Duration
+    from rclpy.qos import QoSPresetProfiles
+
+    base = QoSPresetProfiles.get_from_short_key(options.qos_profile or preset)
+    profile = _copy(base)
+    if options.qos_depth is not None:
+        profile.depth = options.qos_depth
+    for policy in POLICIES:
+        if word := getattr(options, f"qos_{policy}"):
+            setattr(profile, policy, _kind(policy)[word.upper()])
+    if options.qos_liveliness_lease_duration_seconds is not None:
+        profile.liveliness_lease_duration = Duration(
+            nanoseconds=round(options.qos_liveliness_lease_duration_seconds * 1e9)
+        )
+    return profile
+
+
+def _copy(profile: Any) -> Any:
+    from rclpy.qos import QoSProfile
+
+    names = [slot.removeprefix("_") for slot in QoSProfile.__slots__]
+    return QoSProfile(**{name: getattr(profile, name) for name in names})
+
+
+def _kind(policy: str) -> Any:
+    from rclpy import qos
+
+    return getattr(qos, f"{policy.capitalize()}Policy")
+
+
+def matching(options: argparse.Namespace, publishers: Sequence[Any]) -> Any:
+    """What a listener asks for: what all publishers can give, where the options leave it open."""
+    profile = chosen(options)
+    if options.qos_profile:
+        return profile
+    for policy, best, least in (
+        ("reliability", "RELIABLE", "BEST_EFFORT"), ("durability", "TRANSIENT_LOCAL", "VOLATILE"),
+    ):  # fmt: skip
+        if not getattr(options, f"qos_{policy}"):
+            offers = {getattr(info.qos_profile, policy).name for info in publishers}
+            setattr(profile, policy, _kind(policy)[best if offers == {best} else least])
+    return profile
+
+
+def mismatches(asked: Any, offered: Any) -> list[str]:
+    """Why a subscription that asks for `asked` gets nothing from a publisher that offers `offered`."""
+    found = []
+    for policy, wanted, given in (
+        ("reliability", "RELIABLE", "BEST_EFFORT"), ("durability", "TRANSIENT_LOCAL", "VOLATILE"),
+    ):  # fmt: skip
+        asks, gives = getattr(asked, policy).name, getattr(offered, policy).name
+        if asks == wanted and gives == given:
+            found.append(f"it offers {policy} {gives}, and {asks} is asked for")
+    if 0 < asked.deadline.nanoseconds < offered.deadline.nanoseconds:
+        found.append("its deadline is longer than the one asked for")
+    return found
+
+
+def said_about(publishers: Iterable[Any], asked: Any) -> list[str]:
+    """A sentence for each publisher that cannot reach a listener that asks for `asked`."""
+    return [
+        f"No message can come from node {info.node_name}: {why}."
+        for info in publishers
+        for why in mismatches(asked, info.qos_profile)
+    ]
