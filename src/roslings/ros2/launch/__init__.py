@@ -1,0 +1,1 @@
+"""`ros2 launch` for XML and YAML files: read, plan, run."""
