@@ -86,6 +86,19 @@ def test_a_mistake_of_the_grader_costs_the_student_nothing(
     assert verdict.score is None
 
 
+def test_a_computer_that_stood_still_costs_the_student_nothing(
+    evidence: Evidence, other_course: Path
+) -> None:
+    """A time limit that is missed while the observer itself was not run: no verdict, the reason."""
+    topics = change(other_course / "labs/topics/card.yaml", "hz: 2.0", "hz: 4.0")
+    stalled = evidence.model_copy(deep=True)
+    stalled.experiments["talking"].stall_s = 3.0
+    verdict = judge(topics, stalled)
+    assert outcomes(verdict) == {"rate": "inconclusive"}
+    assert verdict.outcome == "inconclusive"
+    assert "3.0 s" in next(str(c.why) for c in verdict.checks if c.id == "rate")
+
+
 def test_a_bare_assert_works(evidence: Evidence, other_course: Path) -> None:
     """Its message is what the student reads."""
     topics = change(

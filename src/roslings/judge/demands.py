@@ -29,7 +29,17 @@ FEWEST_MESSAGES = 5
 MOST_UNEVEN = 0.25
 """A quarter of the periods may be odd: a busy machine delays single messages, not every one."""
 SIMILAR_LINE = 0.5
+LONGEST_STALL_S = 0.5
 Asked = TypeVar("Asked")
+
+
+def require_steady(stall_s: float) -> None:
+    """Before a time is held against the student: this computer kept up. Raises Inconclusive."""
+    if stall_s > LONGEST_STALL_S:
+        raise faults.Inconclusive(
+            f"this computer stood still for {stall_s:.1f} s while your nodes ran;"
+            " close other programs and check again"
+        )
 
 
 def written(value: Asked | None, where: str) -> Asked:
@@ -124,6 +134,7 @@ def end_within(limit_s: float) -> Demand[ProcessView]:
         if seen.ending is None:
             raise faults.NothingToJudge("it ended before it was asked to")
         if seen.ending.after_s is None or seen.ending.after_s > limit_s:
+            require_steady(process.experiment.stall_s)
             raise faults.DoesNotEnd(seen.executable, limit_s, seen.ending.after_s)
         if seen.left_behind:
             raise faults.LeavesProcesses(seen.executable, seen.left_behind)
@@ -267,6 +278,7 @@ def have_rate(contract: TopicContract) -> Demand[TopicView]:
             raise faults.NoMessages(topic.name, len(topic.messages), topic.watched_s)
         kind = _rate_fault(rate, limit)
         if kind:
+            require_steady(topic.stall_s)
             raise kind(topic.name, limit.hz, limit.within, rate)
 
     return demand

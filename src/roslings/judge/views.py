@@ -148,6 +148,8 @@ class TopicView(View):
     type: str
     messages: tuple[MessageSeen, ...]
     watched_s: float
+    stall_s: float
+    """Longest time for which this computer did not even run the observer."""
 
     @property
     def rate(self) -> Rate | None:
@@ -221,6 +223,7 @@ class ExperimentView(View):
             endpoint.type,
             tuple(heard.messages) if heard else (),
             self.seen.watching_s,
+            self.seen.stall_s,
         )
 
     def _endpoint(
