@@ -44,7 +44,7 @@ def test_ill_ros_found__on_a_raspberry_pi(clinic: Clinic) -> None:
 
 def test_ill_ros_found__wheels_in_another_terminal(clinic: Clinic) -> None:
     finding = clinic.look("ros-found", PATH=str(clinic.root / "usr/bin"))
-    assert_ill(finding, "advice", "by itself", "/course/.venv/bin/activate")
+    assert_ill(finding, "advice", "by itself", "/course/setup.bash")
 
 
 def test_well_ros_found(clinic: Clinic) -> None:

@@ -81,7 +81,7 @@ def quoted(text: object) -> str:
 def source(machine: Machine, ros: Ros) -> tuple[Step, ...]:
     """Return how to make this terminal know an installation of ROS."""
     if ros.kind == "wheels":
-        script = quoted(ros.prefix / "bin" / "activate")
+        script = quoted(ros.prefix.parent / "setup.bash")
         return (do(f"source {script}", "Type this in each new terminal:"),)
     setup = f"source {APT_PREFIX}/setup.{shell_name(machine)}"
     start = startup_file(machine)

@@ -408,7 +408,7 @@ def environment(machine: Machine) -> Finding:
     if active and Path(active) not in ours and exists(Path(active).parent / "roslings"):
         return fault(
             f"The active environment is that of another copy of the course: {active}.",
-            do(f"deactivate\nsource {quoted(own / 'bin' / 'activate')}", "Leave it for this one:"),
+            do(f"deactivate\nsource {quoted(own.parent / 'setup.bash')}", "Leave it for this one:"),
         )
     if exists(own) and not _made_here(own):
         return fault(
