@@ -136,7 +136,7 @@ def bare_python(tmp_path: Path) -> Callable[..., str]:
         (copy / "site-packages").mkdir()
         python = prefix / "bin" / library.name
         shutil.copy(BASE, python)
-        ask = [python, "-c", f"import {without[-1]}"]
+        ask = [str(python), "-c", f"import {without[-1]}"]
         done = subprocess.run(ask, capture_output=True, text=True, check=False)
         if "No module named" not in done.stderr:
             pytest.skip("a copy of this Python still sees the whole library")

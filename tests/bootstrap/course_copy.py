@@ -42,6 +42,15 @@ test = [{include-group = "check"}]
 
 PINS = {"ros-x": "1.0", "col-x": "1.0", "check-x": "1.0", "draw-x": "1.0"}
 
+GROUPS = {
+    "pip": "setup",
+    "setuptools": "setup",
+    "ros-x": "ros",
+    "col-x": "colcon",
+    "check-x": "check test",
+    "draw-x": "graph",
+}
+
 
 @dataclass
 class Outcome:
@@ -83,7 +92,8 @@ class CourseCopy:
     def pin(self, **versions: str) -> None:
         """Writes the constraints; `ros_x="2.0"` changes a pin."""
         self.pins |= {name.replace("_", "-"): version for name, version in versions.items()}
-        lines = [f"{name}=={version}\n" for name, version in self.pins.items()]
+        lines = [f"{name}=={version}  # {GROUPS[name]}\n" for name, version in self.pins.items()]
+        lines.append("other-x==1.0 ; python_full_version < '3'  # ros colcon check graph\n")
         (self.root / "constraints.txt").write_text("".join(lines))
 
     @property
@@ -96,10 +106,14 @@ class CourseCopy:
         """The environment's packages."""
         return next(self.venv.glob("lib/python3*/site-packages"))
 
-    def run(self, *words: str, script: Path | None = None, **changes: str | None) -> Outcome:
+    def run(self, *words: str, **changes: str | None) -> Outcome:
         """Runs `./roslings words...`; a change to None takes a variable away."""
+        return self.run_through(self.root / "roslings", *words, **changes)
+
+    def run_through(self, script: Path, /, *words: str, **changes: str | None) -> Outcome:
+        """The same through a link to the script."""
         done = subprocess.run(
-            [script or self.root / "roslings", *words],
+            [script, *words],
             env=self.changed(changes),
             stdin=subprocess.DEVNULL,
             capture_output=True,

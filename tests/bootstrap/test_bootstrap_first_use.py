@@ -39,7 +39,7 @@ def test_runs_from_anywhere(standing: CourseCopy, tmp_path: Path) -> None:
     (tmp_path / "bin/first").symlink_to("../link/roslings")
     (tmp_path / "bin/second").symlink_to(tmp_path / "bin/first")
     for script in ("first", "second"):
-        outcome = standing.run("check", script=tmp_path / "bin" / script)
+        outcome = standing.run_through(tmp_path / "bin" / script, "check")
         assert (outcome.err, outcome.seen["prefix"]) == ("", str(standing.venv))
     assert without_input(standing, tmp_path).returncode == 0
 
@@ -69,7 +69,7 @@ def test_any_home_will_do(course: CourseCopy, home: str | None) -> None:
     """Nothing of ours is left where HOME is no folder."""
     outcome = course.run("check", HOME=home)
     assert outcome.code == 0, outcome.err
-    assert not (course.root / ".venv.cache").exists()
+    assert not (course.root / ".venv.wheels").exists()
 
 
 @pytest.mark.parametrize("words", [["doctor"], ["--version"], ["--help"], ["check", "--help"]])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import json
 import re
 import subprocess
@@ -16,8 +17,8 @@ from course_copy import REAL
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
-from roslings.bootstrap import groups, sizes
-from roslings.bootstrap.installing import TOOLS, pinned
+from roslings.bootstrap import constraints, groups, sizes
+from roslings.bootstrap.installing import TOOLS
 
 PYPROJECT = REAL / "pyproject.toml"
 CONSTRAINTS = REAL / "constraints.txt"
@@ -37,16 +38,21 @@ def tables() -> dict[str, list[Any]]:
 def pins() -> list[Requirement]:
     """Every line of constraints.txt."""
     lines = CONSTRAINTS.read_text().splitlines()
-    return [Requirement(line) for line in lines if not line.startswith("#")]
+    return [Requirement(line.partition("#")[0]) for line in lines if not line.startswith("#")]
 
 
-def closure() -> set[str]:
-    """Every package that the installed groups need, followed through what is installed here."""
-    first = [
-        Requirement(word) for words in tables().values() for word in words if isinstance(word, str)
-    ]
+def first_of(group: str) -> list[Requirement]:
+    """What a group names itself, other groups included."""
+    found: list[Requirement] = []
+    for word in tables()[group]:
+        found += first_of(word["include-group"]) if isinstance(word, dict) else [Requirement(word)]
+    return found
+
+
+def closure(group: str) -> set[str]:
+    """Every package that a group needs, followed through what is installed here."""
     found: set[str] = set()
-    waiting = [need for need in first if is_installed(need.name)]
+    waiting = [need for need in first_of(group) if is_installed(need.name)]
     while waiting:
         need = waiting.pop()
         if canonicalize_name(need.name) not in found:
@@ -72,14 +78,27 @@ def needs_of(package: Requirement) -> Iterator[Requirement]:
             yield need
 
 
-def test_every_package_that_is_needed_is_pinned() -> None:
+@pytest.mark.parametrize("group", ["setup", "ros", "colcon", "check", "graph", "test"])
+def test_every_package_that_a_group_needs_is_pinned_for_it(group: str) -> None:
     """Transitive ones too, to the version that is installed for this Python."""
-    here = {canonicalize_name(p.name): p for p in pins() if not p.marker or p.marker.evaluate()}
-    needed = closure()
-    assert len(needed) > 20
+    lines = constraints.of_groups(CONSTRAINTS, [group])
+    pinned = [Requirement(line) for line in lines]
+    here = {canonicalize_name(p.name): p for p in pinned if not p.marker or p.marker.evaluate()}
+    needed = closure(group)
+    if not all(is_installed(need.name) for need in first_of(group)):
+        pytest.skip(f"the group {group} is not installed here")
+    assert len(needed) >= len(first_of(group)) > 0
     assert needed - set(here) == set()
-    wrong = {name: version(name) for name in needed if version(name) not in here[name].specifier}
-    assert wrong == {}
+    wrong = [name for name in here if name in needed and version(name) not in here[name].specifier]
+    assert wrong == []
+
+
+def test_every_pin_names_its_groups() -> None:
+    """A package that no group needs is not there."""
+    known = set(groups.names(PYPROJECT))
+    for pin in constraints.read(CONSTRAINTS):
+        assert pin.groups
+        assert pin.groups <= known
 
 
 def test_pins_are_exact_and_name_no_address() -> None:
@@ -107,7 +126,7 @@ def test_ros_stays_jazzy() -> None:
 
 def test_the_tools_are_pinned() -> None:
     """pip reads groups from 25.1 on; colcon needs setuptools below 80."""
-    found = pinned(CONSTRAINTS, TOOLS)
+    found = constraints.exact(CONSTRAINTS, TOOLS)
     assert tuple(map(int, found["pip"].split(".")[:2])) >= (25, 1)
     assert int(found["setuptools"].split(".")[0]) < 80
 
@@ -148,11 +167,19 @@ def test_the_script_is_plain_sh() -> None:
     assert re.search(r"^\* text=auto eol=lf$", attributes, re.MULTILINE)
 
 
+def imports(file: Path) -> Iterator[str]:
+    """The modules that a file imports."""
+    for node in ast.walk(ast.parse(file.read_text())):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            yield node.module or ""
+
+
 def test_no_file_of_the_bootstrap_imports_more_than_the_standard_library() -> None:
     """It runs where nothing is installed, and knows no other room."""
     folder = REAL / "src/roslings/bootstrap"
-    text = "".join(file.read_text() for file in folder.glob("*.py"))
-    names = set(re.findall(r"^\s*(?:import|from) ([\w.]+)", text, re.MULTILINE))
+    names = {name for file in folder.glob("*.py") for name in imports(file)}
     ours = {name for name in names if name.startswith("roslings")}
     assert all(name.startswith("roslings.bootstrap") for name in ours)
     assert {name.split(".")[0] for name in names - ours} <= set(sys.stdlib_module_names)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from roslings.bootstrap import sizes
-from roslings.bootstrap.installing import Installer
+from roslings.bootstrap.installing import TOOLS, Installer
 from roslings.bootstrap.lock import locked
 from roslings.bootstrap.machine import require_wheels, this_machine
 from roslings.bootstrap.packages import forget_damaged
@@ -103,10 +103,10 @@ class _Work:
         elif not self.record.complete:
             say("The last set-up was interrupted. Mending it.")
             forget_damaged(self.virtual.site)
-        groups = self._to_install()
-        self._announce(groups)
-        self._install(groups)
-        self.record.write({*self.record.groups, *self.wish.groups}, self._installer().libraries())
+        self._install(self._to_install())
+        self.record.write(
+            {TOOLS, *self.record.groups, *self.wish.groups}, self._installer().libraries()
+        )
         say(f"The environment is ready, after {time.monotonic() - started_s:.0f} s.\n")
 
     def _start_anew(self) -> None:
@@ -126,24 +126,37 @@ class _Work:
             return set()
         return {"ros", "colcon"} if shutil.which("colcon") else {"ros"}
 
-    def _announce(self, groups: Sequence[str]) -> None:
-        new = [group for group in groups if group not in self.record.groups]
-        mb = sizes.megabytes(sys.version_info[:2], new or groups)
-        if self.wheels:
-            say(f"Installing from {self.wheels}, with no network.")
-        elif mb is not None:
-            say(f"`{self.wish.command}` needs up to {mb:.0f} MB from the network, once.")
-
     def _install(self, groups: Sequence[str]) -> None:
         installer = self._installer()
+        new = [group for group in (TOOLS, *groups) if group not in self.record.groups]
+        self._announce(new)
         installer.require_tools()
-        total_mb = sizes.megabytes(sys.version_info[:2], groups)
-        packages = installer.missing(groups, total_mb)
+        packages = installer.missing(groups)
         if packages:
-            wheels = installer.fetch(packages, total_mb)
-            say(f"Installing {len(packages)} packages.")
+            wheels = self._wheels_of(packages, new or groups)
+            say(f"Installing {_counted(packages)}.")
             self.record.put_aside()
             installer.install(packages, wheels)
 
+    def _announce(self, new: Sequence[str]) -> None:
+        """How much comes from the network, before it does. A changed pin comes without a size."""
+        mb = sizes.megabytes(sys.version_info[:2], new)
+        if self.wheels:
+            say(f"Installing from {self.wheels}, with no network.")
+        elif mb:
+            say(f"`{self.wish.command}` needs up to {mb:.0f} MB from the network, once.")
+
+    def _wheels_of(self, packages: Sequence[str], groups: Sequence[str]) -> Path:
+        if self.wheels:
+            self._installer().require_wheels(packages)
+            return self.wheels
+        total_mb = sizes.megabytes(sys.version_info[:2], groups)
+        self._installer().fetch(packages, self.place.wheels, total_mb)
+        return self.place.wheels
+
     def _installer(self) -> Installer:
         return Installer(self.place, self.virtual, self.wheels, sees_path=self.ros is not None)
+
+
+def _counted(packages: Sequence[str]) -> str:
+    return packages[0] if len(packages) == 1 else f"{len(packages)} packages"

@@ -1,29 +1,30 @@
-"""Packages into an environment, in three steps, so that a broken download leaves it as it was.
+"""Packages into an environment, in steps, so that a broken download leaves it as it was.
 
-plan     which packages are missing (asks the index, changes nothing)
-fetch    their wheels into a folder (changes nothing in the environment)
-install  from that folder, with no network; the environment counts as unfinished meanwhile
+    missing  which pinned packages it lacks (asks nobody outside)
+    fetch    their wheels into a folder; what lies there already is not fetched again
+    install  from that folder, with no network; the environment counts as unfinished meanwhile
+
+Every package of a group is pinned, so nothing is left for pip to choose: it is told not to look
+for dependencies.
 """
 
-import json
 import os
-import re
 import shutil
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from roslings.bootstrap.packages import installed
+from roslings.bootstrap import constraints
+from roslings.bootstrap.packages import fetched, installed
 from roslings.bootstrap.pip import Pip
 from roslings.bootstrap.place import Place
 from roslings.bootstrap.progress import DownloadLine
 from roslings.bootstrap.seeds import find_seed
-from roslings.bootstrap.trouble import Trouble
 from roslings.bootstrap.virtual import Virtual
 
-# What installs the rest: pip itself, and setuptools for the packages that come as sources.
-TOOLS = ("pip", "setuptools")
+TOOLS = "setup"  # the group of pip itself, and of setuptools for packages that come as sources
+_AT_ONCE = 25  # packages that one pip fetches: what it has fetched is kept when it has ended well
 
 
 @dataclass(frozen=True)
@@ -32,7 +33,7 @@ class Installer:
 
     place: Place
     virtual: Virtual
-    wheels: Path | None
+    wheels: Path | None = None  # the only source of packages, where given
     sees_path: bool = False
 
     def require_tools(self) -> None:
@@ -41,7 +42,7 @@ class Installer:
         Raises:
             Trouble: there is no pip on this machine, or the pinned one does not come.
         """
-        pins = pinned(self.place.constraints, TOOLS)
+        pins = constraints.exact(self.place.constraints, TOOLS)
         have = installed(self.virtual.site)
         if any(have.get(name) != version for name, version in pins.items()):
             with tempfile.TemporaryDirectory(prefix="roslings-") as scratch:
@@ -58,29 +59,38 @@ class Installer:
         tools = [f"{name}=={version}" for name, version in pins.items()]
         drain(first, [*words, *tools], self.place.root)
 
-    def missing(self, groups: Sequence[str], total_mb: float | None) -> list[str]:
-        """The packages (`name==version`) that `groups` still need.
+    def missing(self, groups: Sequence[str]) -> list[str]:
+        """The packages (`name==version`) that `groups` still need."""
+        return self._asked(constraints.missing, groups)
 
-        An index that does not serve what packages need beside them (PEP 658) makes pip download
-        them here already; they are then at hand when they are fetched.
-        """
-        report = self.virtual.folder / "plan.json"
-        words = ["install", "--dry-run", "--progress-bar=raw", "--report", str(report)]
-        lines = self.pip().run(*words, *wanted(self.place, groups), cwd=self.place.root)
-        DownloadLine(total_mb).follow(lines)
-        plan = json.loads(report.read_text(encoding="utf-8"))
-        report.unlink()
-        return [_pin(item["metadata"]) for item in plan["install"]]
+    def all_of(self, groups: Sequence[str]) -> list[str]:
+        """All packages (`name==version`) of `groups` on this Python."""
+        return self._asked(constraints.applying, groups)
 
-    def fetch(self, packages: Sequence[str], total_mb: float | None) -> Path:
-        """A folder that holds a wheel of each of `packages`."""
-        if self.wheels:
-            return self.wheels
-        folder = self.virtual.folder / "wheels"
+    def _asked(
+        self,
+        ask: Callable[[Path, Sequence[str], dict[str, str]], list[str]],
+        groups: Sequence[str],
+    ) -> list[str]:
+        requirements = constraints.of_groups(self.place.constraints, groups)
+        return ask(self.virtual.python, requirements, self.pip().environment())
+
+    def fetch(self, packages: Sequence[str], folder: Path, total_mb: float | None) -> None:
+        """Afterwards `folder` holds a wheel of each of `packages`."""
+        left = [package for package in packages if package not in fetched(folder)]
+        line = DownloadLine(total_mb)
         words = ["wheel", "--no-deps", "--no-build-isolation", "--progress-bar=raw"]
-        lines = self.pip().run(*words, "-w", str(folder), *packages, cwd=self.place.root)
-        DownloadLine(total_mb).follow(lines)
-        return folder
+        for start in range(0, len(left), _AT_ONCE):
+            some = left[start : start + _AT_ONCE]
+            line.follow(self.pip().run(*words, "-w", str(folder), *some, cwd=self.place.root))
+
+    def require_wheels(self, packages: Sequence[str]) -> None:
+        """Nothing where the only source of packages has all of `packages`.
+
+        Raises:
+            Trouble: one is missing.
+        """
+        drain(self.pip(), ["install", "--dry-run", "--no-deps", *packages], self.place.root)
 
     def install(self, packages: Sequence[str], wheels: Path) -> None:
         """Puts `packages` into the environment; a folder of our own is then removed."""
@@ -88,7 +98,6 @@ class Installer:
         drain(pip, ["install", "--no-deps", *packages], self.place.root)
         if wheels != self.wheels:
             shutil.rmtree(wheels, ignore_errors=True)
-            shutil.rmtree(self.place.cache, ignore_errors=True)
 
     def libraries(self) -> list[Path]:
         """What the ROS wheels add to LD_LIBRARY_PATH: the folders that they find themselves."""
@@ -100,42 +109,16 @@ class Installer:
         return Pip(
             command=(str(self.virtual.python), "-m", "pip"),
             log=self.place.log,
-            cache=None if _home_keeps_downloads() else self.place.cache,
+            keeps_downloads=_home_keeps_downloads(),
             wheels=self.wheels,
             sees_path=self.sees_path,
         )
-
-
-def wanted(place: Place, groups: Sequence[str]) -> list[str]:
-    """What pip calls `groups` of the course, as they are pinned."""
-    named = [word for group in groups for word in ("--group", group)]
-    return ["--no-build-isolation", "-c", str(place.constraints), *named]
-
-
-def pinned(constraints: Path, names: Sequence[str]) -> dict[str, str]:
-    """Name -> version of packages that are pinned without a condition.
-
-    Raises:
-        Trouble: one of them is not.
-    """
-    text = constraints.read_text(encoding="utf-8")
-    found = {name: re.search(rf"^{name}==([^\s;]+)\s*$", text, re.MULTILINE) for name in names}
-    for name, match in found.items():
-        if not match:
-            raise Trouble(
-                f"constraints.txt does not pin {name}.", "Write it again: ./roslings pins"
-            )
-    return {name: match[1] for name, match in found.items() if match}
 
 
 def drain(pip: Pip, words: Sequence[str], cwd: Path) -> None:
     """Runs `pip words...` to its end."""
     for _ in pip.run(*words, cwd=cwd):
         pass
-
-
-def _pin(metadata: dict[str, str]) -> str:
-    return f"{metadata['name']}=={metadata['version']}"
 
 
 def _home_keeps_downloads() -> bool:

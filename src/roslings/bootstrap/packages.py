@@ -1,14 +1,16 @@
 """The packages that lie in an environment: which are whole, which were left half installed."""
 
 import csv
+import re
 import shutil
+import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 
 
 def installed(site: Path) -> dict[str, str]:
     """Normalised name -> version of every package in `site`."""
-    return {_normal(name): version for name, version in map(_named, site.glob("*.dist-info"))}
+    return {normal(name): version for name, version in map(_named, site.glob("*.dist-info"))}
 
 
 def forget_damaged(site: Path) -> list[str]:
@@ -23,13 +25,26 @@ def forget_damaged(site: Path) -> list[str]:
     return [info.stem for info in damaged]
 
 
+def fetched(folder: Path) -> set[str]:
+    """`name==version` of every whole wheel in `folder`; one that was cut is removed."""
+    found = set()
+    for wheel in folder.glob("*.whl"):
+        if zipfile.is_zipfile(wheel):  # a zip's table of contents stands at its end
+            name, version = wheel.name.split("-")[:2]
+            found.add(f"{normal(name)}=={version}")
+        else:
+            wheel.unlink()
+    return found
+
+
 def _named(info: Path) -> tuple[str, str]:
     name, _, version = info.stem.partition("-")
     return name, version
 
 
-def _normal(name: str) -> str:
-    return name.lower().replace("_", "-").replace(".", "-")
+def normal(name: str) -> str:
+    """One spelling of a package's name, as constraints.txt has it."""
+    return re.sub(r"[-_.]+", "-", name).lower()
 
 
 def _whole(info: Path) -> bool:

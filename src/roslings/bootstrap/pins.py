@@ -11,10 +11,12 @@ import tempfile
 import urllib.request
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
 from pathlib import Path
 
-from roslings.bootstrap import groups, sizes
-from roslings.bootstrap.installing import Installer, drain, wanted
+from roslings.bootstrap import constraints, groups, sizes
+from roslings.bootstrap.installing import Installer, drain
+from roslings.bootstrap.packages import normal
 from roslings.bootstrap.place import Place
 from roslings.bootstrap.seeds import interpreter, other_pythons
 from roslings.bootstrap.trouble import Trouble, say
@@ -22,6 +24,7 @@ from roslings.bootstrap.virtual import Virtual
 
 _HEADER = """\
 # Every package of every group of pyproject.toml, transitive ones included, Python 3.10 to 3.13.
+# Behind each stand the groups that need it; what they need beside it is not looked for any more.
 # Written by `./roslings pins`; edit pyproject.toml instead, and run that again.
 """
 _MINORS = (10, 11, 12, 13)
@@ -35,9 +38,9 @@ def write_pins(place: Place, upgrade: bool) -> None:
     """
     with tempfile.TemporaryDirectory(prefix="roslings-") as scratch:
         folder = Path(scratch).resolve()
-        _compile(_uv(place, folder / "uv"), place, folder / "pins.txt", upgrade)
+        _Pinning(place, _uv(place, folder / "uv"), folder).write(upgrade)
         measured = {
-            version: _measure(place, Virtual(folder / version), python)
+            version: _measured(place, Virtual(folder / version), python)
             for version, python in _pythons()
         }
     table = json.dumps(sizes.read() | measured, indent=2, sort_keys=True)
@@ -47,34 +50,58 @@ def write_pins(place: Place, upgrade: bool) -> None:
 def _uv(place: Place, folder: Path) -> str:
     if found := shutil.which("uv"):
         return found
-    installer = Installer(place, Virtual(folder), wheels=None)
+    installer = Installer(place, Virtual(folder))
     installer.virtual.make(interpreter(), sees_system=False)
     installer.require_tools()
     drain(installer.pip(), ["install", "uv"], place.root)
     return str(folder / "bin" / "uv")
 
 
-def _compile(uv: str, place: Place, pins: Path, upgrade: bool) -> None:
-    if not upgrade:
-        shutil.copyfile(place.constraints, pins)
-    named = [word for group in groups.names(place.pyproject) for word in ("--group", group)]
-    words = ["pip", "compile", "--universal", "--python-version", "3.10", "--no-header"]
-    done = subprocess.run(
-        [uv, *words, "--no-annotate", "--quiet", *named, "-o", str(pins)],
-        cwd=place.root,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.PIPE,
-        text=True,
-        check=False,
-    )
-    if done.returncode != 0:
-        raise Trouble(f"The groups could not be pinned.\n{done.stderr}", "Mend pyproject.toml.")
-    place.constraints.write_text(_HEADER + _without_comments(pins), encoding="utf-8")
+@dataclass(frozen=True)
+class _Pinning:
+    """Asks uv for one set of pins, and then which of them each group needs."""
+
+    place: Place
+    uv: str
+    scratch: Path
+
+    def write(self, upgrade: bool) -> None:
+        names = groups.names(self.place.pyproject)
+        pins = self.scratch / "all.txt"
+        if not upgrade:
+            shutil.copyfile(self.place.constraints, pins)
+        lines = self._compiled(pins, names)
+        needed = {name: self._compiled(self._like(pins, name), [name]) for name in names}
+        text = "".join(f"{line}  # {_needing(line, needed)}\n" for line in lines)
+        self.place.constraints.write_text(_HEADER + text, encoding="utf-8")
+
+    def _like(self, pins: Path, name: str) -> Path:
+        """uv keeps the versions that it finds where it is to write."""
+        return Path(shutil.copyfile(pins, self.scratch / f"group-{name}.txt"))
+
+    def _compiled(self, pins: Path, names: Sequence[str]) -> list[str]:
+        words = ["pip", "compile", "--universal", "--python-version", "3.10", "--no-header"]
+        named = [word for name in names for word in ("--group", name)]
+        done = subprocess.run(
+            [self.uv, *words, "--no-annotate", "--quiet", *named, "-o", str(pins)],
+            cwd=self.place.root,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            text=True,
+            check=False,
+        )
+        if done.returncode != 0:
+            raise Trouble(f"Could not be pinned.\n{done.stderr}", "Mend pyproject.toml.")
+        return [pin.requirement for pin in constraints.read(pins)]
 
 
-def _without_comments(pins: Path) -> str:
-    lines = pins.read_text(encoding="utf-8").splitlines(keepends=True)
-    return "".join(line for line in lines if not line.startswith("#"))
+def _needing(line: str, needed: dict[str, list[str]]) -> str:
+    """The groups that need a package; a marker may differ where fewer groups are asked about."""
+    pin = line.partition(";")[0].strip()
+    pins = {
+        name: {each.partition(";")[0].strip() for each in lines} for name, lines in needed.items()
+    }
+    return " ".join(name for name in needed if pin in pins[name])
 
 
 def _pythons() -> Iterator[tuple[str, str]]:
@@ -85,27 +112,35 @@ def _pythons() -> Iterator[tuple[str, str]]:
                 break
 
 
-def _measure(place: Place, virtual: Virtual, python: str) -> dict[str, float]:
+def _measured(place: Place, virtual: Virtual, python: str) -> dict[str, float]:
     """Group -> megabytes that it adds to the groups before it."""
     say(f"Measuring what the groups download on {python}")
     virtual.make(python, sees_system=False)
-    installer = Installer(place, virtual, wheels=None)
+    installer = Installer(place, virtual)
     installer.require_tools()
-    names, before_b, found = groups.names(place.pyproject), 0, {}
-    for count, name in enumerate(names, start=1):
-        now_b = _download_b(installer, names[:count])
-        found[name] = round((now_b - before_b) / 1e6, 1)
-        before_b = now_b
+    names = groups.names(place.pyproject)
+    size_b = _sizes_b(installer, installer.all_of(names))
+    found, counted = {}, set[str]()
+    for name in names:
+        new = set(installer.all_of([name])) - counted
+        found[name] = round(sum(size_b[package] for package in new) / 1e6, 1)
+        counted |= new
     return found
 
 
-def _download_b(installer: Installer, names: Sequence[str]) -> int:
+def _sizes_b(installer: Installer, packages: Sequence[str]) -> dict[str, int]:
+    """`name==version` -> bytes of the file that pip would download."""
     report = installer.virtual.folder / "report.json"
-    words = ["install", "--dry-run", "--ignore-installed", "--report", str(report)]
-    drain(installer.pip(), [*words, *wanted(installer.place, names)], installer.place.root)
-    plan = json.loads(report.read_text(encoding="utf-8"))
+    words = ["install", "--dry-run", "--ignore-installed", "--no-deps", "--no-build-isolation"]
+    drain(installer.pip(), [*words, "--report", str(report), *packages], installer.place.root)
+    plan = json.loads(report.read_text(encoding="utf-8"))["install"]
     with ThreadPoolExecutor(8) as workers:
-        return sum(workers.map(_size_b, (item["download_info"]["url"] for item in plan["install"])))
+        found = workers.map(_size_b, (item["download_info"]["url"] for item in plan))
+        return dict(zip((_pin(item["metadata"]) for item in plan), found, strict=True))
+
+
+def _pin(metadata: dict[str, str]) -> str:
+    return f"{normal(metadata['name'])}=={metadata['version']}"
 
 
 def _size_b(url: str) -> int:

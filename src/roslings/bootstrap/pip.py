@@ -30,7 +30,7 @@ class Pip:
 
     command: tuple[str, ...]
     log: Path
-    cache: Path | None = None  # None: pip's own place
+    keeps_downloads: bool = True  # in pip's own place for them
     wheels: Path | None = None  # the only source of packages, where given
     sees_path: bool = False  # keeps PYTHONPATH: the packages of a sourced ROS
 
@@ -41,7 +41,7 @@ class Pip:
             Trouble: pip failed.
         """
         lines: list[str] = []
-        with _started([*self.command, *words, *self._options()], cwd, self._environment()) as pip:
+        with _started([*self.command, *words, *self._options()], cwd, self.environment()) as pip:
             assert pip.stdout is not None
             for line in pip.stdout:
                 lines.append(line)
@@ -51,13 +51,14 @@ class Pip:
 
     def _options(self) -> list[str]:
         options = ["--disable-pip-version-check", "--no-input", "--log", str(self.log)]
-        if self.cache:
-            options += ["--cache-dir", str(self.cache)]
+        if not self.keeps_downloads:
+            options += ["--no-cache-dir"]
         if self.wheels:
             options += ["--no-index", "--find-links", str(self.wheels)]
         return options
 
-    def _environment(self) -> dict[str, str]:
+    def environment(self) -> dict[str, str]:
+        """The variables that pip runs with."""
         left_out = {*_LEADING_ASTRAY, *(() if self.sees_path else ("PYTHONPATH",)), "PYTHONHOME"}
         kept = {name: value for name, value in os.environ.items() if name not in left_out}
         # pip needs none of ROS's libraries, and must not start a second time for them.

@@ -51,9 +51,9 @@ class Place:
         return self.root / f"{self.name}.log"
 
     @property
-    def cache(self) -> Path:
-        """Downloads, where the user has no folder for them."""
-        return self.root / ".venv.cache"
+    def wheels(self) -> Path:
+        """What is fetched and not yet installed: a broken download goes on from here."""
+        return self.root / f"{self.name}.wheels"
 
 
 def require_usable(root: Path) -> None:

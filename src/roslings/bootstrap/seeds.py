@@ -45,7 +45,7 @@ def find_seed(python: str, scratch: Path) -> Path:
     """
     for way in _ways(python, scratch):
         for seed in way():
-            if _answers(python, seed):
+            if answers(python, seed):
                 return seed
     raise Trouble(
         f"This Python has no pip, and none was found elsewhere: {python}",
@@ -60,11 +60,11 @@ def _ways(python: str, scratch: Path) -> list[Callable[[], Iterator[Path]]]:
         lambda: _from_python(python),
         _fromother_pythons,
         lambda: wheel_from_index(scratch),
-        lambda: _from_apt(scratch),
+        lambda: from_apt(scratch),
     ]
 
 
-def _answers(python: str, seed: Path) -> bool:
+def answers(python: str, seed: Path) -> bool:
     """An older pip may tell a newer Python its version, and fail at all else."""
     done = subprocess.run(
         [python, "-I", str(seed), "list"],
@@ -129,7 +129,7 @@ def _from_uv(python: str, scratch: Path) -> Iterator[Path]:
         yield scratch / "pip"
 
 
-def _from_apt(scratch: Path) -> Iterator[Path]:
+def from_apt(scratch: Path) -> Iterator[Path]:
     """`apt-get download` and `dpkg-deb -x` need no root."""
     if not (shutil.which("apt-get") and shutil.which("dpkg-deb")):
         return

@@ -100,4 +100,3 @@ def _no_venv(python: str, folder: Path, output: str) -> Trouble:
         f"{python} could not make an environment: {last}",
         "Take another Python: ROSLINGS_PYTHON=/path/to/python3.12 ./roslings",
     )
-

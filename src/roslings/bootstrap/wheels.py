@@ -7,10 +7,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from roslings.bootstrap import groups, sizes
-from roslings.bootstrap.installing import TOOLS, Installer, pinned, wanted
+from roslings.bootstrap.installing import TOOLS, Installer
 from roslings.bootstrap.machine import require_wheels, this_machine
 from roslings.bootstrap.place import Place
-from roslings.bootstrap.progress import DownloadLine
 from roslings.bootstrap.seeds import interpreter
 from roslings.bootstrap.trouble import Trouble, say
 from roslings.bootstrap.virtual import Virtual
@@ -56,7 +55,7 @@ def _chosen(named: Sequence[str], known: Sequence[str]) -> Sequence[str]:
 def _installer(place: Place, scratch: Path) -> Installer:
     virtual = Virtual(scratch)
     virtual.make(interpreter(), sees_system=False)
-    return Installer(place, virtual, wheels=None)
+    return Installer(place, virtual)
 
 
 def _fetch(installer: Installer, folder: Path, chosen: Sequence[str]) -> None:
@@ -64,11 +63,7 @@ def _fetch(installer: Installer, folder: Path, chosen: Sequence[str]) -> None:
     if total_mb is not None:
         say(f"Up to {total_mb:.0f} MB come from the network. Interrupted, they go on next time.")
     installer.require_tools()
-    pins = pinned(installer.place.constraints, TOOLS)
-    tools = [f"{name}=={version}" for name, version in pins.items()]
-    words = ["wheel", "--progress-bar=raw", "-w", str(folder), *tools]
-    lines = installer.pip().run(*words, *wanted(installer.place, chosen), cwd=installer.place.root)
-    DownloadLine(total_mb).follow(lines)
+    installer.fetch(installer.all_of([TOOLS, *chosen]), folder, total_mb)
 
 
 def _tell(folder: Path) -> None:
