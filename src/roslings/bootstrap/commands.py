@@ -18,10 +18,10 @@ def main(words: Sequence[str]) -> int:
     try:
         return _run(words)
     except Trouble as trouble:
-        say(f"roslings: {trouble}")
+        say(str(trouble))
         return 2
     except OSError as error:
-        say(f"roslings: {of_the_disk(error, ROOT)}")
+        say(str(of_the_disk(error, ROOT)))
         return 2
     except KeyboardInterrupt:
         say("\nInterrupted. Run the same command again: it goes on from here.")

@@ -75,8 +75,8 @@ def _require_plain(path: str) -> None:
     found = _BREAKING.search(path)
     if found:
         raise Trouble(
-            f"The path of this folder has {_called(found.group())} in it: {path}\n"
-            "The scripts that colcon writes do not run from there.",
+            f"The path of this folder has {_called(found.group())} in it, and the scripts that "
+            f"colcon writes do not run from there: {path}",
             "Move this folder, for instance to ~/roslings, and run it there.",
         )
 

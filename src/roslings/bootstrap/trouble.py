@@ -15,7 +15,7 @@ class Trouble(Exception):
         super().__init__(what)
 
     def __str__(self) -> str:
-        return "\n".join([wrapped(self.what), *map(_step, self.steps)])
+        return "\n".join([wrapped(f"roslings: {self.what}"), *map(_step, self.steps)])
 
 
 def disk_full(near: Path) -> Trouble:
