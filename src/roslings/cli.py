@@ -28,6 +28,14 @@ def main(arguments: Sequence[str]) -> int:
         from roslings.doctor.breaks import main as break_it
 
         return break_it(list(arguments[1:]))
+    if arguments[:1] == ["ros2"]:
+        from roslings.ros2.cli import main as ros2
+
+        return ros2(list(arguments[1:]))
+    if arguments[:1] == ["rqt_graph"]:
+        from roslings.ros2.rqt_graph import main as rqt_graph
+
+        return rqt_graph(list(arguments[1:]))
     options = parser().parse_args(arguments)
     return run(options.command, options)
 
@@ -88,6 +96,7 @@ def parser() -> argparse.ArgumentParser:
     pack_options(add("pack", "make the zip file to hand in", "pack"))
     graph_options(add("graph", "show the running graph, or save a picture of it", "graph"))
     test_options(add("test", "run the tests of roslings", "test"))
+    add("ros2", "the ros2 commands, where the real ones are not installed", None)
     add("wheels", "fetch every package into a folder, for a lab without a network", None)
     return top
 

@@ -36,6 +36,7 @@ def nothing_left(tmp_path: Path) -> Iterator[None]:
     """No folder of a run, no shared memory and no process stays behind."""
     yield
     wait_until(lambda: not run_folders(tmp_path))
+    assert not (tmp_path / ".ros").exists()
     wait_until(lambda: not processes_of(tmp_path))
 
 

@@ -92,7 +92,7 @@ class _Work:
         groups = self.record.groups
         self.record.put_aside()
         self.virtual.moved_from(old / self.place.name)
-        self.virtual.see(self.place.root / "src")
+        self.virtual.see(self.place.root)
         if self.virtual.runs() and not forget_damaged(self.virtual.site):
             self.record.write(groups, self._installer().libraries())
 
@@ -103,6 +103,7 @@ class _Work:
         elif not self.record.complete:
             say("The last set-up was interrupted. Mending it.")
             forget_damaged(self.virtual.site)
+        self.virtual.see(self.place.root)
         self._install(self._to_install())
         self.record.write(
             {TOOLS, *self.record.groups, *self.wish.groups}, self._installer().libraries()
@@ -114,7 +115,6 @@ class _Work:
         python = self.ros.python if self.ros else interpreter()
         say(f"Making the environment in {self.place.name}, once.")
         self.virtual.make(python, sees_system=self.ros is not None)
-        self.virtual.see(self.place.root / "src")
 
     def _to_install(self) -> list[str]:
         """The groups wanted now or before, without those that the sourced ROS brings."""

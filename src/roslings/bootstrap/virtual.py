@@ -9,6 +9,11 @@ from pathlib import Path
 
 from roslings.bootstrap.trouble import Trouble, disk_full
 
+COMMANDS = ("ros2", "rqt_graph")
+_COMMAND = """#!/bin/sh
+# `{name}` of roslings, for machines where the real one is not installed.
+exec '{root}/roslings' {name} "$@"
+"""
 _FACTS = "import sys, sysconfig; print(sys.prefix); print(sysconfig.get_path('purelib'))"
 
 
@@ -64,9 +69,17 @@ class Virtual:
         elif self.folder.exists():
             shutil.rmtree(self.folder)
 
-    def see(self, source: Path) -> None:
-        """Programs of this environment can import what lies in `source`."""
-        (self.site / "roslings.pth").write_text(f"{source}\n", encoding="utf-8")
+    def see(self, root: Path) -> None:
+        """Programs of this environment can import the course's code, and its commands are here."""
+        (self.site / "roslings.pth").write_text(f"{root / 'src'}\n", encoding="utf-8")
+        for name in COMMANDS:
+            self._add_command(root, name)
+
+    def _add_command(self, root: Path, name: str) -> None:
+        """A real command of this name, further on the path, is handed over to by our own."""
+        program = self.folder / "bin" / name
+        program.write_text(_COMMAND.format(root=root, name=name), encoding="utf-8")
+        program.chmod(0o755)
 
     def moved_from(self, old: Path) -> None:
         """Its scripts name the Python in `old`; from here on, the one in this folder."""

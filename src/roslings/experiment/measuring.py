@@ -34,6 +34,7 @@ def main(path: Path) -> None:
     signal.signal(signal.SIGTERM, _stop)
     assignment = Assignment.model_validate_json(path.read_text("utf-8"))
     os.environ.update(ros_environment(assignment.wall))
+    os.environ["ROS_LOG_DIR"] = str(assignment.home / "log")  # not in the student's ~/.ros
     evidence = measure_here(assignment)
     assignment.evidence.write_text(evidence.model_dump_json(by_alias=True), "utf-8")
 

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import os
+import tempfile
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 from roslings.arena import QUICK_DISCOVERY
 from roslings.evidence import ExperimentSeen, GraphSeen
@@ -26,10 +29,27 @@ def live_graph() -> GraphSeen:
     """
     os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
     os.environ.setdefault("FASTRTPS_DEFAULT_PROFILES_FILE", str(QUICK_DISCOVERY))
-    with Probe(domain_id(), ExperimentSeen(name="live", clock="wall"), record=False) as probe:
+    with (
+        tempfile.TemporaryDirectory() as logs,
+        _logging_to(logs),
+        Probe(domain_id(), ExperimentSeen(name="live", clock="wall"), record=False) as probe,
+    ):
         settled = Settled()
         probe.until(lambda: settled.after(probe.seen.graph), LONGEST_S)
         return probe.seen.graph
+
+
+@contextmanager
+def _logging_to(folder: str) -> Iterator[None]:
+    """A look leaves no log file behind in ~/.ros, which nobody ever tidies."""
+    before = os.environ.get("ROS_LOG_DIR")
+    os.environ["ROS_LOG_DIR"] = folder
+    try:
+        yield
+    finally:
+        os.environ.pop("ROS_LOG_DIR")
+        if before is not None:
+            os.environ["ROS_LOG_DIR"] = before
 
 
 def domain_id() -> int:
