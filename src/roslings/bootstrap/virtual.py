@@ -1,6 +1,7 @@
 """The virtual environment as such: made, moved, found whole. Knows nothing of what goes into it."""
 
 import os
+import shlex
 import shutil
 import subprocess
 import sys
@@ -12,7 +13,7 @@ from roslings.bootstrap.trouble import Trouble, disk_full
 COMMANDS = ("ros2", "rqt_graph")
 _COMMAND = """#!/bin/sh
 # `{name}` of roslings, for machines where the real one is not installed.
-exec '{root}/roslings' {name} "$@"
+exec {script} {name} "$@"
 """
 _FACTS = "import sys, sysconfig; print(sys.prefix); print(sysconfig.get_path('purelib'))"
 
@@ -78,7 +79,9 @@ class Virtual:
     def _add_command(self, root: Path, name: str) -> None:
         """A real command of this name, further on the path, is handed over to by our own."""
         program = self.folder / "bin" / name
-        program.write_text(_COMMAND.format(root=root, name=name), encoding="utf-8")
+        program.write_text(
+            _COMMAND.format(script=shlex.quote(str(root / "roslings")), name=name), encoding="utf-8"
+        )
         program.chmod(0o755)
 
     def moved_from(self, old: Path) -> None:
