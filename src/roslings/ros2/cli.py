@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from importlib import import_module
 
 from roslings.ros2 import surroundings
@@ -43,21 +43,29 @@ def main(argv: Sequence[str]) -> int:
 
 def quietly(argv: list[str]) -> int:
     """Run our own verb; Ctrl-C and a closed pipe end it without a word."""
+    # A script that starts us in the background makes us deaf to Ctrl-C.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
         sys.stdout.reconfigure(line_buffering=True)  # type: ignore[union-attr]
-        surroundings.prepare()
-        code = run(argv)
+        code = explained(lambda: run(argv))
         sys.stdout.flush()
         return code
-    except Problem as problem:
-        sys.stdout.flush()
-        print(problem, file=sys.stderr)
-        return problem.exit_code
     except KeyboardInterrupt:
         return STOPPED
     except BrokenPipeError:
         forget_stdout()
         return OK
+
+
+def explained(act: Callable[[], int]) -> int:
+    """What `act` returns; what it cannot do is shown as a message."""
+    try:
+        surroundings.prepare()
+        return act()
+    except Problem as problem:
+        sys.stdout.flush()
+        print(problem, file=sys.stderr)
+        return problem.exit_code
 
 
 def forget_stdout() -> None:
@@ -71,6 +79,8 @@ def run(argv: list[str]) -> int:
     word = _completed_command() if complete else first_word(argv)
     if not complete and word not in COMMANDS and word is not None:
         return not_ours(word)
+    if word == "doctor" and not complete:
+        return examine(argv[1:])
     parser = parser_for(word)
     if complete:
         from argcomplete import autocomplete
@@ -78,6 +88,13 @@ def run(argv: list[str]) -> int:
         autocomplete(parser, exclude=["-h", "--help"])
     options = parser.parse_args(argv)
     return int(options.run(options))
+
+
+def examine(words: list[str]) -> int:
+    """`ros2 doctor ...`: every word, options too, is for the doctor of roslings."""
+    from roslings.doctor.cli import main as doctor
+
+    return doctor(words)
 
 
 def first_word(argv: Sequence[str]) -> str | None:
@@ -106,7 +123,7 @@ def parser_for(word: str | None) -> Parser:
     words = parser.add_subparsers(title="Commands", metavar="COMMAND", parser_class=Parser)
     for name, about in COMMANDS.items():
         command = words.add_parser(name, help=about, description=about)
-        if name == word:
+        if name == word != "doctor":
             import_module(f"roslings.ros2.commands.{name}").declare(command)
     return parser
 

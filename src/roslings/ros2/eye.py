@@ -17,7 +17,7 @@ from typing import Any
 from roslings.ros2.names import is_hidden, node_name
 from roslings.ros2.participants import participants_here
 from roslings.ros2.problem import Problem
-from roslings.ros2.surroundings import domain_id, looks_beyond_this_computer
+from roslings.ros2.surroundings import check_middleware, domain_id, looks_beyond_this_computer
 
 QUIET_S = 0.12
 """After all have answered: the last endpoints come within this time of each other."""
@@ -28,9 +28,15 @@ QUIET_BEYOND_S = 1.5
 SILENT_S = 4.0
 """A program that is alive speaks every 3 s; who is silent for longer is stuck or is not ROS."""
 
-LOOK_EVERY_S = 0.01
+LOOK_EVERY_S = 0.02
+SPIN_S = 0.05
+"""Ctrl-C waits no longer than this for rclpy."""
+
 WHO = "ros_discovery_info"
 """On this topic each participant writes which nodes it has; DDS shows it, ROS hides it."""
+
+QUIET = ["--ros-args", "--disable-external-lib-logs"]
+"""A look leaves no log file in ~/.ros, which nobody ever tidies."""
 
 UNNAMED = "_NODE_NAME_UNKNOWN_"
 ROS_TOPICS = ("rt/", "rq/", "rr/")
@@ -38,6 +44,14 @@ ROS_TOPICS = ("rt/", "rq/", "rr/")
 
 PREFIX, HOST = 12, 4
 """The first bytes of an endpoint's id name its participant, and of these the first its computer."""
+
+
+class RosDoesNotStart(Problem):
+    """rclpy is missing, or it cannot open a node."""
+
+    def __init__(self, fault: BaseException) -> None:
+        reason = (str(fault) or type(fault).__name__).splitlines()[0]
+        super().__init__(f"ROS does not start here: {reason}\nTo find out why: ros2 doctor")
 
 
 class NodeVanished(Problem):
@@ -70,15 +84,23 @@ class Eye:
         self._name = name or f"_ros2cli_{os.getpid()}"
 
     def __enter__(self) -> Eye:
+        self.domain = domain_id()
+        check_middleware()
+        try:
+            self._open()
+        except (ImportError, RuntimeError) as fault:
+            raise RosDoesNotStart(fault) from fault
+        return self
+
+    def _open(self) -> None:
         import rclpy
         from rclpy.executors import SingleThreadedExecutor
         from rclpy.node import Node
         from rclpy.signals import SignalHandlerOptions
 
-        self.domain = domain_id()
         self.context = rclpy.Context()
         rclpy.init(
-            args=[], context=self.context, domain_id=self.domain,
+            args=QUIET, context=self.context, domain_id=self.domain,
             signal_handler_options=SignalHandlerOptions.NO,
         )  # fmt: skip
         self.node = Node(
@@ -87,7 +109,6 @@ class Eye:
         )  # fmt: skip
         self._executor = SingleThreadedExecutor(context=self.context)
         self._executor.add_node(self.node)
-        return self
 
     def __exit__(
         self,
@@ -112,7 +133,7 @@ class Eye:
         while not condition():
             if end_s is not None and time.monotonic() >= end_s:
                 return False
-            self._executor.spin_once(timeout_sec=0.05)
+            self._executor.spin_once(timeout_sec=SPIN_S)
         return True
 
     def nodes(self, hidden: bool = False) -> list[str]:
@@ -165,6 +186,11 @@ class Eye:
 
     def _others(self, infos: Iterable[Any]) -> list[Any]:
         return [info for info in infos if info.node_name not in (self._name, UNNAMED)]
+
+    def spin_to(self, due_s: float) -> None:
+        """Run callbacks until the moment `due_s` of the monotonic clock."""
+        while (left_s := due_s - time.monotonic()) > 0:
+            self._executor.spin_once(timeout_sec=min(left_s, SPIN_S))
 
     def _sight(self) -> Sight:
         raw = [name for name, _ in self.node.get_topic_names_and_types(no_demangle=True)]

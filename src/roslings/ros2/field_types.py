@@ -1,4 +1,4 @@
-"""The types of a message's fields, as rosidl writes them: `double`, `sequence<int32, 3>`, `a/B[2]`."""
+"""The types of fields as rosidl writes them: `double`, `sequence<int32, 3>`, `a/B[2]`."""
 
 from __future__ import annotations
 

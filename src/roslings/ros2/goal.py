@@ -16,7 +16,14 @@ from roslings.ros2.words import OK
 from roslings.ros2.yaml_in import filled
 from roslings.ros2.yaml_out import as_indented
 
-STATUS = {1: "ACCEPTED", 2: "EXECUTING", 3: "CANCELING", 4: "SUCCEEDED", 5: "CANCELED", 6: "ABORTED"}
+STATUS = {
+    1: "ACCEPTED",
+    2: "EXECUTING",
+    3: "CANCELING",
+    4: "SUCCEEDED",
+    5: "CANCELED",
+    6: "ABORTED",
+}
 """action_msgs/msg/GoalStatus."""
 
 CANCEL_WITHIN_S = 3.0

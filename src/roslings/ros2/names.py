@@ -30,6 +30,13 @@ def node_name(name: str, namespace: str) -> str:
     return f"{namespace.rstrip('/')}/{name}"
 
 
+def checked_node(name: str) -> str:
+    """The name of a node, without a namespace. Raises BadName."""
+    if not (name.isascii() and name.isidentifier()):
+        raise BadName(name, "a node's name must not hold other signs")
+    return name
+
+
 def checked_topic(name: str) -> str:
     """The absolute name of a topic or service. Raises BadName."""
     from rclpy.exceptions import InvalidTopicNameException

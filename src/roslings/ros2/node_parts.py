@@ -29,7 +29,7 @@ def _shown(entries: TypesByName, hidden: bool) -> TypesByName:
 
 
 def actions_in(services: TypesByName) -> TypesByName:
-    """An action is a goal service by a name of its own; its type is the service's without suffix."""
+    """An action is known by its goal service; its type is the service's without the suffix."""
     return {
         name.removesuffix(SEND_GOAL): [kind.removesuffix(GOAL_SUFFIX) for kind in types]
         for name, types in services.items()

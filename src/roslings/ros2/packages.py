@@ -11,7 +11,9 @@ from roslings.ros2.problem import Problem, did_you_mean
 BUILT_IN = {"demo_nodes_py": Path(__file__).parent}
 """Packages that come with roslings, and the folder that each lies in."""
 
-SOURCE_IT = "If you built it yourself, source its workspace in this terminal: source install/setup.bash"
+SOURCE_IT = (
+    "If you built it yourself, source its workspace in this terminal: source install/setup.bash"
+)
 
 
 class PackageNotFound(Problem):

@@ -12,6 +12,7 @@ from roslings.ros2 import qos
 from roslings.ros2.eye import Eye
 from roslings.ros2.interfaces import class_of, full_name
 from roslings.ros2.listening import topic_in
+from roslings.ros2.names import checked_node
 from roslings.ros2.problem import Problem, did_you_mean
 from roslings.ros2.words import OK
 from roslings.ros2.yaml_in import filled
@@ -35,8 +36,9 @@ def publish(options: argparse.Namespace) -> int:
     type_name = full_name(options.message_type, "msg")
     message = class_of(type_name, "msg")()
     stamps = filled(message, options.values)
+    name = checked_node(options.node_name) if options.node_name else ""
     times = 1 if options.once else options.times
-    with Eye(options.node_name or "") as eye:
+    with Eye(name) as eye:
         voice = _voice(eye, topic, type(message), options)
         _warn(eye, topic, type_name)
         _await(eye, topic, voice, _wanted(options, times), options.max_wait_time_secs)
@@ -135,6 +137,6 @@ class Beat:
         count = 0
         while not self._times or count < self._times:
             due_s = first_s + count * self._period_s
-            eye.until(lambda due=due_s: time.monotonic() >= due, max(0.0, due_s - time.monotonic()))
+            eye.spin_to(due_s)
             count += 1
             act(count)

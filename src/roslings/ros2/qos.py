@@ -78,7 +78,7 @@ def matching(options: argparse.Namespace, publishers: Sequence[Any]) -> Any:
 
 
 def mismatches(asked: Any, offered: Any) -> list[str]:
-    """Why a subscription that asks for `asked` gets nothing from a publisher that offers `offered`."""
+    """Why a subscription that asks for `asked` hears nothing from one who offers `offered`."""
     found = []
     for policy, wanted, given in (
         ("reliability", "RELIABLE", "BEST_EFFORT"), ("durability", "TRANSIENT_LOCAL", "VOLATILE"),

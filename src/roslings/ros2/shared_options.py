@@ -9,7 +9,7 @@ from roslings.ros2.words import add, seconds
 
 
 def node_options(parser: argparse.ArgumentParser) -> None:
-    """Options of the real tool about how it looks; ours always looks afresh, and until it is done."""
+    """Options of the real tool on how it looks; ours always looks afresh, until it is done."""
     quiet = argparse.SUPPRESS
     parser.add_argument("--no-daemon", action="store_true", help=quiet)
     parser.add_argument("--spin-time", type=seconds, help=quiet)

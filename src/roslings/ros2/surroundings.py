@@ -25,6 +25,16 @@ class BadDomain(Problem):
         )
 
 
+class NoMiddleware(Problem):
+    """RMW_IMPLEMENTATION names a middleware that is not installed."""
+
+    def __init__(self, name: str, there: list[str]) -> None:
+        super().__init__(
+            f"RMW_IMPLEMENTATION is '{name}', and that middleware is not installed here."
+            f" There is: {', '.join(there)}. Type: unset RMW_IMPLEMENTATION"
+        )
+
+
 def prepare() -> None:
     """Fill in what this terminal leaves open, for us and for the nodes that we start.
 
@@ -48,6 +58,16 @@ def domain_id() -> int:
     if not text.isdecimal() or int(text) > LARGEST_DOMAIN:
         raise BadDomain(text)
     return int(text)
+
+
+def check_middleware() -> None:
+    """Raises NoMiddleware: rcl itself would end the program with a cryptic line."""
+    from ament_index_python.resources import get_resources
+
+    name = os.environ.get("RMW_IMPLEMENTATION")
+    there = sorted(set(get_resources("rmw_typesupport")) - {"rmw_implementation"}) if name else []
+    if name and there and name not in there:
+        raise NoMiddleware(name, there)
 
 
 def looks_beyond_this_computer() -> bool:

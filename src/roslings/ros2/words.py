@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 from collections.abc import Callable
 from typing import Any, NoReturn
 
@@ -10,6 +11,9 @@ Run = Callable[[argparse.Namespace], int]
 Completer = Callable[..., list[str]]
 
 OK, FAILED, WRONG_USE = 0, 1, 2
+_CHOICE = re.compile(
+    r"invalid choice: '(?P<typed>[^']*)' \((maybe you meant: |choose from )(?P<choices>.*)\)"
+)
 
 
 class Parser(argparse.ArgumentParser):
@@ -17,7 +21,20 @@ class Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """Say what is wrong and how to read more; exit 2 as argparse does."""
+        message = _with_near_miss(message)
         self.exit(WRONG_USE, f"{self.prog}: {message}\nTo see all words: {self.prog} --help\n")
+
+
+def _with_near_miss(message: str) -> str:
+    """argparse lists all choices; the one that was meant is enough, where there is one."""
+    found = _CHOICE.search(message)
+    if not found:
+        return message
+    from roslings.ros2.problem import did_you_mean
+
+    choices = re.findall(r"[\w.-]+", found["choices"])
+    near = did_you_mean(found["typed"], choices)
+    return f"there is no '{found['typed']}' here.{near or ' There is: ' + ', '.join(choices)}"
 
 
 class Verbs:
@@ -76,12 +93,12 @@ def add(
 
 def positive(text: str) -> int:
     """A whole number above zero, for argparse."""
-    return _at_least(text, int, 1)
+    return int(_at_least(text, int, 1))
 
 
 def not_negative(text: str) -> int:
     """A whole number, zero or more, for argparse."""
-    return _at_least(text, int, 0)
+    return int(_at_least(text, int, 0))
 
 
 def rate(text: str) -> float:

@@ -26,7 +26,7 @@ class BadYaml(Problem):
         at = f"\n  {lines[min(mark.line, len(lines) - 1)]}\n  {' ' * mark.column}^" if mark else ""
         super().__init__(
             f"The values are no valid YAML: {reason}{at}\n"
-            "The form is \"{name: value, name: value}\", with a space after each colon."
+            'The form is "{name: value, name: value}", with a space after each colon.'
         )
 
 
@@ -125,8 +125,7 @@ def _value(
     places = [f"{place}[{index}]" for index in range(len(value))]
     if kind.is_message:
         return [
-            _message(_new(kind.of), one, at, stamps)
-            for one, at in zip(value, places, strict=True)
+            _message(_new(kind.of), one, at, stamps) for one, at in zip(value, places, strict=True)
         ]
     return [_single(kind, one, at) for one, at in zip(value, places, strict=True)]
 
@@ -172,7 +171,8 @@ def _integer(kind: FieldType, value: Any, place: str) -> Any:
         raise BadField(place, f"it needs {kind.word}, and not {value!r}")
     least, beyond = INTEGERS[kind.of]
     if not least <= number < beyond:
-        raise BadField(place, f"{number} is out of range: {kind.of} goes from {least} to {beyond - 1}")
+        span = f"from {least} to {beyond - 1}"
+        raise BadField(place, f"{number} is out of range: {kind.of} goes {span}")
     return bytes([number]) if kind.of == "octet" else number
 
 

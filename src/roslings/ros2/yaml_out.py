@@ -28,9 +28,12 @@ def as_yaml(value: Any, shape: Shape) -> str:
     import yaml
 
     plain = plain_of(value, shape)
-    style = True if shape.flow else False
     text = yaml.safe_dump(
-        plain, width=sys.maxsize, default_flow_style=style, sort_keys=False, allow_unicode=True
+        plain,
+        width=sys.maxsize,
+        default_flow_style=shape.flow,
+        sort_keys=False,
+        allow_unicode=True,
     )
     return text.removesuffix("...\n")  # PyYAML ends a lone value so
 

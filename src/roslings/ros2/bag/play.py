@@ -73,9 +73,7 @@ def _await_listeners(eye: Eye, voices: dict[int, Any]) -> None:
     """Those who listen now shall not miss the first messages."""
     eye.settle()
     waiting = [voice for voice in voices.values() if eye.ears(voice.topic_name)]
-    eye.until(
-        lambda: all(voice.get_subscription_count() for voice in waiting), MATCHED_WITHIN_S
-    )
+    eye.until(lambda: all(voice.get_subscription_count() for voice in waiting), MATCHED_WITHIN_S)
 
 
 def _play_once(

@@ -8,7 +8,7 @@ import time
 from datetime import datetime
 from pathlib import Path
 from types import TracebackType
-from typing import Any
+from typing import Any, Literal
 
 from roslings.ros2.bag.definition import definition_of, hash_of
 from roslings.ros2.bag.quality import kept
@@ -22,7 +22,7 @@ from roslings.ros2.words import OK
 
 RECORDER, STORAGE = "rosbag2_recorder", "rosbag2_storage"
 LOOK_EVERY_S = 0.2
-VERSION = 9
+VERSION: Literal[9] = 9
 ENDINGS = {"mcap": ".mcap", "sqlite3": ".db3"}
 
 

@@ -27,9 +27,9 @@ class LaunchFileNotFound(Problem):
         near = did_you_mean(name, there)
         has = f" It has: {', '.join(there)}." if there else ""
         super().__init__(
-            f"file '{name}' was not found in the share directory of the package: {where}.{near}{has}"
-            "\nIf it lies in your package, add it to data_files in setup.py, build again, and"
-            " source install/setup.bash"
+            f"file '{name}' was not found in the share directory of the package: {where}."
+            f"{near}{has}\nIf it lies in your package, add it to data_files in setup.py,"
+            " build again, and source install/setup.bash"
         )
 
 
@@ -81,11 +81,11 @@ def launch(options: argparse.Namespace) -> int:
     steps, declared = plan(path, given)
     _warn(given, [arg.name for arg in declared])
     signal.signal(signal.SIGTERM, signal.default_int_handler)
-    with tempfile.TemporaryDirectory(prefix="roslings_launch_") as folder:
-        with Crew(Path(folder)) as crew:
-            crew.say("[INFO] [launch]: Default logging verbosity is set to INFO")
-            crew.carry_out(steps)
-            return crew.run()
+    rooms = tempfile.TemporaryDirectory(prefix="roslings_launch_")
+    with rooms as folder, Crew(Path(folder)) as crew:
+        crew.say("[INFO] [launch]: Default logging verbosity is set to INFO")
+        crew.carry_out(steps)
+        return crew.run()
 
 
 def chosen_file(options: argparse.Namespace) -> tuple[Path, list[str]]:

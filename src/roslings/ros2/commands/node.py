@@ -20,7 +20,9 @@ SAME_NAME = (
 class NodeNotFound(Problem):
     """No running node has that name."""
 
-    def __init__(self, node: str, running: Iterable[str], words: str = "Unable to find node") -> None:
+    def __init__(
+        self, node: str, running: Iterable[str], words: str = "Unable to find node"
+    ) -> None:
         names = sorted(running)
         near = did_you_mean(node, names)
         there = " No node runs. Start one first." if not names else ""

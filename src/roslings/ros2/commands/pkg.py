@@ -18,17 +18,13 @@ def declare(command: argparse.ArgumentParser) -> None:
     _declare_create(verbs("create", "Create a new ROS 2 package", create))
     verbs("list", "Output a list of available packages", list_packages)
     programs = verbs("executables", "Output a list of package specific executables", executables)
-    add(
-        programs, "package_name", nargs="?", complete=complete_packages, help="The package name"
-    )
+    add(programs, "package_name", nargs="?", complete=complete_packages, help="The package name")
     programs.add_argument(
         "--full-path", action="store_true", help="Show full path of each executable"
     )
     prefix = verbs("prefix", "Output the prefix path of a package", show_prefix)
     add(prefix, "package_name", complete=complete_packages, help="The package name")
-    prefix.add_argument(
-        "--share", action="store_true", help="Show share directory for the package"
-    )
+    prefix.add_argument("--share", action="store_true", help="Show share directory for the package")
 
 
 def _declare_create(parser: argparse.ArgumentParser) -> None:

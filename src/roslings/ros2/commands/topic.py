@@ -16,7 +16,7 @@ from roslings.ros2.shared_options import (
     show_types,
     topic_name,
 )
-from roslings.ros2.words import FAILED, OK, Verbs, add, not_negative, positive, rate, seconds
+from roslings.ros2.words import FAILED, OK, Run, Verbs, add, not_negative, positive, rate, seconds
 
 ABSENT = {"delay": "the age of stamped messages"}
 DEFAULT_LENGTH, HZ_WINDOW, BW_WINDOW = 128, 10_000, 100
@@ -116,7 +116,9 @@ def _listening_options(verb: argparse.ArgumentParser) -> None:
 
 
 def _declare_pub(verbs: Verbs) -> None:
-    pub = verbs("pub", "Publish a message to a topic", _later("roslings.ros2.publishing", "publish"))
+    pub = verbs(
+        "pub", "Publish a message to a topic", _later("roslings.ros2.publishing", "publish")
+    )
     topic_name(pub)
     add(
         pub, "message_type", complete=complete_interfaces("msg"),
@@ -155,7 +157,7 @@ def _declare_pub(verbs: Verbs) -> None:
     pub.add_argument("--spin-time", type=seconds, help=argparse.SUPPRESS)
 
 
-def _later(home: str, function: str) -> object:
+def _later(home: str, function: str) -> Run:
     """The function of a module that is imported when it is called."""
 
     def call(options: argparse.Namespace) -> int:

@@ -170,11 +170,12 @@ class Planner:
                 (text_of(one, "from", scope), text_of(one, "to", scope))
                 for one in entity.inside("remap")
             ),
-            environment={
-                **scope.environment,
-                **{text_of(e, "name", scope): text_of(e, "value", scope) for e in entity.inside("env")},
-            },
+            environment={**scope.environment, **_pairs(entity.inside("env"), scope)},
         )  # fmt: skip
+
+
+def _pairs(entities: list[Entity], scope: Scope) -> dict[str, str]:
+    return {text_of(one, "name", scope): text_of(one, "value", scope) for one in entities}
 
 
 def _declared(entity: Entity, scope: Scope, lazily: bool = False) -> Declared:
@@ -188,7 +189,9 @@ def _declared(entity: Entity, scope: Scope, lazily: bool = False) -> Declared:
     )
 
 
-def _parameters(entities: list[Entity], scope: Scope, prefix: str = "") -> Iterator[tuple[str, Any]]:
+def _parameters(
+    entities: list[Entity], scope: Scope, prefix: str = ""
+) -> Iterator[tuple[str, Any]]:
     """Name and value of each parameter; one inside another gets a dot between the names."""
     for entity in entities:
         if "from" in entity.attributes:

@@ -59,7 +59,9 @@ def read_xml(path: Path, text: str) -> Entity:
         parser.Parse(text, True)
     except expat.ExpatError as fault:
         reason = expat.ErrorString(fault.code)
-        raise BadLaunchFile(f"{path.name}, line {fault.lineno}", f"no valid XML: {reason}") from None
+        raise BadLaunchFile(
+            f"{path.name}, line {fault.lineno}", f"no valid XML: {reason}"
+        ) from None
     return top.children[0]
 
 
@@ -71,7 +73,9 @@ def read_yaml(path: Path, text: str) -> Entity:
         node = yaml.compose(text, Loader=yaml.SafeLoader)
     except yaml.MarkedYAMLError as fault:
         line = fault.problem_mark.line + 1 if fault.problem_mark else 1
-        raise BadLaunchFile(f"{path.name}, line {line}", f"no valid YAML: {fault.problem}") from None
+        raise BadLaunchFile(
+            f"{path.name}, line {line}", f"no valid YAML: {fault.problem}"
+        ) from None
     entities = _elements(path, node)
     if len(entities) != 1:
         raise BadLaunchFile(path.name, f"the file needs one entry at its top: {ROOT}")

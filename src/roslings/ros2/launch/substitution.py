@@ -26,9 +26,7 @@ class Scope:
 
     def inner(self) -> Scope:
         """A scope inside this one: what is set there does not leave it."""
-        return replace(
-            self, variables=dict(self.variables), environment=dict(self.environment)
-        )
+        return replace(self, variables=dict(self.variables), environment=dict(self.environment))
 
 
 def filled_in(text: str, scope: Scope) -> str:
