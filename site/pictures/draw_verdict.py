@@ -1,4 +1,4 @@
-"""Draw a verdict as the picture in README.md: `python site/pictures/draw_verdict.py VERDICT.json`."""
+"""Draw a verdict as the picture in README.md: `python site/pictures/draw_verdict.py FILE.json`."""
 
 from __future__ import annotations
 
