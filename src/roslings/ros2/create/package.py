@@ -102,10 +102,10 @@ def _check_package(name: str) -> None:
         better = re.sub(r"[^a-z0-9]+", "_", name.lower()).strip("_")
         hint = f". Try {better}" if _NAME.fullmatch(better) else ""
         raise BadPackageName(name, f"use small letters, digits and _, a letter first{hint}")
-    if keyword.iskeyword(name) or name in sys.stdlib_module_names:
-        raise BadPackageName(name, "Python itself has something of that name. Choose another one")
     if name == "test":
         raise BadPackageName(name, "the folder 'test' is for the tests. Choose another one")
+    if keyword.iskeyword(name) or name in sys.stdlib_module_names:
+        raise BadPackageName(name, "Python itself has something of that name. Choose another one")
 
 
 def _wish(options: argparse.Namespace) -> Wish:

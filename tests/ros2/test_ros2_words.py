@@ -1,0 +1,158 @@
+"""The command line itself: handing over, unknown words, a bad environment, the Tab key."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from terminal import SOURCE, Shell, ours
+
+from roslings.arena import QUICK_DISCOVERY
+from roslings.ros2 import surroundings
+from roslings.ros2.cli import COMMANDS
+from roslings.ros2.participants import participants_here
+
+START = SOURCE / "roslings" / "ros2" / "start.py"
+
+
+def test_the_discovery_file_is_the_arenas() -> None:
+    """Named twice, because importing the arena takes longer than `ros2 node list` may."""
+    assert surroundings.QUICK_DISCOVERY == QUICK_DISCOVERY
+
+
+def test_the_real_ros2_is_run_where_there_is_one(empty: Shell, tmp_path: Path) -> None:
+    """Unchanged: its words, its exit code. Our own launcher on the path is passed over."""
+    own, real = tmp_path / "own", tmp_path / "real"
+    write_program(own / "ros2", "# roslings\nexit 1")
+    write_program(real / "ros2", 'echo "the real one: $*"; exit 5')
+    path = f"{own}:{real}:/usr/bin:/bin"
+    done = subprocess.run(
+        [sys.executable, START, "ros2", "topic", "echo", "--raw", "/x"],
+        env=empty.environment | {"PATH": path}, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert (done.returncode, done.stdout) == (5, "the real one: topic echo --raw /x\n")
+
+
+def test_a_ros2cli_that_can_only_be_imported_is_run_too(empty: Shell, tmp_path: Path) -> None:
+    """A workspace may hold it without a program on the path."""
+    package = tmp_path / "ros2cli"
+    package.mkdir()
+    (package / "__init__.py").touch()
+    (package / "cli.py").write_text("import sys\ndef main():\n    print(sys.argv[1:]); return 6\n")
+    done = subprocess.run(
+        [sys.executable, START, "ros2", "node", "list"],
+        env=empty.environment | {"PATH": "/usr/bin:/bin", "PYTHONPATH": str(tmp_path)},
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert (done.returncode, done.stdout) == (6, "['node', 'list']\n")
+
+
+def write_program(place: Path, line: str) -> None:
+    """An executable shell script."""
+    place.parent.mkdir()
+    place.write_text(f"#!/bin/sh\n{line}\n")
+    place.chmod(0o755)
+
+
+def test_help_names_every_command(empty: Shell) -> None:
+    """`ros2` alone says what there is."""
+    ran = empty()
+    assert ran.code == 0
+    assert all(f"    {command}" in ran.out for command in COMMANDS)
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("topc", "list"), "there is no command 'topc'. Did you mean topic?"),
+        (("daemon", "stop"), "'ros2 daemon' is part of the full ros2"),
+        (("topic", "delay", "/x", "--window", "3"), "'ros2 topic delay' is part of the full ros2"),
+        (("param", "delete", "/x", "y"), "'ros2 param delete' is part of the full ros2"),
+        (("node", "lst"), "there is no 'lst' here. Did you mean list?"),
+        (("topic", "hz"), "the following arguments are required: topic_name"),
+        (("topic", "pub", "/x", "T", "-r", "fast"), "'fast' is no number"),
+        (("topic", "pub", "/x", "T", "-r", "0"), "0 is not above zero"),
+    ],
+)
+def test_wrong_words(empty: Shell, words: tuple[str, ...], said: str) -> None:
+    """One line with the next step, exit 2."""
+    ran = empty(*words)
+    assert ran.code == 2
+    assert said in ran.err
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "said"),
+    [
+        ("ROS_DOMAIN_ID", "abc", "ROS_DOMAIN_ID is 'abc'"),
+        ("ROS_DOMAIN_ID", "300", "ROS_DOMAIN_ID is '300'"),
+        ("RMW_IMPLEMENTATION", "rmw_other_cpp", "unset RMW_IMPLEMENTATION"),
+    ],
+)
+def test_a_bad_environment(empty: Shell, name: str, value: str, said: str) -> None:
+    """Not a traceback from inside ROS."""
+    ran = empty("node", "list", **{name: value})
+    assert ran.code == 1
+    assert said in ran.err
+
+
+@pytest.mark.parametrize("name", ["/x-y", "/a//b", "/2nd"])
+def test_a_name_that_ros_does_not_allow(empty: Shell, name: str) -> None:
+    """Said with the rule."""
+    ran = empty("topic", "echo", name)
+    assert ran.code == 1
+    assert "is no valid name in ROS" in ran.err
+
+
+def completed(shell: Shell, line: str, folder: Path) -> list[str]:
+    """What the Tab key offers at the end of `line`."""
+    offer = folder / "offer"
+    environment = shell.environment | {
+        "_ARGCOMPLETE": "1", "COMP_LINE": line, "COMP_POINT": str(len(line)), "COMP_TYPE": "9",
+        "_ARGCOMPLETE_STDOUT_FILENAME": str(offer), "IFS": "\v", "_ARGCOMPLETE_IFS": "\v",
+    }  # fmt: skip
+    subprocess.run(ours(), env=environment, check=False, timeout=60)
+    return sorted(word.strip() for word in offer.read_text().split("\v") if word)
+
+
+def test_tab_completes_words_and_names(stage: Shell, tmp_path: Path) -> None:
+    """Commands, verbs, topics, nodes, packages, types."""
+    assert completed(stage, "ros2 to", tmp_path) == ["topic"]
+    assert completed(stage, "ros2 topic e", tmp_path) == ["echo"]
+    assert completed(stage, "ros2 topic echo /c", tmp_path) == ["/chatter", "/cmd_vel"]
+    assert completed(stage, "ros2 param list /tu", tmp_path) == ["/tuner"]
+    assert completed(stage, "ros2 run demo_nodes_py t", tmp_path) == ["talker"]
+    assert "std_msgs/msg/String" in completed(stage, "ros2 interface show std_msgs/msg/S", tmp_path)
+
+
+def test_participants_are_counted(empty: Shell) -> None:
+    """As many as there are programs on the domain: what a look waits for."""
+    domain = int(empty.environment["ROS_DOMAIN_ID"])
+    talker = ("run", "demo_nodes_py", "talker")
+    assert participants_here(domain) == 0
+    with empty.start(*talker) as one, empty.start(*talker) as two:
+        one.wait_for("Publishing")
+        two.wait_for("Publishing")
+        assert participants_here(domain) == 2
+
+
+def test_the_doctor_answers(empty: Shell) -> None:
+    """Its own words and options."""
+    ran = empty("doctor", "--list")
+    assert ran.code == 0
+    assert "domain" in ran.out
+
+
+def test_rqt_graph_saves_a_picture_where_there_is_no_screen(stage: Shell, tmp_path: Path) -> None:
+    """It says where; a second picture does not replace the first."""
+    pytest.importorskip("matplotlib")
+    environment = {k: v for k, v in stage.environment.items() if "DISPLAY" not in k}
+    for name in ("rosgraph.png", "rosgraph_2.png"):
+        done = subprocess.run(
+            [sys.executable, START, "rqt_graph"], env=environment | {"PATH": "/usr/bin:/bin"},
+            cwd=tmp_path, capture_output=True, text=True, check=False,
+        )  # fmt: skip
+        assert done.stdout == f"The picture of the graph is in {tmp_path / name}\n", done.stderr
+        assert (tmp_path / name).read_bytes().startswith(b"\x89PNG")
