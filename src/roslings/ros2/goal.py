@@ -39,6 +39,26 @@ class OtherType(Problem):
         )
 
 
+class FeedbackLog:
+    """Shows feedback; what a quick server tells before its acceptance came is kept till then."""
+
+    def __init__(self) -> None:
+        self._early: list[Any] | None = []
+
+    def take(self, message: Any) -> None:
+        """Feedback came: show it, or keep it."""
+        if self._early is None:
+            print(f"Feedback:\n    {as_indented(message.feedback)}")
+        else:
+            self._early.append(message)
+
+    def begin(self) -> None:
+        """The goal is accepted: show what came before."""
+        early, self._early = self._early or [], None
+        for message in early:
+            self.take(message)
+
+
 def send(options: argparse.Namespace) -> int:
     """Send the goal of `options` and wait for its end."""
     from rclpy.action import ActionClient
@@ -73,12 +93,14 @@ def _await(eye: Eye, client: Any, action: str, type_name: str) -> None:
 
 def _run(eye: Eye, client: Any, goal: Any, feedback: bool) -> None:
     print(f"Sending goal:\n     {as_indented(goal)}")
-    asked = client.send_goal_async(goal, feedback_callback=_show_feedback if feedback else None)
+    told = FeedbackLog()
+    asked = client.send_goal_async(goal, feedback_callback=told.take if feedback else None)
     accepted = answer_of(eye, "send_goal", asked, None)
     if not accepted.accepted:
         print("Goal was rejected.")
         return
     print(f"Goal accepted with ID: {bytes(accepted.goal_id.uuid).hex()}\n")
+    told.begin()
     try:
         result = answer_of(eye, "get_result", accepted.get_result_async(), None)
     except KeyboardInterrupt:
@@ -86,10 +108,6 @@ def _run(eye: Eye, client: Any, goal: Any, feedback: bool) -> None:
         raise
     print(f"Result:\n    {as_indented(result.result)}")
     print(f"Goal finished with status: {STATUS.get(result.status, 'UNKNOWN')}")
-
-
-def _show_feedback(message: Any) -> None:
-    print(f"Feedback:\n    {as_indented(message.feedback)}")
 
 
 def _cancel(eye: Eye, accepted: Any) -> None:
