@@ -148,9 +148,18 @@ def exit_cleanly(process: ProcessView) -> None:
     if seen.ending is None or seen.ending.after_s is None:
         raise faults.NothingToJudge("it did not end after Ctrl-C")
     traced = any(text.startswith("Traceback") for text in process.texts)
-    if seen.status != 0 or traced:
+    if (seen.status != 0 or traced) and not _is_race_in_rclpy(process.texts):
         how = describe_status(seen.status) + (", with a traceback" if traced else "")
         raise faults.UncleanExit(seen.executable, how, log=process.last_lines(6))
+
+
+def _is_race_in_rclpy(texts: Sequence[str]) -> bool:
+    """rclpy's signal thread came between the two steps of its own try_shutdown().
+
+    Seen once in some 500 endings on a busy machine, in code that is right: no fault of it.
+    """
+    inside = any("in try_shutdown" in text for text in texts)
+    return inside and any("rcl_shutdown already called" in text for text in texts)
 
 
 def log_each(node: NodeContract, texts: Sequence[str]) -> Demand[ProcessView]:

@@ -1,0 +1,50 @@
+"""An end that is not clean, and one that only looks so."""
+
+from __future__ import annotations
+
+import pytest
+
+from roslings.evidence import Ending, ExperimentSeen, LogLine, ProcessSeen
+from roslings.judge import exit_cleanly
+from roslings.judge.faults import UncleanExit
+from roslings.judge.views import ProcessView
+
+ALREADY = "RCLError: failed to shutdown: rcl_shutdown already called on the given context"
+
+
+def ended(status: int, *lines: str) -> ProcessView:
+    """A process that ended after Ctrl-C."""
+    process = ProcessSeen(
+        executable="it",
+        started_ns=0,
+        ended_ns=1,
+        status=status,
+        ending=Ending(signal="SIGINT", after_s=0.1),
+        lines=[LogLine(arrival_ns=0, text=line, source="terminal") for line in lines],
+    )
+    return ProcessView(process, ExperimentSeen(name="x", clock="wall"))
+
+
+def test_a_quiet_end_is_clean() -> None:
+    """Exit code 0 and no traceback."""
+    exit_cleanly(ended(0, "Publishing"))
+
+
+@pytest.mark.parametrize(
+    "process",
+    [
+        ended(1),
+        ended(-2, "Traceback (most recent call last):", "KeyboardInterrupt"),
+        ended(1, "Traceback (most recent call last):", "in shutdown", ALREADY),
+    ],
+)
+def test_an_error_at_the_end_is_a_fault(process: ProcessView) -> None:
+    """A status that is not 0, a traceback, a second shutdown()."""
+    with pytest.raises(UncleanExit):
+        exit_cleanly(process)
+
+
+def test_a_race_inside_rclpy_is_nobodys_fault() -> None:
+    """try_shutdown() is the right call; what happens inside it is not the student's."""
+    trace = ("Traceback (most recent call last):", "context.py, line 139, in try_shutdown", ALREADY)
+    exit_cleanly(ended(1, *trace))
