@@ -105,6 +105,7 @@ class Shell:
             ours(*words), env=self.environment | changes, cwd=self.folder, text=True,
             capture_output=True, stdin=subprocess.DEVNULL, timeout=PATIENCE_S, check=False,
         )  # fmt: skip
+        print(done.stderr, end="")  # pytest shows it where a test fails
         return Ran(done.returncode, done.stdout, done.stderr)
 
     @contextmanager
@@ -126,6 +127,10 @@ class Shell:
         """Wait until the node /ear of the stage has heard `text`."""
         assert self.nodes
         self.nodes.wait_for(f"^heard {text}$", times)
+
+
+DEAF = ("sh", "-c", 'trap "" INT; exec "$@"', "sh")
+"""Put before a command: it starts as from a script in the background, where Ctrl-C is ignored."""
 
 
 def ours(*words: str) -> list[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from terminal import Shell
+from terminal import DEAF, Shell, ours
 
 XML = """\
 <launch>
@@ -67,6 +67,15 @@ def test_launch_of_two_nodes(empty: Shell, tmp_path: Path, name: str, text: str)
         launch.wait_for(r"^\[INFO\] \[talker-1\]: process has finished cleanly \[pid \d+\]$")
         launch.wait_for(r"^\[INFO\] \[listener-2\]: process has finished cleanly \[pid \d+\]$")
     assert "Traceback" not in launch.text
+
+
+def test_a_launch_in_the_background_hears_ctrl_c(empty: Shell, tmp_path: Path) -> None:
+    """And so do its nodes, which end cleanly."""
+    written(tmp_path, "a.launch.xml", XML)
+    with empty.program([*DEAF, *ours("launch", "a.launch.xml", "topic:=weather")]) as launch:
+        launch.wait_for(r"I heard: ")
+        assert launch.interrupt() == 0
+        launch.wait_for("process has finished cleanly", times=2)
 
 
 @pytest.fixture

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import os
 import subprocess
+from pathlib import Path
 
 import pytest
-from terminal import Shell, ours
+from terminal import DEAF, Shell, ours
 
 QUIET_END = 2
 """The exit code of the real ros2 after Ctrl-C."""
@@ -68,6 +69,23 @@ def test_quality_that_cannot_match_is_said_at_once(stage: Shell) -> None:
             " and RELIABLE is asked for."
         )
         assert echo.interrupt() == QUIET_END
+
+
+@pytest.mark.parametrize(
+    ("words", "started", "code"),
+    [
+        (("topic", "echo", "/chatter"), "Hello World", QUIET_END),
+        (("bag", "record", "/chatter"), "All requested topics are subscribed", 0),
+    ],
+)
+def test_ctrl_c_ends_what_a_script_started_in_the_background(
+    stage: Shell, tmp_path: Path, words: tuple[str, ...], started: str, code: int
+) -> None:
+    """There a program starts deaf to it."""
+    here = Shell(stage.environment, tmp_path)
+    with here.program([*DEAF, *ours(*words)]) as running:
+        running.wait_for(started)
+        assert running.interrupt() == code
 
 
 def test_ctrl_c_is_quiet(stage: Shell) -> None:

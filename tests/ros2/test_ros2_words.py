@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import subprocess
 import sys
 from pathlib import Path
@@ -10,8 +11,9 @@ import pytest
 from terminal import SOURCE, Shell, ours
 
 from roslings.arena import QUICK_DISCOVERY
-from roslings.ros2 import surroundings
+from roslings.ros2 import eye, surroundings
 from roslings.ros2.cli import COMMANDS
+from roslings.ros2.eye import Sight
 from roslings.ros2.participants import participants_here
 
 START = SOURCE / "roslings" / "ros2" / "start.py"
@@ -131,11 +133,38 @@ def test_participants_are_counted(empty: Shell) -> None:
     """As many as there are programs on the domain: what a look waits for."""
     domain = int(empty.environment["ROS_DOMAIN_ID"])
     talker = ("run", "demo_nodes_py", "talker")
-    assert participants_here(domain) == 0
+    assert not participants_here(domain)
     with empty.start(*talker) as one, empty.start(*talker) as two:
         one.wait_for("Publishing")
         two.wait_for("Publishing")
-        assert participants_here(domain) == 2
+        assert len(participants_here(domain)) == 2
+
+
+def sight(*programs: bytes) -> Sight:
+    """What is seen where `programs` have said all."""
+    return Sight(frozenset(programs), frozenset(programs), endpoints=3, unnamed=0, nodes=1)
+
+
+def test_one_reading_of_the_kernels_table_is_not_believed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It lacks a port now and then; the look goes on until the other program has spoken."""
+    readings = itertools.cycle([frozenset({7410, 7412}), frozenset({7410})])
+    monkeypatch.setattr(eye, "participants_here", lambda _: next(readings))
+    monkeypatch.setattr(eye, "QUIET_S", 0.0)
+    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+    settling = eye.Settling(domain=0)
+    assert not any(settling.after(sight(b"us")) for _ in range(50))
+    assert any(settling.after(sight(b"us", b"them")) for _ in range(50))
+
+
+def test_a_program_that_never_answers_is_told(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The look ends, and says that it may lack something."""
+    monkeypatch.setattr(eye, "participants_here", lambda _: frozenset({7410, 7412}))
+    settling = eye.Settling(domain=0)
+    looks = [settling.after(sight(b"us")) for _ in range(eye.SILENT_LOOKS)]
+    assert looks.index(True) == eye.SILENT_LOOKS - 1
+    assert "1 program on this computer did not answer" in capsys.readouterr().err
 
 
 def test_the_doctor_answers(empty: Shell) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterable
 from typing import Any
 
@@ -39,15 +40,33 @@ class CallFailed(Problem):
         super().__init__(f"Exception while calling service '{service}': {fault}")
 
 
-def ask(eye: Eye, cls: Any, service: str, request: Any, within_s: float = PATIENCE_S) -> Any:
-    """The answer of `service`. Raises NoAnswer, CallFailed."""
+AGAIN_S = 2.0
+"""A server that has not found our answer's way yet drops the answer; then it is asked again."""
+
+
+def ask(eye: Eye, cls: Any, service: str, request: Any, again: bool = True) -> Any:
+    """The answer of `service`. Raises NoAnswer, CallFailed.
+
+    `again` is for requests that may be made twice with the same effect.
+    """
     client = eye.node.create_client(cls, service)
     try:
-        if not eye.until(client.service_is_ready, within_s):
-            raise NoAnswer(service, within_s)
-        return answer_of(eye, service, client.call_async(request), within_s)
+        if not eye.until(client.service_is_ready, PATIENCE_S):
+            raise NoAnswer(service, PATIENCE_S)
+        return _answer(eye, client, request, AGAIN_S if again else PATIENCE_S)
     finally:
         eye.node.destroy_client(client)
+
+
+def _answer(eye: Eye, client: Any, request: Any, each_s: float) -> Any:
+    """The answer to the first request, or to one made `each_s` later, and so on."""
+    end_s = time.monotonic() + PATIENCE_S
+    while True:
+        try:
+            return answer_of(eye, client.srv_name, client.call_async(request), each_s)
+        except NoAnswer:
+            if time.monotonic() >= end_s:
+                raise NoAnswer(client.srv_name, PATIENCE_S) from None
 
 
 def answer_of(eye: Eye, service: str, future: Any, within_s: float | None) -> Any:

@@ -8,7 +8,7 @@ import sys
 from collections.abc import Callable, Sequence
 from importlib import import_module
 
-from roslings.ros2 import surroundings
+from roslings.ros2 import stopping, surroundings
 from roslings.ros2.handover import hand_over
 from roslings.ros2.problem import Problem, did_you_mean
 from roslings.ros2.words import OK, WRONG_USE, Parser, only_in_full
@@ -43,8 +43,7 @@ def main(argv: Sequence[str]) -> int:
 
 def quietly(argv: list[str]) -> int:
     """Run our own verb; Ctrl-C and a closed pipe end it without a word."""
-    # A script that starts us in the background makes us deaf to Ctrl-C.
-    signal.signal(signal.SIGINT, signal.default_int_handler)
+    stopping.listen()
     try:
         sys.stdout.reconfigure(line_buffering=True)  # type: ignore[union-attr]
         code = explained(lambda: run(argv))

@@ -8,12 +8,15 @@ kernel lists them: so it is known how many must answer, and the look ends when a
 from __future__ import annotations
 
 import os
+import sys
 import time
+from collections import deque
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from types import TracebackType
 from typing import Any
 
+from roslings.ros2 import stopping
 from roslings.ros2.names import is_hidden, node_name
 from roslings.ros2.participants import participants_here
 from roslings.ros2.problem import Problem
@@ -25,12 +28,18 @@ QUIET_S = 0.12
 QUIET_BEYOND_S = 1.5
 """Where other computers may answer too, nothing new for this long means that it is all."""
 
-SILENT_S = 4.0
-"""A program that is alive speaks every 3 s; who is silent for longer is stuck or is not ROS."""
-
 LOOK_EVERY_S = 0.02
+BELIEVED_READINGS = 5
+"""Who stood in none of the kernel's last readings has ended."""
+
+SILENT_LOOKS = 300
+"""A program that is alive speaks every 3 s; who is silent for twice as long is stuck or is not ROS.
+Counted in looks: on a busy computer, where everybody is slow, they take longer too."""
+
 SPIN_S = 0.05
 """Ctrl-C waits no longer than this for rclpy."""
+
+END_WITHIN_S = 0.5
 
 WHO = "ros_discovery_info"
 """On this topic each participant writes which nodes it has; DDS shows it, ROS hides it."""
@@ -116,7 +125,8 @@ class Eye:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        self._executor.shutdown()
+        # A callback that Ctrl-C cut short never counts as done, so waiting has its bound.
+        self._executor.shutdown(timeout_sec=END_WITHIN_S)
         self.node.destroy_node()
         self.context.try_shutdown()
 
@@ -124,6 +134,7 @@ class Eye:
         """Wait until the graph is complete."""
         settling = Settling(self.domain)
         while not settling.after(self._sight()):
+            stopping.check()
             time.sleep(LOOK_EVERY_S)
         return self
 
@@ -133,7 +144,7 @@ class Eye:
         while not condition():
             if end_s is not None and time.monotonic() >= end_s:
                 return False
-            self._executor.spin_once(timeout_sec=SPIN_S)
+            self._spin(SPIN_S)
         return True
 
     def nodes(self, hidden: bool = False) -> list[str]:
@@ -190,7 +201,11 @@ class Eye:
     def spin_to(self, due_s: float) -> None:
         """Run callbacks until the moment `due_s` of the monotonic clock."""
         while (left_s := due_s - time.monotonic()) > 0:
-            self._executor.spin_once(timeout_sec=min(left_s, SPIN_S))
+            self._spin(min(left_s, SPIN_S))
+
+    def _spin(self, within_s: float) -> None:
+        stopping.check()
+        self._executor.spin_once(timeout_sec=within_s)
 
     def _sight(self) -> Sight:
         raw = [name for name, _ in self.node.get_topic_names_and_types(no_demangle=True)]
@@ -223,17 +238,32 @@ class Settling:
 
     def __init__(self, domain: int) -> None:
         self._domain = domain
+        self._ports: deque[frozenset[int]] = deque(maxlen=BELIEVED_READINGS)
         self._before: Sight | None = None
+        self._restart()
+
+    def _restart(self) -> None:
         self._since_s = time.monotonic()
+        self._looks = 0
 
     def after(self, sight: Sight) -> bool:
-        """Whether `sight`, the newest, is the whole graph."""
-        now_s = time.monotonic()
+        """Whether `sight`, the newest, is the whole graph, or all that will ever be seen of it."""
         if sight != self._before:
-            self._before, self._since_s = sight, now_s
-        quiet_s = now_s - self._since_s
-        if quiet_s < QUIET_S:
+            self._before = sight
+            self._restart()
+        self._looks += 1
+        self._ports.append(participants_here(self._domain))
+        expected = len(frozenset().union(*self._ports))
+        if not sight.complete(expected):
+            return self._gave_up(expected - len(sight.here))
+        if self._looks < BELIEVED_READINGS:
             return False
-        if not sight.complete(participants_here(self._domain)):
-            return quiet_s >= SILENT_S
+        quiet_s = time.monotonic() - self._since_s
         return quiet_s >= (QUIET_BEYOND_S if looks_beyond_this_computer() else QUIET_S)
+
+    def _gave_up(self, silent: int) -> bool:
+        if self._looks < SILENT_LOOKS:
+            return False
+        who = f"{silent} program{'s' * (silent > 1)}" if silent > 0 else "A program"
+        print(f"{who} on this computer did not answer: something may be missing.", file=sys.stderr)
+        return True

@@ -6,6 +6,7 @@ import argparse
 import sys
 from typing import Any
 
+from roslings.ros2 import stopping
 from roslings.ros2.calling import answer_of
 from roslings.ros2.commands.action import actions
 from roslings.ros2.eye import Eye
@@ -111,6 +112,7 @@ def _run(eye: Eye, client: Any, goal: Any, feedback: bool) -> None:
 
 
 def _cancel(eye: Eye, accepted: Any) -> None:
+    stopping.forget()
     print("Canceling goal...")
     answer = answer_of(eye, "cancel_goal", accepted.cancel_goal_async(), CANCEL_WITHIN_S)
     print("Goal canceled." if answer.goals_canceling else "Failed to cancel goal")

@@ -11,11 +11,15 @@ PORT_BASE, PORTS_PER_DOMAIN, FIRST, PORTS_EACH = 7400, 250, 10, 2
 TABLES = ("/proc/net/udp", "/proc/net/udp6")
 
 
-def participants_here(domain: int) -> int:
-    """The number of participants of `domain` on this computer, our own among them."""
+def participants_here(domain: int) -> frozenset[int]:
+    """The ports of `domain`'s participants on this computer, our own among them.
+
+    The kernel shows its table piece by piece: while other programs open and close sockets, one
+    reading can lack a port that was there all the time. Never believe a single reading.
+    """
     first = PORT_BASE + PORTS_PER_DOMAIN * domain + FIRST
     last = PORT_BASE + PORTS_PER_DOMAIN * (domain + 1)
-    return len({port for port in _ports() if port in range(first, last, PORTS_EACH)})
+    return frozenset(port for port in _ports() if port in range(first, last, PORTS_EACH))
 
 
 def _ports() -> Iterator[int]:

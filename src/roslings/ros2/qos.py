@@ -21,10 +21,15 @@ DEFAULT_DEPTH = 10
 def add_qos_options(parser: argparse.ArgumentParser, subject: str) -> None:
     """The `--qos-*` options; `subject` is what they are for."""
     group = parser.add_argument_group(f"quality of service to {subject} with")
-    group.add_argument("--qos-profile", choices=PRESETS, help="a preset, for all of them")
+    group.add_argument(
+        "--qos-profile", choices=PRESETS, metavar="NAME",
+        help=f"a preset for all of them: {', '.join(PRESETS)}",
+    )  # fmt: skip
     group.add_argument("--qos-depth", metavar="N", type=not_negative, help="queue size")
     for policy, choices in POLICIES.items():
-        group.add_argument(f"--qos-{policy}", choices=choices, help=policy)
+        group.add_argument(
+            f"--qos-{policy}", choices=choices, metavar="WORD", help=", ".join(choices)
+        )
     group.add_argument(
         "--qos-liveliness-lease-duration-seconds", metavar="S", type=seconds,
         help="liveliness lease duration",

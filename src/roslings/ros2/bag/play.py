@@ -88,8 +88,6 @@ def _play_once(
     began_s = time.monotonic()
     for connection, stamp_ns, raw in reader.messages(connections, start=begin_ns):
         due_s = began_s + (stamp_ns - begin_ns) / 1e9 / options.rate
-        left_s = due_s - time.monotonic()
-        if left_s > 0:
-            time.sleep(left_s)
+        eye.spin_to(due_s)
         if connection.id in voices:
             voices[connection.id].publish(bytes(raw))

@@ -10,6 +10,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Literal
 
+from roslings.ros2 import stopping
 from roslings.ros2.bag.definition import definition_of, hash_of
 from roslings.ros2.bag.quality import kept
 from roslings.ros2.bag.speech import tell
@@ -63,7 +64,7 @@ def record(options: argparse.Namespace) -> int:
     folder = Path(options.output or datetime.now().strftime("rosbag2_%Y_%m_%d-%H_%M_%S"))
     if folder.exists():
         raise BagThere(folder)
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    stopping.listen(signal.SIGTERM)
     with Eye() as eye, Recorder(eye, folder, options) as recorder:
         try:
             recorder.run(topics)

@@ -9,6 +9,7 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from roslings.ros2 import stopping
 from roslings.ros2.problem import Problem, did_you_mean
 from roslings.ros2.shared_options import complete_packages
 from roslings.ros2.words import OK, add
@@ -80,7 +81,7 @@ def launch(options: argparse.Namespace) -> int:
     given = dict(_argument(word) for word in words)
     steps, declared = plan(path, given)
     _warn(given, [arg.name for arg in declared])
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    stopping.listen(signal.SIGTERM)
     rooms = tempfile.TemporaryDirectory(prefix="roslings_launch_")
     with rooms as folder, Crew(Path(folder)) as crew:
         crew.say("[INFO] [launch]: Default logging verbosity is set to INFO")

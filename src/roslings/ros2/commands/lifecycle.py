@@ -161,7 +161,7 @@ def change(options: argparse.Namespace) -> int:
     with _seen(options) as (eye, node):
         chosen = _chosen(_transitions(eye, node), options.transition)
         request = ChangeState.Request(transition=chosen)
-        done = ask(eye, ChangeState, f"{node}/change_state", request).success
+        done = ask(eye, ChangeState, f"{node}/change_state", request, again=False).success
     print("Transitioning successful" if done else "Transitioning failed",
           file=sys.stdout if done else sys.stderr)  # fmt: skip
     return OK if done else FAILED
