@@ -42,7 +42,7 @@ FIGURE = CARD.pictures[0]
 # --- experiments: run the nodes and watch ------------------------------------------------------
 
 
-@experiment
+@experiment(clock="auto")
 def talking(scene: Scene) -> None:
     """The talker alone, until its rate is sure."""
     with scene.run(TALKER):

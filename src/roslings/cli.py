@@ -142,6 +142,10 @@ def check_options(word: argparse.ArgumentParser) -> None:
     )
     word.add_argument("--only", metavar="ID", help="show one check only, by its short name")
     word.add_argument(
+        "--clock", choices=("auto", "sim", "wall"), default="auto",
+        help="simulated time where it can be believed (auto), always (sim), or never (wall)",
+    )  # fmt: skip
+    word.add_argument(
         "--seed", metavar="N", type=int, help="repeat the random choices of a verdict"
     )
     word.add_argument(
@@ -153,7 +157,7 @@ def check_options(word: argparse.ArgumentParser) -> None:
 def watch_options(word: argparse.ArgumentParser) -> None:
     """What `watch` takes."""
     package_options(word)
-    word.set_defaults(solution=False, json=None, only=None, seed=None, hint=None)
+    word.set_defaults(solution=False, json=None, only=None, seed=None, hint=None, clock="auto")
 
 
 def pack_options(word: argparse.ArgumentParser) -> None:

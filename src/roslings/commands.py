@@ -13,6 +13,7 @@ from pathlib import Path
 from roslings import course
 from roslings.cli import EXIT_OF_OUTCOME, FAILED, INCONCLUSIVE, OK, WRONG_USE
 from roslings.course import CourseError, Lab
+from roslings.experiment.declare import Clock
 from roslings.report import BadVerdictFile, CannotWrite, NoSuchCheck
 from roslings.verdict import Verdict
 from roslings.workspace.progress import LabStatus, Step
@@ -45,13 +46,19 @@ def check(options: argparse.Namespace) -> int:
     if options.hint and not options.solution and _kept(lab).is_file():
         return _show(_read(_kept(lab)), options)
     package = lab.solution if options.solution else package_of(lab, options.path)
-    verdict = grade(lab, package, options.seed, quiet=_is_stdout(options.json))
+    verdict = grade(lab, package, options.seed, options.clock, quiet=_is_stdout(options.json))
     if not options.solution:
         _keep(lab, verdict)
     return _show(verdict, options)
 
 
-def grade(lab: Lab, package: Path, seed: int | None = None, quiet: bool = False) -> Verdict:
+def grade(
+    lab: Lab,
+    package: Path,
+    seed: int | None = None,
+    clock: Clock = "auto",
+    quiet: bool = False,
+) -> Verdict:
     """Measure a package and judge what was seen, telling each step as it comes."""
     from roslings.experiment import measure
     from roslings.judge import judge
@@ -63,7 +70,7 @@ def grade(lab: Lab, package: Path, seed: int | None = None, quiet: bool = False)
         progress.step(f"Reading {shown(package)}")
         files = inspect_package(package, lab.card)
         chosen = random.SystemRandom().randrange(SEEDS) if seed is None else seed
-        evidence = measure(lab.name, package, files, chosen, progress.step)
+        evidence = measure(lab.name, package, files, chosen, progress.step, clock)
         progress.step("Judging what was seen")
         return judge(lab, evidence, time.monotonic() - began_s)
 

@@ -54,6 +54,9 @@ class MessageSeen(Record):
     source_ns: int | None = Field(description="Publisher's wall clock, filled by the middleware")
     sequence: int | None = Field(description="Publisher's own count, filled by the middleware")
     arrival_ns: int = Field(description="Observer's monotonic clock")
+    sim_ns: int | None = Field(
+        default=None, description="Simulated time of the tick at which it was sent"
+    )
     size: int = Field(description="Bytes, serialised")
     content: Any = Field(default=None, description="The fields; None where not kept or unreadable")
 
@@ -65,6 +68,9 @@ class TopicSeen(Record):
     type: str
     messages: list[MessageSeen] = Field(default_factory=list)
     not_kept: int = Field(default=0, description="Messages counted but not kept (the bound)")
+    watched_to_bound: bool = Field(
+        default=False, description="Watching longer was not worth it: the longest watch was made"
+    )
 
 
 class LogLine(Record):
@@ -98,6 +104,11 @@ class ProcessSeen(Record):
     output_dropped_bytes: int = 0
     left_behind: int = Field(default=0, description="Processes of its own that outlived it")
     cpu_s: float = 0.0
+    cpu_wait_s: float | None = Field(
+        default=None,
+        description="While it was watched: how long it was ready to run and the processor was not"
+        " free; None where the kernel does not tell",
+    )
     peak_memory_bytes: int = 0
 
 
@@ -112,6 +123,31 @@ class Spoken(Record):
     offered: Qos
 
 
+class Tick(Record):
+    """One step of the simulated clock: what it showed, and when that was published."""
+
+    sim_ns: int
+    wall_ns: int = Field(description="The grader's wall clock, which the source stamps share")
+    at_ns: int = Field(description="The grader's monotonic clock")
+    kept_up: bool = Field(description="Every node showed that it had handled the tick")
+
+
+class Segment(Record):
+    """A stretch of simulated time with one step and one speed."""
+
+    first: int = Field(description="Index of its first tick")
+    last: int = Field(description="Index of its last tick")
+    step_ns: int
+    speed: float = Field(description="Simulated seconds in a second of real time")
+
+
+class CanarySeen(Record):
+    """A known-good talker that ran beside the student's nodes, and what it managed."""
+
+    wanted_hz: float
+    messages: list[MessageSeen] = Field(default_factory=list)
+
+
 class ExperimentSeen(Record):
     """One experiment: the processes it ran, and all that was seen while they ran."""
 
@@ -124,6 +160,9 @@ class ExperimentSeen(Record):
     )
     processes: dict[str, ProcessSeen] = Field(default_factory=dict, description="By executable")
     spoken: list[Spoken] = Field(default_factory=list)
+    ticks: list[Tick] = Field(default_factory=list)
+    segments: list[Segment] = Field(default_factory=list)
+    canary: CanarySeen | None = None
     discovery_s: float = 0.0
     watching_s: float = 0.0
     ending_s: float = 0.0
@@ -131,8 +170,19 @@ class ExperimentSeen(Record):
         default=0.0, description="Longest time for which the observer itself was not run"
     )
     machine_fault: str | None = Field(
-        default=None, description="Why this experiment says nothing about the student"
+        default=None, description="Why its times say nothing about the student"
     )
+    not_believed: str | None = Field(
+        default=None, description="Why the simulated clock says nothing about this node"
+    )
+    ignores_clock: bool = Field(
+        default=False, description="... because the node takes its time from elsewhere"
+    )
+
+    @property
+    def cpu_wait_s(self) -> float:
+        """The longest time for which one of its processes waited for a processor."""
+        return max((p.cpu_wait_s or 0.0 for p in self.processes.values()), default=0.0)
 
 
 class BuildSeen(Record):
@@ -195,6 +245,9 @@ class Evidence(Record):
     package: PackageSeen
     build: BuildSeen | None = None
     experiments: dict[str, ExperimentSeen] = Field(default_factory=dict)
+    attempts: list[ExperimentSeen] = Field(
+        default_factory=list, description="Experiments that were made again: the earlier runs"
+    )
     advice: list[str] = Field(default_factory=list)
 
     model_config = ConfigDict(extra="forbid", validate_by_name=True, validate_by_alias=True)

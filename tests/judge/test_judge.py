@@ -92,6 +92,7 @@ def test_a_computer_that_stood_still_costs_the_student_nothing(
     """A time limit that is missed while the observer itself was not run: no verdict, the reason."""
     topics = change(other_course / "labs/topics/card.yaml", "hz: 2.0", "hz: 4.0")
     stalled = evidence.model_copy(deep=True)
+    stalled.experiments["talking"].clock = "wall"
     stalled.experiments["talking"].stall_s = 3.0
     verdict = judge(topics, stalled)
     assert outcomes(verdict) == {"rate": "inconclusive"}

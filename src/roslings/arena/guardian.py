@@ -3,10 +3,12 @@
     python -I -S guardian.py FD
 
 FD is one end of a stream socket pair; the arena holds the other. It first sends one line of
-JSON (`Order`), later a signal's name a line. The guardian answers one line of JSON an event:
+JSON (`Order`), later a signal's name, or `WAITS`, a line. The guardian answers one line of JSON
+an event:
 
     {"started": PID}                       {"said": TEXT, "at": NS}
     {"exited": STATUS, "at": NS, ...}      {"refused": REASON}
+    {"waits": {THREAD: NS}}                ready to run, and no processor free, since it began
 
 Where the order asks for it, the process lives in a pid namespace whose first process is this
 guardian: when the guardian goes, the kernel ends all that the process started. Elsewhere the
@@ -155,7 +157,9 @@ class Guardian:
         """Pass a signal on to the process. False when the arena closed its end."""
         orders = self.channel.recv(4096)
         for name in orders.decode().split():
-            if self.exited is None:
+            if name == "WAITS":
+                self.tell({"waits": waits()})
+            elif self.exited is None:
                 os.kill(self.pid, signal.Signals[name])
         return bool(orders)
 
@@ -258,6 +262,20 @@ def descendants() -> list[int]:
     fresh = {os.getpid()}
     while fresh := {pid for pid, parent in parents.items() if parent in fresh}:
         found.extend(fresh)
+    return found
+
+
+def waits() -> dict[str, int]:
+    """For each thread that we guard: nanoseconds in which it was ready and no processor was free.
+
+    The second number of schedstat (Linux, Documentation/scheduler/sched-stats.rst). Empty where
+    the kernel keeps no such account.
+    """
+    found = {}
+    for pid in descendants():
+        with contextlib.suppress(OSError, IndexError, ValueError):
+            for thread in Path(f"/proc/{pid}/task").iterdir():
+                found[thread.name] = int((thread / "schedstat").read_text().split()[1])
     return found
 
 

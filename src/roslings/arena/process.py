@@ -19,6 +19,7 @@ Listener = Callable[[], None]
 HEAD_BYTES = 512 * 1024
 TAIL_BYTES = 64 * 1024
 LONGEST_LINE = 2000
+WAITS_WITHIN_S = 5.0
 PATIENCE = {"SIGINT": 2.0, "SIGTERM": 1.0, "SIGKILL": 10.0}
 """Seconds given after each signal when a block ends and the process still runs."""
 
@@ -66,6 +67,7 @@ class Process:
         self._started = False
         self._gone = False
         self._refused: str | None = None
+        self._waits: dict[str, int] | None = None
 
     def __enter__(self) -> Process:
         ours, theirs = socket.socketpair()
@@ -131,6 +133,17 @@ class Process:
         with self._changed:
             return list(self.seen.lines)
 
+    def waits_ns(self) -> dict[str, int]:
+        """By thread: how long it was ready to run and no processor was free, since it began.
+
+        Empty where the kernel does not tell, and when the process is gone.
+        """
+        with self._changed:
+            self._waits = None
+            self._send("WAITS")
+            self._changed.wait_for(lambda: self._waits is not None or self._gone, WAITS_WITHIN_S)
+            return self._waits or {}
+
     def _ask_to_end(self) -> None:
         self._asked_to_end = True
         for name, patience_s in PATIENCE.items():
@@ -182,6 +195,8 @@ class Process:
             self._hear(str(event["said"]).encode("latin-1"), int(str(event["at"])))
         elif "exited" in event:
             self._note_end(event)
+        elif "waits" in event:
+            self._waits = event["waits"]  # type: ignore[assignment]  # the guardian's own
         elif "refused" in event:
             self._refused = str(event["refused"])
 

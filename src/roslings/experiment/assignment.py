@@ -8,6 +8,7 @@ from pydantic import BaseModel
 
 from roslings.arena import Wall
 from roslings.evidence import PackageSeen
+from roslings.experiment.declare import Clock
 
 
 class Assignment(BaseModel):
@@ -16,6 +17,7 @@ class Assignment(BaseModel):
     lab: str
     seed: int
     wall: Wall
+    clock: Clock = "auto"
     folder: Path
     """The run's own folder: the staged source, the build, the nodes' home, the evidence."""
     package: PackageSeen

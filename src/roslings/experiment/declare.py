@@ -7,7 +7,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import Any, Literal, overload
+
+Clock = Literal["auto", "sim", "wall"]
+"""Which clock rules: the simulated one, the wall's, or the simulated one where it is believed."""
 
 
 @dataclass(frozen=True)
@@ -19,6 +22,8 @@ class Experiment:
 
     name: str
     function: Callable[..., None]
+    clock: Literal["auto", "wall"] = "wall"
+    """`auto` where it makes sense in simulated time as well; most experiments do not."""
 
     @property
     def about(self) -> str:
@@ -32,15 +37,27 @@ class Experiment:
         return code.co_varnames[1 : code.co_argcount]
 
 
-def experiment(function: Callable[..., None]) -> Experiment:
+@overload
+def experiment(function: Callable[..., None]) -> Experiment: ...
+@overload
+def experiment(
+    *, clock: Literal["auto", "wall"]
+) -> Callable[[Callable[..., None]], Experiment]: ...
+def experiment(
+    function: Callable[..., None] | None = None, *, clock: Literal["auto", "wall"] = "wall"
+) -> Experiment | Callable[[Callable[..., None]], Experiment]:
     """Make a function of a grader's file an experiment.
 
-    >>> @experiment
+    >>> @experiment(clock="auto")
     ... def talking(scene):
     ...     with scene.run(TALKER):
     ...         scene.watch(CHATTER)
     """
-    return Experiment(function.__name__, function)
+
+    def declare(function: Callable[..., None]) -> Experiment:
+        return Experiment(function.__name__, function, clock)
+
+    return declare(function) if function else declare
 
 
 def load_grader(path: Path) -> ModuleType:

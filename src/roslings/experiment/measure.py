@@ -12,6 +12,7 @@ from pathlib import Path
 from roslings.arena import choose_isolation
 from roslings.evidence import Evidence, PackageSeen
 from roslings.experiment.assignment import Assignment
+from roslings.experiment.declare import Clock
 from roslings.experiment.run_folder import run_folder
 from roslings.workspace.student import stage
 from roslings.workspace.trouble import DiskFull
@@ -30,7 +31,12 @@ class MeasuringFailed(Exception):
 
 
 def measure(
-    lab: str, package: Path, seen: PackageSeen, seed: int, on_step: Callable[[str], None]
+    lab: str,
+    package: Path,
+    seen: PackageSeen,
+    seed: int,
+    on_step: Callable[[str], None],
+    clock: Clock = "auto",
 ) -> Evidence:
     """Build and run the package at `package`; `on_step` is told what happens.
 
@@ -38,7 +44,9 @@ def measure(
     """
     with run_folder() as folder:
         wall = choose_isolation()
-        assignment = Assignment(lab=lab, seed=seed, wall=wall.wall, folder=folder, package=seen)
+        assignment = Assignment(
+            lab=lab, seed=seed, wall=wall.wall, clock=clock, folder=folder, package=seen
+        )
         assignment.home.mkdir()
         stage(package, folder / "src" / seen.name)
         assignment.file.write_text(assignment.model_dump_json(), "utf-8")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import random
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -10,16 +11,20 @@ from contextlib import contextmanager
 from roslings.arena import Arena, Process
 from roslings.course import NodeContract, TopicContract
 from roslings.evidence import Endpoint, ExperimentSeen
+from roslings.experiment.on_the_wall import WallWatch
+from roslings.experiment.simulated import (
+    IgnoresTheClock,
+    NotBelieved,
+    SimulatedWatch,
+    followed_clock,
+)
 from roslings.near import Near, nearest, nearest_endpoint
 from roslings.probe import Probe
-from roslings.rates import measure_rate
 
 COMES_UP_WITHIN_S = 20.0
 FIRST_MESSAGE_WITHIN_S = 10.0
 HEARD_WITHIN_S = 10.0
 AFTER_THE_TURN_S = 1.0
-SHORTEST_WATCH_PERIODS = 10
-LONGEST_WATCH_PERIODS = 40
 INTERRUPT_SLACK_S = 1.0
 
 
@@ -27,6 +32,8 @@ class Scene:
     """One experiment: an arena where nodes run, and a probe that watches them."""
 
     def __init__(self, arena: Arena, probe: Probe, seed: int, ends_within_s: float) -> None:
+        """The clock is the one that `probe.seen` names."""
+        self._simulated = probe.seen.clock == "sim"
         self._arena = arena
         self._probe = probe
         self._random = random.Random(seed)
@@ -42,24 +49,50 @@ class Scene:
     def run(self, node: NodeContract, remaps: Sequence[str] = ()) -> Iterator[Process]:
         """Start a node, wait until it is in the graph; press Ctrl-C when the block ends."""
         known = set(self.seen.graph.nodes)
-        arguments = [word for rule in remaps for word in ("-r", rule)]
-        with self._arena.run(
-            node.executable, ["--ros-args", *arguments] if remaps else []
-        ) as process:
+        with self._arena.run(node.executable, self._arguments(remaps)) as process:
             self.seen.processes[node.executable] = process.seen
             self._wait_up(process, known)
             yield process
             self._end(process)
 
+    def _arguments(self, remaps: Sequence[str]) -> list[str]:
+        words = [word for rule in remaps for word in ("-r", rule)]
+        clock = ["-p", "use_sim_time:=true"] if self._simulated else []
+        return ["--ros-args", *words, *clock] if words or clock else []
+
     def watch(self, contract: TopicContract) -> None:
         """Watch a topic, or the one nearest to it, until its rate is sure or the bound is met."""
         with self._timed_watching():
+            if self._simulated:
+                self._watch_simulated(contract)
+            else:
+                self._watch_on_the_wall(contract)
+
+    def _watch_simulated(self, contract: TopicContract) -> None:
+        """In two stretches of simulated time; what speaks against believing it is written down."""
+        try:
+            topic = self._publisher_in_time(contract).topic
+            with followed_clock(self._probe, self.seen.graph.nodes) as (clock, barrier):
+                SimulatedWatch(self._probe, clock, barrier, topic, contract.rate).watch()
+            if not self._arena.all_alive():
+                raise NotBelieved("it ended while it was watched")
+        except NotBelieved as reason:
+            self.seen.not_believed = str(reason)
+            self.seen.ignores_clock = isinstance(reason, IgnoresTheClock)
+
+    def _publisher_in_time(self, contract: TopicContract) -> Endpoint:
+        self._until_alive(lambda: self._publisher(contract) is not None, FIRST_MESSAGE_WITHIN_S)
+        publisher = self._publisher(contract)
+        if publisher is None:
+            raise NotBelieved("it publishes nothing")
+        return publisher
+
+    def _watch_on_the_wall(self, contract: TopicContract) -> None:
+        if contract.rate:
+            find = functools.partial(self._publisher, contract)
+            WallWatch(self._probe, self._arena, contract.rate, find).watch()
+        else:
             self._until_alive(lambda: self._heard(contract) > 0, FIRST_MESSAGE_WITHIN_S)
-            if contract.rate and self._heard(contract):
-                period_s = 1 / contract.rate.hz
-                self._until_alive(lambda: False, SHORTEST_WATCH_PERIODS * period_s)
-                rest_s = (LONGEST_WATCH_PERIODS - SHORTEST_WATCH_PERIODS) * period_s
-                self._until_alive(lambda: self._rate_is_sure(contract), rest_s)
 
     def say_sentences(self, listener: Process, contract: TopicContract, count: int) -> None:
         """Say random sentences on a topic, or on the one nearest to it, and wait for each echo."""
@@ -133,13 +166,6 @@ class Scene:
     def _heard(self, contract: TopicContract) -> int:
         publisher = self._publisher(contract)
         return self._probe.count(publisher.topic) if publisher else 0
-
-    def _rate_is_sure(self, contract: TopicContract) -> bool:
-        publisher = self._publisher(contract)
-        if publisher is None or contract.rate is None:
-            return False
-        rate = measure_rate(self._probe.messages(publisher.topic))
-        return rate is not None and rate.clear_of((contract.rate.low_hz, contract.rate.high_hz))
 
     @contextmanager
     def _timed_watching(self) -> Iterator[None]:

@@ -8,7 +8,7 @@ from itertools import pairwise
 from typing import TypeVar
 
 from roslings.course import CourseError, NodeContract, RateContract, TopicContract
-from roslings.evidence import Spoken
+from roslings.evidence import ExperimentSeen, Spoken
 from roslings.judge import faults
 from roslings.judge.views import (
     Demand,
@@ -26,8 +26,6 @@ from roslings.near import own_endpoints
 from roslings.rates import Rate
 
 FEWEST_MESSAGES = 5
-MOST_UNEVEN = 0.25
-"""A quarter of the periods may be odd: a busy machine delays single messages, not every one."""
 SIMILAR_LINE = 0.5
 LONGEST_STALL_S = 0.5
 Asked = TypeVar("Asked")
@@ -212,9 +210,11 @@ def _most_similar(wanted: str, lines: list[str]) -> str | None:
 
 
 def be_named(node: NodeView) -> None:
-    """The node has the contract's full name."""
+    """The node has the contract's full name, and no other node has it."""
     if not node.near.exact:
         raise faults.WrongNodeName(node.near)
+    if node.count > 1:
+        raise faults.NodeTwice(node.near.found, node.count)
 
 
 def be_there(endpoint: EndpointView) -> None:
@@ -282,23 +282,42 @@ def have_rate(contract: TopicContract) -> Demand[TopicView]:
     limit = written(contract.rate, contract.topic)
 
     def demand(topic: TopicView) -> None:
+        require_believable(topic.experiment)
         rate = topic.rate
         if rate is None:
-            raise faults.NoMessages(topic.name, len(topic.messages), topic.watched_s)
-        kind = _rate_fault(rate, limit)
+            require_steady(topic.experiment.stall_s)
+            raise faults.NoMessages(topic.name, len(topic.messages), topic.experiment.watching_s)
+        kind = faults.rate_fault(rate, limit.low_hz, limit.high_hz)
+        if kind is not faults.Bursts:
+            require_enough(topic, rate, limit)
         if kind:
-            require_steady(topic.stall_s)
+            if topic.experiment.clock == "wall":
+                require_steady(topic.experiment.stall_s)
             raise kind(topic.name, limit.hz, limit.within, rate)
 
     return demand
 
 
-def _rate_fault(rate: Rate, limit: RateContract) -> type[faults.WrongRate] | None:
-    if rate.uneven_share() > MOST_UNEVEN:
-        return faults.Bursts
-    if rate.hz < limit.low_hz:
-        return faults.TooSlow
-    return faults.TooFast if rate.hz > limit.high_hz else None
+def require_believable(seen: ExperimentSeen) -> None:
+    """Before a time is held against the student, or for them. Raises Inconclusive."""
+    if seen.machine_fault:
+        raise faults.Inconclusive(f"{seen.machine_fault}; close other programs and check again")
+    if seen.not_believed:
+        raise faults.Inconclusive(
+            f"in simulated time, {seen.not_believed}; check again with --clock auto"
+        )
+
+
+def require_enough(topic: TopicView, rate: Rate, limit: RateContract) -> None:
+    """Watching longer could not turn the answer. Raises Inconclusive.
+
+    After the longest watch, a rate at the very limit is what it was measured to be.
+    """
+    if not topic.heard.watched_to_bound and not rate.clear_of((limit.low_hz, limit.high_hz)):
+        raise faults.Inconclusive(
+            f"too little evidence: {rate.hz:.3f} Hz (±{rate.uncertainty_hz:.3f}) was seen, too"
+            f" near to the limits, {limit.low_hz:g} Hz and {limit.high_hz:g} Hz; check again"
+        )
 
 
 def say_its_text(topic: TopicView) -> None:

@@ -19,10 +19,11 @@ from roslings.evidence import (
     PictureSeen,
     ProcessSeen,
     Qos,
+    TopicSeen,
 )
 from roslings.judge.faults import NothingToJudge
 from roslings.near import Near, nearest, nearest_endpoint, own_endpoints
-from roslings.rates import Rate, measure_rate
+from roslings.rates import Rate, longest_step_s, measure_rate, measure_simulated_rate
 
 LAST_LINES = 12
 V = TypeVar("V", bound="View")
@@ -63,6 +64,8 @@ class NodeView(View):
     """The node in the graph that is, or is nearest to, the one in the contract."""
 
     near: Near
+    count: int = 1
+    """How many nodes have this name."""
 
 
 @dataclass(frozen=True)
@@ -146,15 +149,22 @@ class TopicView(View):
     contract: TopicContract
     name: str
     type: str
-    messages: tuple[MessageSeen, ...]
-    watched_s: float
-    stall_s: float
-    """Longest time for which this computer did not even run the observer."""
+    heard: TopicSeen
+    experiment: ExperimentSeen
+
+    @property
+    def messages(self) -> tuple[MessageSeen, ...]:
+        """In the order of arrival."""
+        return tuple(self.heard.messages)
 
     @property
     def rate(self) -> Rate | None:
-        """How often they came; None for too few."""
-        return measure_rate(self.messages)
+        """How often they came; None for too few. By the clock that ruled the experiment."""
+        seen = self.experiment
+        if seen.clock == "sim":
+            return measure_simulated_rate(self.messages, longest_step_s(seen.segments))
+        rate = measure_rate(self.messages)
+        return rate.held_up(seen.cpu_wait_s) if rate else None
 
     @property
     def texts(self) -> list[str]:
@@ -192,7 +202,7 @@ class ExperimentView(View):
         near = nearest(node.node, self.seen.graph.nodes)
         if near is None:
             raise NothingToJudge("no node was seen in the graph")
-        return NodeView(near)
+        return NodeView(near, self.seen.graph.nodes.count(near.found))
 
     def publisher(self, node: NodeContract, topic: TopicContract) -> EndpointView:
         """What publishes the topic, or the nearest to it."""
@@ -221,9 +231,8 @@ class ExperimentView(View):
             contract,
             endpoint.topic,
             endpoint.type,
-            tuple(heard.messages) if heard else (),
-            self.seen.watching_s,
-            self.seen.stall_s,
+            heard or TopicSeen(name=endpoint.topic, type=endpoint.type),
+            self.seen,
         )
 
     def _endpoint(

@@ -4,15 +4,27 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from types import TracebackType
 from typing import Any
 
-from roslings.evidence import Endpoint, ExperimentSeen, GraphSeen, LogLine, Qos, Spoken
+from roslings.evidence import (
+    CanarySeen,
+    Endpoint,
+    ExperimentSeen,
+    GraphSeen,
+    LogLine,
+    Qos,
+    Spoken,
+)
 from roslings.near import own_endpoints
+from roslings.probe import canary
+from roslings.probe.clock import Barrier, SimClock
 from roslings.probe.content import from_plain
 from roslings.probe.graph import read_graph
 from roslings.probe.recorder import Recorder, can_record
+from roslings.rates import place_on_ticks
 
 NAME = "_roslings_probe"
 LOOK_EVERY_S = 0.02
@@ -73,6 +85,7 @@ class Probe:
         self._context.try_shutdown()
         for name, recorder in self._recorders.items():
             recorder.read_contents()
+            place_on_ticks(recorder.seen.messages, self.seen.ticks)
             self.seen.topics[name] = recorder.seen
 
     def until(self, condition: Condition, within_s: float) -> bool:
@@ -115,6 +128,11 @@ class Probe:
         recorder = self._recorders.get(topic)
         return list(recorder.seen.messages) if recorder else []
 
+    def note_longest_watch(self, topic: str) -> None:
+        """Nobody will watch `topic` for longer than this."""
+        if topic in self._recorders:
+            self._recorders[topic].seen.watched_to_bound = True
+
     def notify(self) -> None:
         """Something changed elsewhere: look again at once."""
         with self._changed:
@@ -139,30 +157,34 @@ class Probe:
         self.seen.spoken.append(spoken)
         return spoken
 
-    def turned(self, node: str, within_s: float, trips: int = 2) -> bool:
-        """Wait until the node's executor has turned: it answered `trips` parameter requests.
+    def turned(self, node: str, within_s: float) -> bool:
+        """Wait until the node's executor has run the callback of all that was sent before.
 
-        Two round trips show that a single-threaded executor has run the callback of every
-        message that came before them. False where the node does not answer within the time.
+        False where the node does not answer within the time.
         """
-        from rcl_interfaces.srv import GetParameters
-
-        client = self._eye.create_client(GetParameters, f"{node}/get_parameters")
         deadline_s = time.monotonic() + within_s
+        with self.barrier([node]) as barrier:
+            ready = self.until(lambda: barrier.ready, within_s)
+            return ready and barrier.passed(max(0.0, deadline_s - time.monotonic()))
+
+    @contextmanager
+    def barrier(self, nodes: Sequence[str]) -> Iterator[Barrier]:
+        """What shows that `nodes` have kept up."""
+        barrier = Barrier(self._eye, nodes)
         try:
-            return self.until(client.service_is_ready, within_s) and all(
-                self._trip(client, deadline_s - time.monotonic()) for _ in range(trips)
-            )
+            yield barrier
         finally:
-            self._eye.destroy_client(client)
+            barrier.close()
 
-    def _trip(self, client: Any, within_s: float) -> bool:
-        from rcl_interfaces.srv import GetParameters
+    def clock(self) -> SimClock:
+        """Become the source of simulated time in this domain."""
+        return SimClock(self._eye, self.seen.ticks)
 
-        answered = threading.Event()
-        future = client.call_async(GetParameters.Request(names=["use_sim_time"]))
-        future.add_done_callback(lambda _: answered.set())
-        return answered.wait(max(0.0, within_s))
+    def listen_to_canary(self, hz: float) -> None:
+        """Record what the canary says, beside the graph that the student's nodes are in."""
+        self.seen.canary = CanarySeen(wanted_hz=hz)
+        self._canary = Recorder(self._eye, canary.endpoint(), self.notify)
+        self.seen.canary.messages = self._canary.seen.messages
 
     def _publisher_for(self, ear: Endpoint) -> Any:
         if ear.gid not in self._publishers:

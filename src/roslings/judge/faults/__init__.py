@@ -21,6 +21,7 @@ from roslings.judge.faults.files import (
     WrongBuildType,
 )
 from roslings.judge.faults.graph import (
+    NodeTwice,
     NoTopic,
     NotTheAskedGraph,
     QosCannotMatch,
@@ -31,15 +32,11 @@ from roslings.judge.faults.graph import (
     qos_conflict,
 )
 from roslings.judge.faults.messages import (
-    Bursts,
     CountRepeats,
     CountRestarts,
     CountSkips,
     NoMessages,
-    TooFast,
-    TooSlow,
     WrongCount,
-    WrongRate,
     WrongText,
 )
 from roslings.judge.faults.pictures import (
@@ -55,6 +52,17 @@ from roslings.judge.faults.processes import (
     LeavesProcesses,
     StoppedByItself,
     UncleanExit,
+)
+from roslings.judge.faults.rhythm import (
+    Bursts,
+    Drifts,
+    SleepsAfterWorking,
+    StallsNowAndThen,
+    StartsLate,
+    TooFast,
+    TooSlow,
+    WrongRate,
+    rate_fault,
 )
 from roslings.judge.faults.writing import (
     AlmostRepeats,
@@ -74,6 +82,7 @@ __all__ = [
     "DidNotComeUp",
     "DoesNotEnd",
     "DoesNotRepeat",
+    "Drifts",
     "Fault",
     "FixedText",
     "Inconclusive",
@@ -84,6 +93,7 @@ __all__ = [
     "NoMessages",
     "NoPicture",
     "NoTopic",
+    "NodeTwice",
     "NotAPicture",
     "NotAnAmentPackage",
     "NotLogged",
@@ -92,6 +102,9 @@ __all__ = [
     "OneColour",
     "PictureTooSmall",
     "QosCannotMatch",
+    "SleepsAfterWorking",
+    "StallsNowAndThen",
+    "StartsLate",
     "StoppedByItself",
     "SyntaxErrorInCode",
     "TooFast",
@@ -108,4 +121,5 @@ __all__ = [
     "WrongTopic",
     "WrongType",
     "qos_conflict",
+    "rate_fault",
 ]

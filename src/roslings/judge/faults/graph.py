@@ -37,6 +37,26 @@ class WrongNodeName(Fault):
 
 
 @dataclass(eq=False)
+class NodeTwice(Fault):
+    """Two nodes have one name."""
+
+    name: str
+    count: int
+    why = "ROS cannot tell two nodes of one name apart: settings and commands reach either."
+    hint = "How often does your code make this node? Once in main() is enough."
+
+    @property
+    def expected(self) -> str:
+        """One."""
+        return f"one node {self.name}"
+
+    @property
+    def measured(self) -> str:
+        """How many."""
+        return f"{self.count} nodes with this name"
+
+
+@dataclass(eq=False)
 class WrongTopic(Fault):
     """The node uses a topic, but under another name."""
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from roslings.judge.faults.base import Fault
-from roslings.rates import Rate
 
 
 @dataclass(eq=False)
@@ -27,67 +26,6 @@ class NoMessages(Fault):
     def measured(self) -> str:
         """How many came."""
         return f"{self.count} message(s) in {self.seconds:.1f} s"
-
-
-@dataclass(eq=False)
-class WrongRate(Fault):
-    """The rate is outside its limits."""
-
-    topic: str
-    wanted_hz: float
-    within: float
-    rate: Rate
-    why = "Other nodes rely on the rate: a slow sensor is like a robot with closed eyes."
-
-    @property
-    def expected(self) -> str:
-        """The rate and its tolerance."""
-        return f"{self.wanted_hz:g} Hz on {self.topic} (within {self.within:.0%})"
-
-    @property
-    def measured(self) -> str:
-        """The rate, how sure it is, and the period."""
-        return (
-            f"{self.rate.hz:.2f} Hz (±{max(self.rate.uncertainty_hz, 0.01):.2f}),"
-            f" one message every {self.rate.period_s:.2f} s"
-        )
-
-    @property
-    def hint(self) -> str:
-        """The period to aim at."""
-        return (
-            f"{self.wanted_hz:g} Hz means one message every {1 / self.wanted_hz:g} s."
-            " Look at the period that you give create_timer(...)."
-        )
-
-
-@dataclass(eq=False)
-class TooSlow(WrongRate):
-    """Fewer messages than asked for."""
-
-
-@dataclass(eq=False)
-class TooFast(WrongRate):
-    """More messages than asked for."""
-
-
-@dataclass(eq=False)
-class Bursts(WrongRate):
-    """The number is right, but the messages come in groups."""
-
-    why = "A robot that hears nothing for a while and then everything at once acts too late."
-    hint = "Publish one message in each call of the timer's function, not several in a loop."
-
-    @property
-    def expected(self) -> str:
-        """Even spacing."""
-        return f"one message every {1 / self.wanted_hz:g} s on {self.topic}, evenly"
-
-    @property
-    def measured(self) -> str:
-        """The shape of the intervals."""
-        shortest, longest = min(self.rate.periods_s), max(self.rate.periods_s)
-        return f"groups: pauses from {shortest:.3f} s to {longest:.2f} s between two messages"
 
 
 @dataclass(eq=False)

@@ -1,0 +1,148 @@
+"""Watching a rate in real time, beside a canary that tells whether this computer can keep one."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+
+from roslings.arena import Arena
+from roslings.course import RateContract
+from roslings.evidence import CanarySeen, Endpoint, ExperimentSeen
+from roslings.probe import Probe
+from roslings.rates import NS_PER_S, Rate, measure_rate
+
+FIRST_MESSAGE_WITHIN_S = 10.0
+CANARY_WITHIN_S = 20.0
+SHORTEST_PERIODS = 10
+LONGEST_PERIODS = 40
+CANARY_MISSES = 0.5
+"""Part of the tolerance by which the canary may miss its rate before nothing is believed."""
+
+MOST_UNEVEN = 0.25
+LONGEST_STALL_S = 0.5
+"""For which this computer may not even run the observer, before a fault is held against a node."""
+
+
+@contextmanager
+def singing(hz: float, domain_id: int) -> Iterator[None]:
+    """A canary in this domain while the block runs."""
+    command = [sys.executable, "-m", "roslings.probe.canary", str(hz)]
+    environment = {**os.environ, "ROS_DOMAIN_ID": str(domain_id)}
+    quiet = subprocess.DEVNULL
+    with subprocess.Popen(
+        command, env=environment, stdin=quiet, stdout=quiet, stderr=quiet
+    ) as process:
+        try:
+            yield
+        finally:
+            process.kill()
+
+
+@dataclass
+class WallWatch:
+    """The rate of one topic, until it is sure or the bound is met."""
+
+    probe: Probe
+    arena: Arena
+    limit: RateContract
+    publisher: Callable[[], Endpoint | None]
+    _began: list[dict[str, int]] = field(default_factory=list)
+    _judged: int = -1
+    _sure: bool = False
+
+    def watch(self) -> None:
+        """Watch, and write down what speaks against believing it."""
+        seen = self.probe.seen
+        with singing(self.limit.hz, self.arena.domain_id):
+            self.probe.listen_to_canary(self.limit.hz)
+            self._until(lambda: bool(self._count()), FIRST_MESSAGE_WITHIN_S)
+            self._until(self._canary_sings, CANARY_WITHIN_S)
+            if self._count():
+                self._watch_rate()
+        seen.machine_fault = trouble(seen, self._rate(), self.limit)
+
+    def _watch_rate(self) -> None:
+        self._began = [process.waits_ns() for process in self.arena.processes]
+        period_s = 1 / self.limit.hz
+        self._until(lambda: False, SHORTEST_PERIODS * period_s)
+        self._until(self._is_sure, (LONGEST_PERIODS - SHORTEST_PERIODS) * period_s)
+        if not self._sure and self.arena.all_alive():
+            self.probe.note_longest_watch(self._topic())
+        self._note_waits()
+
+    def _is_sure(self) -> bool:
+        """Asked at every look; the sum is done when a message came."""
+        if self._judged != (count := self._count()):
+            self._judged = count
+            self._note_waits()
+            rate = self._rate()
+            limits_hz = (self.limit.low_hz, self.limit.high_hz)
+            self._sure = rate is not None and (rate.clear_of(limits_hz) or rate.in_groups)
+        return self._sure
+
+    def _note_waits(self) -> None:
+        """How long each process waited for a processor since the watch began."""
+        for process, before_ns in zip(self.arena.processes, self._began, strict=True):
+            if now_ns := process.waits_ns():
+                process.seen.cpu_wait_s = longest_wait_s(before_ns, now_ns)
+
+    def _rate(self) -> Rate | None:
+        rate = measure_rate(self.probe.messages(self._topic()))
+        return rate.held_up(self.probe.seen.cpu_wait_s) if rate else None
+
+    def _topic(self) -> str:
+        publisher = self.publisher()
+        return publisher.topic if publisher else ""
+
+    def _count(self) -> int:
+        return self.probe.count(self._topic())
+
+    def _canary_sings(self) -> bool:
+        canary = self.probe.seen.canary
+        return canary is not None and len(canary.messages) > 0
+
+    def _until(self, condition: Callable[[], bool], within_s: float) -> bool:
+        """Wait for the condition, as long as every process lives."""
+        self.probe.until(lambda: condition() or not self.arena.all_alive(), within_s)
+        return condition()
+
+
+def longest_wait_s(before_ns: dict[str, int], now_ns: dict[str, int]) -> float:
+    """Of all threads, the longest time that one was ready and no processor was free."""
+    return max(now_ns[thread] - before_ns.get(thread, 0) for thread in now_ns) / NS_PER_S
+
+
+def trouble(seen: ExperimentSeen, rate: Rate | None, limit: RateContract) -> str | None:
+    """Why this computer, not the node, decides what was seen here; None where it does not."""
+    if seen.canary and (missed := _missed(seen.canary, limit)):
+        return missed
+    limits_hz = (limit.low_hz, limit.high_hz)
+    if seen.stall_s > LONGEST_STALL_S and not (rate and _within(rate, limits_hz)):
+        return f"this computer stood still for {seen.stall_s:.1f} s while your nodes ran"
+    if rate and rate.delayed and not rate.clear_of(limits_hz):
+        return (
+            f"your node was ready to run and waited {seen.cpu_wait_s:.1f} s for a free processor,"
+            " so its own rate cannot be told"
+        )
+    return None
+
+
+def _within(rate: Rate, limits_hz: tuple[float, float]) -> bool:
+    return limits_hz[0] <= rate.hz <= limits_hz[1]
+
+
+def _missed(canary: CanarySeen, limit: RateContract) -> str | None:
+    rate = measure_rate(canary.messages)
+    if rate is None:
+        return "a talker that is known to be good did not come up beside yours"
+    off_hz = abs(rate.hz - canary.wanted_hz) - rate.uncertainty_hz
+    if off_hz <= CANARY_MISSES * limit.within * limit.hz and rate.uneven_share() <= MOST_UNEVEN:
+        return None
+    return (
+        f"a talker that is known to be good ran beside yours, and reached {rate.hz:.2f} Hz"
+        f" of {canary.wanted_hz:g} Hz"
+    )

@@ -1,0 +1,215 @@
+"""Faults in when messages come: how often, and how evenly."""
+
+from __future__ import annotations
+
+import statistics
+from dataclasses import dataclass
+from itertools import pairwise
+
+from roslings.judge.faults.base import Fault
+from roslings.rates import Rate
+
+MOST_UNEVEN = 0.25
+"""A quarter of the periods may be odd: a busy machine delays single messages, not every one."""
+
+STALL = 1.5
+"""A period that is longer than the usual one by this factor holds a stall."""
+
+STEADY = 0.1
+"""Periods that differ by less than this part of their mean are steady."""
+
+WORKS_UP_TO = 0.9
+"""Work that takes longer than this part of the period is called a wrong period."""
+
+DRIFT = 0.2
+"""From the first third of the watch to the last, the period changed by more than this part."""
+
+
+@dataclass(eq=False)
+class WrongRate(Fault):
+    """The rate is outside its limits."""
+
+    topic: str
+    wanted_hz: float
+    within: float
+    rate: Rate
+    why = "Other nodes rely on the rate: a slow sensor is like a robot with closed eyes."
+
+    @property
+    def expected(self) -> str:
+        """The rate and its tolerance."""
+        return f"{self.wanted_hz:g} Hz on {self.topic} (within {self.within:.0%})"
+
+    @property
+    def measured(self) -> str:
+        """The rate, how sure it is, and the period."""
+        return (
+            f"{self.rate.hz:.2f} Hz (±{max(self.rate.uncertainty_hz, 0.01):.2f}),"
+            f" one message every {self.rate.period_s:.2f} s"
+        )
+
+    @property
+    def hint(self) -> str:
+        """The period to aim at."""
+        return (
+            f"{self.wanted_hz:g} Hz means one message every {1 / self.wanted_hz:g} s."
+            " Look at the period that you give create_timer(...)."
+        )
+
+
+@dataclass(eq=False)
+class TooSlow(WrongRate):
+    """Fewer messages than asked for."""
+
+
+@dataclass(eq=False)
+class TooFast(WrongRate):
+    """More messages than asked for."""
+
+
+@dataclass(eq=False)
+class Bursts(WrongRate):
+    """The number is right, but the messages come in groups."""
+
+    why = "A robot that hears nothing for a while and then everything at once acts too late."
+    hint = "Publish one message in each call of the timer's function, not several in a loop."
+
+    @property
+    def expected(self) -> str:
+        """Even spacing."""
+        return f"one message every {1 / self.wanted_hz:g} s on {self.topic}, evenly"
+
+    @property
+    def measured(self) -> str:
+        """The shape of the intervals."""
+        shortest, longest = min(self.rate.periods_s), max(self.rate.periods_s)
+        return f"groups: pauses from {shortest:.3f} s to {longest:.2f} s between two messages"
+
+
+@dataclass(eq=False)
+class SleepsAfterWorking(TooSlow):
+    """Steady, and longer than asked: the work comes on top of the waiting."""
+
+    @property
+    def measured(self) -> str:
+        """The period, and how much of it may be work."""
+        work_s = self.rate.median_s - 1 / self.wanted_hz
+        return (
+            f"{self.rate.hz:.2f} Hz: one message every {self.rate.median_s:.2f} s, evenly,"
+            f" each about {work_s:.2f} s late"
+        )
+
+    @property
+    def hint(self) -> str:
+        """Wait on a timer, work quickly."""
+        wanted_s = 1 / self.wanted_hz
+        work_s = self.rate.median_s - wanted_s
+        return (
+            f"Do you work for {work_s:.2f} s and then sleep for {wanted_s:g} s? The two add up."
+            f" Use create_timer({wanted_s:g}, ...), and let its function return at once."
+        )
+
+
+@dataclass(eq=False)
+class StallsNowAndThen(TooSlow):
+    """The usual period is right, but now and then there is a long pause."""
+
+    @property
+    def measured(self) -> str:
+        """The usual period, and the longest one."""
+        return (
+            f"usually one message every {self.rate.median_s:.2f} s, but pauses of up to"
+            f" {max(self.rate.periods_s):.2f} s"
+        )
+
+    @property
+    def hint(self) -> str:
+        """What takes long now and then."""
+        return "What does your node do only now and then, and takes long? Look for loops and sleep."
+
+
+@dataclass(eq=False)
+class StartsLate(TooSlow):
+    """The first message is alone; only after a pause the others come, at the right rate."""
+
+    @property
+    def measured(self) -> str:
+        """The first pause."""
+        return (
+            f"{self.rate.periods_s[0]:.2f} s from the first message to the second, then one"
+            f" every {self.rate.median_s:.2f} s"
+        )
+
+    @property
+    def hint(self) -> str:
+        """What stands between the first message and the timer."""
+        return (
+            "Start the timer in __init__, and publish only in its function. What waits between"
+            " your first publish() and the timer?"
+        )
+
+
+@dataclass(eq=False)
+class Drifts(WrongRate):
+    """The period grows or shrinks from message to message."""
+
+    why = "A rate that changes by itself ends up anywhere."
+
+    @property
+    def measured(self) -> str:
+        """The period at the beginning and at the end."""
+        first_s, last_s = thirds(self.rate)
+        return f"one message every {first_s:.2f} s at first, every {last_s:.2f} s at the end"
+
+    @property
+    def hint(self) -> str:
+        """What grows."""
+        return (
+            "Something grows with every message: a list, a sleep, a number of timers. Is"
+            " create_timer(...) called more than once?"
+        )
+
+
+def rate_fault(rate: Rate, low_hz: float, high_hz: float) -> type[WrongRate] | None:
+    """What is wrong with a rate; None where it lies within the limits and is even.
+
+    The shape of the intervals tells the likely reason.
+    """
+    if rate.uneven_share() > MOST_UNEVEN:
+        return Drifts if _drifts(rate) else Bursts
+    if low_hz <= rate.hz <= high_hz:
+        return None
+    if _drifts(rate):
+        return Drifts
+    return TooFast if rate.hz > high_hz else _slow(rate, low_hz, high_hz)
+
+
+def _slow(rate: Rate, low_hz: float, high_hz: float) -> type[TooSlow]:
+    wanted_s = 2 / (low_hz + high_hz)
+    usual_right = 1 / high_hz <= rate.median_s <= 1 / low_hz
+    stalls = [p > STALL * rate.median_s for p in rate.periods_s]
+    if usual_right and stalls[0] and not any(stalls[1:]):
+        return StartsLate
+    if usual_right and any(stalls):
+        return StallsNowAndThen
+    steady = rate.jitter_s < STEADY * rate.period_s
+    worked_s = rate.median_s - wanted_s
+    return SleepsAfterWorking if steady and worked_s < WORKS_UP_TO * wanted_s else TooSlow
+
+
+def thirds(rate: Rate) -> tuple[float, float]:
+    """The usual period in the first third of the watch, and in the last, in seconds."""
+    third = max(1, len(rate.periods_s) // 3)
+    return statistics.median(rate.periods_s[:third]), statistics.median(rate.periods_s[-third:])
+
+
+def _drifts(rate: Rate) -> bool:
+    """Each third of the watch is slower than the one before, or each is faster."""
+    third = len(rate.periods_s) // 3
+    if third < 2:
+        return False
+    parts = [rate.periods_s[n * third : (n + 1) * third] for n in range(3)]
+    slower = all(max(a) < min(b) for a, b in pairwise(parts))
+    faster = all(min(a) > max(b) for a, b in pairwise(parts))
+    first_s, last_s = thirds(rate)
+    return (slower or faster) and abs(last_s - first_s) > DRIFT * first_s

@@ -1,0 +1,32 @@
+"""A timer in a MultiThreadedExecutor."""
+
+import rclpy
+from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
+from rclpy.node import Node
+from std_msgs.msg import String
+
+
+class Talker(Node):
+    """Says hello twice a second."""
+
+    def __init__(self):
+        super().__init__("talker")
+        self.voice = self.create_publisher(String, "chatter", 10)
+        self.timer = self.create_timer(0.5, self.talk)
+        self.count = 0
+
+    def talk(self):
+        """One more."""
+        self.voice.publish(String(data=f"Hello robotics {self.count}"))
+        self.count += 1
+
+
+try:
+    rclpy.init()
+    executor = MultiThreadedExecutor()
+    executor.add_node(Talker())
+    executor.spin()
+except (KeyboardInterrupt, ExternalShutdownException):
+    pass
+finally:
+    rclpy.try_shutdown()

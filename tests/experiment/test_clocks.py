@@ -1,0 +1,84 @@
+"""Simulated time and the wall give the same answer, whatever the node takes its time from."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+from watching import HERE, RATE, TOPIC, watched
+
+from roslings.evidence import ExperimentSeen
+from roslings.experiment.declare import Clock
+from roslings.judge.demands import have_rate
+from roslings.judge.faults import Fault, Inconclusive
+from roslings.judge.views import ExperimentView
+
+STYLES = sorted((HERE / "styles").glob("*.py"))
+FOLLOW_THE_CLOCK = ("composed", "functions", "timer", "two_nodes")
+"""One thread, and a timer: these are judged in simulated time, on any machine."""
+
+TRICKY = {
+    "bursts": "Bursts",
+    "bursts_of_a_thousand": "Bursts",
+    "large_messages": "right",
+    "no_parameter_services": "right",
+    "one_hertz": "TooSlow",
+    "publishes_clock": "right",
+    "sets_use_sim_time_false": "right",
+    "sleeping_thread": "TooFast",
+    "steady_clock": "right",
+    "stops_reading": "NoMessages",
+    "ten_milliseconds": "TooFast",
+    "ten_minutes": "NoMessages",
+    "too_fast": "TooFast",
+    "woken_by_anything": "right",
+    "works_longer_than_its_period": "SleepsAfterWorking",
+}
+CLOCKS: tuple[Clock, ...] = ("auto", "wall")
+
+
+def answer(runs: Sequence[ExperimentSeen]) -> str:
+    """What a check on the rate says of the run that counts."""
+    try:
+        ExperimentView(runs[-1]).topic(TOPIC).must(have_rate(TOPIC))
+    except Fault as fault:
+        return type(fault).__name__
+    except Inconclusive:
+        return "inconclusive"
+    return "right"
+
+
+@pytest.mark.parametrize("clock", CLOCKS)
+@pytest.mark.parametrize("style", STYLES, ids=lambda style: style.stem)
+def test_correct_nodes_of_every_style_are_right(style: Path, clock: Clock) -> None:
+    """By both clocks. A computer that is too busy may keep the answer back, but not change it."""
+    assert answer(watched(style, clock)) in ("right", "inconclusive")
+
+
+@pytest.mark.parametrize("name", FOLLOW_THE_CLOCK)
+def test_what_follows_the_clock_is_judged_by_it(name: str) -> None:
+    """In one run, and exactly, however busy the computer is."""
+    (seen,) = watched(HERE / "styles" / f"{name}.py")
+    assert seen.clock == "sim"
+    assert seen.not_believed is None
+    rate = ExperimentView(seen).topic(TOPIC).rate
+    assert rate is not None
+    assert rate.hz == pytest.approx(RATE.hz)
+
+
+@pytest.mark.parametrize("clock", CLOCKS)
+@pytest.mark.parametrize("name", TRICKY)
+def test_tricky_nodes_get_the_same_answer_by_both_clocks(name: str, clock: Clock) -> None:
+    """What simulated time alone would judge wrongly, and what is hard to watch at all."""
+    assert answer(watched(HERE / "tricky" / f"{name}.py", clock)) in (TRICKY[name], "inconclusive")
+
+
+@pytest.mark.parametrize(
+    "name", ["sleeping_thread", "works_longer_than_its_period", "steady_clock"]
+)
+def test_simulated_time_alone_is_not_believed(name: str) -> None:
+    """Forced to it, the answer is neither right nor wrong."""
+    (seen,) = watched(HERE / "tricky" / f"{name}.py", "sim")
+    assert seen.not_believed
+    assert answer([seen]) in ("inconclusive", "NoMessages")

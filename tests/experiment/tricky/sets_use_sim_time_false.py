@@ -1,0 +1,32 @@
+"""It wants the time of the wall, whatever it is told."""
+
+import rclpy
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from std_msgs.msg import String
+
+
+class Talker(Node):
+    """Not quite a talker."""
+
+    def __init__(self):
+        super().__init__("talker")
+        self.voice = self.create_publisher(String, "chatter", 10)
+        self.set_parameters([Parameter("use_sim_time", value=False)])
+        self.timer = self.create_timer(0.5, self.talk)
+        self.count = 0
+
+    def talk(self):
+        """One turn."""
+        self.voice.publish(String(data=f"Hello robotics {self.count}"))
+        self.count += 1
+
+
+try:
+    rclpy.init()
+    rclpy.spin(Talker())
+except (KeyboardInterrupt, ExternalShutdownException):
+    pass
+finally:
+    rclpy.try_shutdown()
