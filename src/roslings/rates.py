@@ -89,6 +89,10 @@ class Rate:
         """No limit lies within the uncertainty: more messages would not change the answer."""
         return not any(self.low_hz <= limit <= self.high_hz for limit in limits_hz)
 
+    def blurred(self, limits_hz: Sequence[float]) -> bool:
+        """Only because this computer held the node up is it not clear on which side it is."""
+        return not self.clear_of(limits_hz) and replace(self, delayed=0.0).clear_of(limits_hz)
+
     def held_up(self, wait_s: float) -> Rate:
         """The same rate, of a node that waited `wait_s` for a processor while it was watched.
 
@@ -111,22 +115,23 @@ def measure_rate(messages: Sequence[MessageSeen]) -> Rate | None:
     return _rate(times_s, _counts(messages), stamped)
 
 
-def measure_simulated_rate(messages: Sequence[MessageSeen], step_s: float) -> Rate | None:
+def measure_simulated_rate(
+    messages: Sequence[MessageSeen], ticks: Sequence[Tick], segments: Sequence[Segment]
+) -> Rate | None:
     """The rate in simulated time; None where there are too few messages.
 
-    Each was sent at a tick, so a time is late by up to one step of the clock.
+    Only what was sent in the segments counts, which follow one another. Each message was sent at
+    a tick, so a time is late by up to one step of the clock.
     """
-    placed = [m for m in messages if m.sim_ns is not None]
+    if not segments:
+        return None
+    begin_ns = ticks[segments[0].first].sim_ns
+    placed = [m for m in messages if m.sim_ns is not None and m.sim_ns > begin_ns]
     rate = _rate([(m.sim_ns or 0) / NS_PER_S for m in placed], _counts(placed), True)
     if rate is None:
         return None
-    span_s = sum(rate.periods_s)
-    return replace(rate, uncertainty_hz=rate.hz * step_s / span_s)
-
-
-def longest_step_s(segments: Sequence[Segment]) -> float:
-    """The longest step of the simulated clock while it was watched."""
-    return max((segment.step_ns for segment in segments), default=0) / NS_PER_S
+    step_s = max(segment.step_ns for segment in segments) / NS_PER_S
+    return replace(rate, uncertainty_hz=rate.hz * step_s / sum(rate.periods_s))
 
 
 def place_on_ticks(messages: Sequence[MessageSeen], ticks: Sequence[Tick]) -> None:

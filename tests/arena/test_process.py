@@ -213,3 +213,25 @@ def wait_for(condition: object) -> None:
     while not condition():  # type: ignore[operator]
         assert time.monotonic() < deadline_s
         time.sleep(0.01)
+
+
+def test_the_time_without_a_processor_is_known_by_thread(tmp_path: Path, namespaces: bool) -> None:
+    """It never shrinks, and grows where several busy threads of one process share the cores."""
+    source = f"""
+        import os, threading, time
+        for _ in range({4 * (os.cpu_count() or 1)}):
+            os.fork() or exec("while True: pass")
+        time.sleep(1000)
+    """
+    with Process("it", launch(tmp_path, namespaces, *python(source))) as process:
+        if not process.waits_ns():
+            pytest.skip("this kernel keeps no account of waiting (schedstat)")
+        grown = False
+        deadline_s = time.monotonic() + LONG_S
+        before = process.waits_ns()
+        while not grown and time.monotonic() < deadline_s:
+            now = process.waits_ns()
+            assert all(now[thread] >= before[thread] for thread in before)
+            grown = sum(now.values()) > sum(before.values())
+        assert grown
+    assert process.waits_ns() == {}

@@ -21,14 +21,7 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
-HERE = Path(__file__).parent
-sys.path.insert(0, str(HERE.parent / "experiment"))
-
-from test_clocks import answer
-from watching import HERE as SCRIPTS
-from watching import installed, watched
-
-from roslings.arena import choose_isolation, opened, ros_environment
+from roslings.arena import Arena, Wall, choose_isolation, opened, ros_environment
 from roslings.course import NodeContract
 from roslings.evidence import ExperimentSeen
 from roslings.experiment import Scene
@@ -37,6 +30,13 @@ from roslings.experiment.simulated import followed_clock
 from roslings.probe import Probe
 from roslings.rates import measure_rate
 
+sys.path.insert(0, str(Path(__file__).parents[1] / "experiment"))
+
+from test_clocks import answer
+from watching import HERE as SCRIPTS
+from watching import installed, watched
+
+HERE = Path(__file__).parent
 RATES_HZ = (1, 2, 10, 30, 100, 200, 500, 1000)
 LOADS = {"idle": 0, "saturated": 2 * (os.cpu_count() or 1)}
 WATCH_S, FEWEST_PERIODS = 6.0, 8
@@ -77,7 +77,7 @@ def error() -> None:
 def error_at(hz: int) -> str:
     """One talker, watched by both."""
     with tempfile.TemporaryDirectory() as folder, stage(HERE / "logging_talker.py", folder) as room:
-        scene, probe, arena = room
+        _, probe, arena = room
         log, counted = Path(folder) / "log", Path(folder) / "counted"
         counter = [sys.executable, str(HERE / "receive_counter.py"), str(counted)]
         environment = {**os.environ, "ROS_DOMAIN_ID": str(arena.domain_id)}
@@ -151,7 +151,7 @@ def speed_of(count: int) -> tuple[float, float]:
         stage(script, folder) as room,
         ExitStack() as all_,
     ):
-        scene, probe, arena = room
+        _, probe, arena = room
         began_s = time.monotonic()
         names = [f"/talker_{n}" for n in range(count)]
         for name in names:
@@ -188,9 +188,9 @@ def discovery() -> None:
 
 
 @contextmanager
-def stage(script: Path, folder: str) -> Iterator[tuple[Scene, Probe, object]]:
+def stage(script: Path, folder: str) -> Iterator[tuple[Scene, Probe, Arena]]:
     """A scene in a fresh arena, where the script is the program `talker`."""
-    wall = choose_isolation_of_ours()
+    wall = our_wall()
     with (
         opened(installed(script, Path(folder)), wall, Path(folder)) as arena,
         Probe(arena.domain_id, ExperimentSeen(name="bench", clock="wall")) as probe,
@@ -198,9 +198,10 @@ def stage(script: Path, folder: str) -> Iterator[tuple[Scene, Probe, object]]:
         yield Scene(arena, probe, 1, 2.0), probe, arena
 
 
-def choose_isolation_of_ours() -> str:
+def our_wall() -> Wall:
     """The wall that this process was started behind."""
-    return json.loads(os.environ["BENCH_WALL"])
+    wall: Wall = json.loads(os.environ["BENCH_WALL"])
+    return wall
 
 
 SECTIONS = {"error": error, "speed": speed, "discovery": discovery}

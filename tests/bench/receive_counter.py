@@ -1,4 +1,4 @@
-"""What a rate looks like by the times of receiving, with a queue of five: `receive_counter FILE`."""
+"""A rate by the times of receiving, with a queue of five messages: `receive_counter FILE`."""
 
 from __future__ import annotations
 

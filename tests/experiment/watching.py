@@ -14,7 +14,7 @@ from pathlib import Path
 
 from pydantic import TypeAdapter
 
-from roslings.arena import Installed, choose_isolation, ros_environment
+from roslings.arena import Installed, Wall, choose_isolation, ros_environment
 from roslings.arena.environment import base_environment
 from roslings.course import NodeContract, RateContract, TopicContract
 from roslings.evidence import ExperimentSeen, PackageSeen
@@ -41,7 +41,7 @@ def watched(
     return RUNS.validate_json(done.stdout.splitlines()[-1])
 
 
-def main(script: Path, clock: Clock, wall: str, limit: RateContract) -> None:
+def main(script: Path, clock: Clock, wall: Wall, limit: RateContract) -> None:
     """In a process of its own, behind the wall."""
     topic = TopicContract(topic="/chatter", type="std_msgs/msg/String", rate=limit)
     node = NodeContract(node="/talker", executable=PROGRAM, publishes=(topic,))

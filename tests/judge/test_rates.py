@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import random
+from itertools import accumulate
 
 import pytest
-from judge_messages import MS, messages
+from judge_messages import EPOCH_NS, MS, messages
 
-from roslings.rates import measure_rate
+from roslings.evidence import Segment, Tick
+from roslings.rates import measure_rate, measure_simulated_rate, place_on_ticks
 
 
 def grid(period_ms: float, count: int) -> list[float]:
@@ -86,3 +88,67 @@ def test_an_answer_that_more_messages_could_change_is_not_clear() -> None:
     assert rate is not None
     assert rate.clear_of([1.5, 2.5])
     assert not rate.clear_of([rate.hz])
+
+
+@pytest.mark.parametrize("count", [10, 40])
+def test_the_uncertainty_covers_the_error_of_a_loop_that_sleeps(count: int) -> None:
+    """Each delay makes all later messages late: still 97 of 100 times the truth is inside."""
+    inside = 0
+    for seed in range(200):
+        late = random.Random(seed)
+        times = list(accumulate(500 + late.uniform(0, 40) for _ in range(count + 1)))
+        rate = measure_rate(messages(times))
+        assert rate is not None
+        inside += abs(rate.hz - 1 / 0.52) <= rate.uncertainty_hz
+    assert inside >= 194
+
+
+def test_a_timer_is_told_from_a_loop_that_sleeps() -> None:
+    """By the correlation of neighbouring periods."""
+    late = random.Random(1)
+    timer = measure_rate(messages([t + late.uniform(0, 40) for t in grid(500, 60)]))
+    loop = measure_rate(messages(list(accumulate(500 + late.uniform(0, 40) for _ in range(60)))))
+    assert timer is not None
+    assert loop is not None
+    assert timer.anchored
+    assert not loop.anchored
+
+
+def test_waiting_for_a_processor_makes_a_loop_slower_but_not_a_timer() -> None:
+    """So what was measured is only the lower bound of the loop's own rate."""
+    late = random.Random(1)
+    timer = measure_rate(messages([t + late.uniform(0, 40) for t in grid(500, 60)]))
+    loop = measure_rate(messages(list(accumulate(500 + late.uniform(0, 40) for _ in range(60)))))
+    assert timer is not None
+    assert loop is not None
+    assert timer.held_up(1.0) == timer
+    slowed = loop.held_up(1.2)
+    assert slowed.low_hz == loop.low_hz
+    assert slowed.high_hz == pytest.approx(loop.hz / (1 - 1.2 / 31.2) + loop.uncertainty_hz, 0.01)
+
+
+def test_a_backlog_of_the_observer_is_no_reason_to_doubt_the_stamps() -> None:
+    """Only the time of the quickest message counts, in each half."""
+    seen = messages(grid(100, 21))
+    for message in seen[3:9]:
+        message.arrival_ns += 400 * MS
+    rate = measure_rate(seen)
+    assert rate is not None
+    assert rate.from_stamps
+
+
+def test_simulated_time_is_that_of_the_tick() -> None:
+    """However the ticks are spread in real time."""
+    jumpy = random.Random(7)
+    walls = list(accumulate(jumpy.randrange(1, 90) for _ in range(100)))
+    ticks = [
+        Tick(sim_ns=n * 100 * MS, wall_ns=EPOCH_NS + w * MS, at_ns=w * MS, kept_up=True)
+        for n, w in enumerate(walls)
+    ]
+    seen = messages([w + 0.5 for w in walls[::5]])
+    place_on_ticks(seen, ticks)
+    whole = Segment(first=0, last=99, step_ns=100 * MS, speed=20.0)
+    rate = measure_simulated_rate(seen, ticks, [whole])
+    assert rate is not None
+    assert rate.hz == pytest.approx(2.0)
+    assert rate.uncertainty_hz == pytest.approx(2.0 * 0.1 / 9.0)

@@ -250,13 +250,17 @@ def match_qos(endpoint: EndpointView) -> None:
 
 
 def hold_just(nodes: Sequence[NodeContract], topic: TopicContract) -> Demand[ExperimentView]:
-    """The graph holds these nodes, each once, joined by this topic, and nothing else."""
+    """The graph holds these nodes, joined by this topic, and nothing else.
+
+    Two nodes of one name are the fault of another check, `be_named`.
+    """
 
     def demand(experiment: ExperimentView) -> None:
         graph = experiment.seen.graph
         wanted = tuple(sorted(node.node for node in nodes))
-        if tuple(sorted(graph.nodes)) != wanted:
-            raise faults.NotTheAskedGraph(wanted, tuple(graph.nodes), "the nodes are")
+        there = tuple(sorted(set(graph.nodes)))
+        if there != wanted:
+            raise faults.NotTheAskedGraph(wanted, there, "the nodes are")
         ends = {(e.node, e.kind) for e in own_endpoints(graph) if e.topic == topic.topic}
         edges = tuple(f"{node} ({kind})" for node, kind in sorted(ends))
         asked = tuple(sorted(_asked_edges(nodes, topic)))

@@ -23,7 +23,7 @@ from roslings.evidence import (
 )
 from roslings.judge.faults import NothingToJudge
 from roslings.near import Near, nearest, nearest_endpoint, own_endpoints
-from roslings.rates import Rate, longest_step_s, measure_rate, measure_simulated_rate
+from roslings.rates import Rate, measure_rate, measure_simulated_rate
 
 LAST_LINES = 12
 V = TypeVar("V", bound="View")
@@ -162,7 +162,7 @@ class TopicView(View):
         """How often they came; None for too few. By the clock that ruled the experiment."""
         seen = self.experiment
         if seen.clock == "sim":
-            return measure_simulated_rate(self.messages, longest_step_s(seen.segments))
+            return measure_simulated_rate(self.messages, seen.ticks, seen.segments)
         rate = measure_rate(self.messages)
         return rate.held_up(seen.cpu_wait_s) if rate else None
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import statistics
 from dataclasses import dataclass
-from itertools import pairwise
 
 from roslings.judge.faults.base import Fault
 from roslings.rates import Rate
@@ -23,6 +22,9 @@ WORKS_UP_TO = 0.9
 
 DRIFT = 0.2
 """From the first third of the watch to the last, the period changed by more than this part."""
+
+STRAIGHT = 0.9
+"""... and the periods lie so near to a line: their correlation with their number."""
 
 
 @dataclass(eq=False)
@@ -175,23 +177,28 @@ def rate_fault(rate: Rate, low_hz: float, high_hz: float) -> type[WrongRate] | N
 
     The shape of the intervals tells the likely reason.
     """
-    if rate.uneven_share() > MOST_UNEVEN:
-        return Drifts if _drifts(rate) else Bursts
-    if low_hz <= rate.hz <= high_hz:
-        return None
-    if _drifts(rate):
+    right = low_hz <= rate.hz <= high_hz
+    if rate.hz < low_hz and low_hz <= 1 / rate.median_s <= high_hz:
+        return _pauses(rate)
+    if _drifts(rate) and not right:
         return Drifts
+    if rate.uneven_share() > MOST_UNEVEN:
+        return Bursts
+    if right:
+        return None
     return TooFast if rate.hz > high_hz else _slow(rate, low_hz, high_hz)
+
+
+def _pauses(rate: Rate) -> type[TooSlow]:
+    """The usual period is right, and some are long: the first, or others too."""
+    stalls = [p > STALL * rate.median_s for p in rate.periods_s]
+    if stalls[0] and not any(stalls[1:]):
+        return StartsLate
+    return StallsNowAndThen if any(stalls) else TooSlow
 
 
 def _slow(rate: Rate, low_hz: float, high_hz: float) -> type[TooSlow]:
     wanted_s = 2 / (low_hz + high_hz)
-    usual_right = 1 / high_hz <= rate.median_s <= 1 / low_hz
-    stalls = [p > STALL * rate.median_s for p in rate.periods_s]
-    if usual_right and stalls[0] and not any(stalls[1:]):
-        return StartsLate
-    if usual_right and any(stalls):
-        return StallsNowAndThen
     steady = rate.jitter_s < STEADY * rate.period_s
     worked_s = rate.median_s - wanted_s
     return SleepsAfterWorking if steady and worked_s < WORKS_UP_TO * wanted_s else TooSlow
@@ -204,12 +211,9 @@ def thirds(rate: Rate) -> tuple[float, float]:
 
 
 def _drifts(rate: Rate) -> bool:
-    """Each third of the watch is slower than the one before, or each is faster."""
-    third = len(rate.periods_s) // 3
-    if third < 2:
-        return False
-    parts = [rate.periods_s[n * third : (n + 1) * third] for n in range(3)]
-    slower = all(max(a) < min(b) for a, b in pairwise(parts))
-    faster = all(min(a) > max(b) for a, b in pairwise(parts))
+    """The periods lie near a straight line, and it rises or falls."""
     first_s, last_s = thirds(rate)
-    return (slower or faster) and abs(last_s - first_s) > DRIFT * first_s
+    if abs(last_s - first_s) <= DRIFT * first_s or len(set(rate.periods_s)) < 2:
+        return False
+    along = statistics.correlation(range(len(rate.periods_s)), rate.periods_s)
+    return abs(along) > STRAIGHT
