@@ -96,12 +96,12 @@ class Rate:
     def held_up(self, wait_s: float) -> Rate:
         """The same rate, of a node that waited `wait_s` for a processor while it was watched.
 
-        That makes a loop that sleeps slower than it is; a timer keeps to its grid. The times can
-        only show which of the two it is where the waiting stands out in them.
+        That makes a loop that sleeps slower than it is, and each of its waits shows in all later
+        times; a timer keeps to its grid.
         """
-        each_s = wait_s / len(self.periods_s)
-        if self.anchored and self.jitter_s >= each_s / 2:
+        if self.anchored:
             return self
+        each_s = wait_s / len(self.periods_s)
         return replace(self, delayed=min(0.9, each_s / self.period_s))
 
 
