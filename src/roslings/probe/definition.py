@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import os
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -42,8 +44,15 @@ def _text(type_name: str) -> str:
 
 
 def _file(type_name: str, ending: str) -> Path:
-    """Raises LookupError where the package is not installed."""
-    from ament_index_python.packages import get_package_share_directory
-
+    """Raises FileNotFoundError, and ValueError for a name that is none."""
     package, kind, name = type_name.split("/")
-    return Path(get_package_share_directory(package), kind, name + ending)
+    for prefix in _prefixes():
+        if (file := prefix / "share" / package / kind / (name + ending)).is_file():
+            return file
+    raise FileNotFoundError(type_name)
+
+
+def _prefixes() -> list[Path]:
+    """Where ROS packages lie: in the sourced folders, else in this very environment."""
+    sourced = os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
+    return [*map(Path, filter(None, sourced)), Path(sys.prefix)]
