@@ -35,6 +35,13 @@ def changed(**parts: Any) -> bytes:
     return json.dumps({k: v for k, v in content.items() if v is not None}).encode()
 
 
+OUT_OF_STEP = {
+    "name": "talking",
+    "clock": "sim",
+    "segments": [{"first": 0, "last": 3, "step_ns": 1, "speed": 1}],
+}
+
+
 @pytest.mark.parametrize(
     ("content", "words", "step"),
     [
@@ -44,12 +51,13 @@ def changed(**parts: Any) -> bytes:
         (b'{"name": "another program"}', "no evidence of roslings", "--evidence DIR"),
         (evidence_bytes(seen())[:-900], "no evidence of roslings", "--evidence DIR"),
         (changed(experiments={"talking": {}}), "damaged: experiments.talking", "--evidence DIR"),
+        (changed(attempts=[OUT_OF_STEP]), "damaged: talking: a segment", "--evidence DIR"),
         (changed(machine=None), "damaged: machine", "--evidence DIR"),
         (changed(schema=2), "newer roslings (schema 2; this one reads 1)", "git pull"),
         (changed(lab="services"), "lab 'services', not of 'topics'", "regrade services"),
         (changed(checks=[], score=100), "a verdict, not the evidence", "evidence.json"),
     ],
-    ids=["empty", "binary", "deep", "foreign", "cut", "hollow", "part-gone", "newer", "lab",
+    ids=["empty", "binary", "deep", "foreign", "cut", "hollow", "ticks-gone", "part-gone", "newer", "lab",
          "verdict"],
 )  # fmt: skip
 def test_what_cannot_be_judged_is_said(

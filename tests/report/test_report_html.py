@@ -11,7 +11,7 @@ from written_evidence import evidence, messages, process, steady, talking
 from written_graphs import STRING, graph
 from written_verdicts import HINTS, TOO_SLOW, failing, left_open, too_slow, verdict
 
-from roslings.evidence import Evidence, ExperimentSeen, LogLine, Segment
+from roslings.evidence import Evidence, ExperimentSeen, LogLine, Segment, Tick
 from roslings.rates import measure_rate
 from roslings.report.html import Asked, html_of
 from roslings.report.html.interval_plot import BOTTOM, TOP, interval_plot
@@ -135,6 +135,7 @@ def test_in_simulated_time_the_ticks_count() -> None:
     for number, message in enumerate(seen.topics["/chatter"].messages):
         message.source_ns = message.arrival_ns = number * 1_000_000
     seen.clock, seen.segments = "sim", [Segment(first=0, last=1, step_ns=10**8, speed=50)]
+    seen.ticks = [Tick(sim_ns=n, wall_ns=n, at_ns=n, kept_up=True) for n in (-1, 10**10)]
     (each,) = watched(evidence(seen), ASKED)
     assert {interval.period_s for interval in each.intervals} == {0.5}
     assert "simulated seconds" in page(evidence(seen)).text

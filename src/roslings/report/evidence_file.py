@@ -42,9 +42,13 @@ def read_evidence(path: Path, lab: str) -> Evidence:
     content = _content(file)
     _require_ours(file, content, lab)
     try:
-        return Evidence.model_validate_json(content)
+        evidence = Evidence.model_validate_json(content)
     except ValidationError as error:
         raise BadEvidence(file, f"damaged: {_first(error)}.") from error
+    for seen in [*evidence.experiments.values(), *evidence.attempts]:
+        if any(not 0 <= s.first <= s.last < len(seen.ticks) for s in seen.segments):
+            raise BadEvidence(file, f"damaged: {seen.name}: a segment without its ticks.")
+    return evidence
 
 
 def _content(file: Path) -> bytes:

@@ -8,13 +8,7 @@ from itertools import pairwise
 
 from roslings.evidence import Evidence, ExperimentSeen, MessageSeen, TopicSeen
 from roslings.near import nearest_endpoint, own_endpoints
-from roslings.rates import (
-    NS_PER_S,
-    Rate,
-    longest_step_s,
-    measure_rate,
-    measure_simulated_rate,
-)
+from roslings.rates import NS_PER_S, Rate, measure_rate, measure_simulated_rate
 
 
 @dataclass(frozen=True)
@@ -68,13 +62,21 @@ def _heard(experiment: ExperimentSeen) -> Iterator[TopicSeen]:
 def _watched(experiment: ExperimentSeen, topic: TopicSeen, asked: Sequence[Asked]) -> Watched:
     of_it = (each for each in asked if _is_meant(experiment, topic, each))
     if experiment.clock == "sim":
-        rate = measure_simulated_rate(topic.messages, longest_step_s(experiment.segments))
-        intervals = intervals_of([m for m in topic.messages if m.sim_ns is not None], _sim_ns)
+        rate = measure_simulated_rate(topic.messages, experiment.ticks, experiment.segments)
+        intervals = intervals_of(_in_segments(experiment, topic), _sim_ns)
     else:
         rate = measure_rate(topic.messages)
         stamped = rate is not None and rate.from_stamps
         intervals = intervals_of(topic.messages, _source_ns if stamped else _arrival_ns)
     return Watched(experiment, topic, next(of_it, None), rate, tuple(intervals) if rate else ())
+
+
+def _in_segments(experiment: ExperimentSeen, topic: TopicSeen) -> list[MessageSeen]:
+    """The messages that a simulated rate counts: those since the first segment began."""
+    if not experiment.segments:
+        return []
+    begin_ns = experiment.ticks[experiment.segments[0].first].sim_ns
+    return [m for m in topic.messages if m.sim_ns is not None and m.sim_ns > begin_ns]
 
 
 def _sim_ns(message: MessageSeen) -> int:
