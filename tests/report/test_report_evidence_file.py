@@ -57,8 +57,8 @@ OUT_OF_STEP = {
         (changed(lab="services"), "lab 'services', not of 'topics'", "regrade services"),
         (changed(checks=[], score=100), "a verdict, not the evidence", "evidence.json"),
     ],
-    ids=["empty", "binary", "deep", "foreign", "cut", "hollow", "ticks-gone", "part-gone", "newer", "lab",
-         "verdict"],
+    ids=["empty", "binary", "deep", "foreign", "cut", "hollow", "ticks-gone", "part-gone",
+         "newer", "lab", "verdict"],
 )  # fmt: skip
 def test_what_cannot_be_judged_is_said(
     tmp_path: Path, content: bytes, words: str, step: str
