@@ -16,7 +16,7 @@ from roslings.rates import measure_rate
 from roslings.report.html import Asked, html_of
 from roslings.report.html.interval_plot import BOTTOM, TOP, interval_plot
 from roslings.report.html.intervals import watched
-from roslings.report.html.markup import tag
+from roslings.report.html.markup import prose, tag
 from roslings.verdict import Verdict
 
 ASKED = [Asked("/chatter", STRING, 2.0, 1.9, 2.1)]
@@ -138,7 +138,10 @@ def test_in_simulated_time_the_ticks_count() -> None:
     seen.ticks = [Tick(sim_ns=n, wall_ns=n, at_ns=n, kept_up=True) for n in (-1, 10**10)]
     (each,) = watched(evidence(seen), ASKED)
     assert {interval.period_s for interval in each.intervals} == {0.5}
-    assert "simulated seconds" in page(evidence(seen)).text
+    seen.graph = graph([("/talker", "/chatter", STRING)], [("/talker", "/clock", "it/msg/Clock")])
+    text = page(evidence(seen)).text
+    assert "simulated seconds" in text
+    assert "/clock" not in text  # the grader's own
 
 
 def test_losses_and_the_asked_band_are_drawn() -> None:
@@ -213,6 +216,11 @@ def test_a_long_log_shows_both_ends() -> None:
     assert "line 1999;" in found.text
     assert "line 1000;" not in found.text
     assert "1600 lines more" in found.text
+
+
+def test_commands_in_a_sentence_are_code() -> None:
+    """Where backquotes stand around them; one alone is left as it is."""
+    assert prose("run `a <b>` or `c") == "run <code>a &lt;b&gt;</code> or `c"
 
 
 def test_an_element_escapes_what_it_is_given() -> None:

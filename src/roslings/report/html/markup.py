@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import html
+import re
 
 from roslings.report.safe_text import harmless
 
+_CODE = re.compile(r"`([^`\n]+)`")
 VOID = frozenset({"meta", "line", "rect", "ellipse", "path", "br"})
 Attribute = str | float | None
 
@@ -30,6 +32,12 @@ def tag(name: str, /, *inside: str, **attributes: Attribute) -> Markup:
 def joined(*parts: str) -> Markup:
     """Several pieces in a row."""
     return Markup("".join(part if isinstance(part, Markup) else _escaped(part) for part in parts))
+
+
+def prose(text: str) -> Markup:
+    """A sentence, with what stands between backquotes as code."""
+    parts = _CODE.split(text)
+    return joined(*(tag("code", p) if index % 2 else p for index, p in enumerate(parts)))
 
 
 def _attribute(key: str, value: Attribute) -> str:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 MOST_DECIMALS = 4
+LEAST_S = 1e-6
 NICE = (1.0, 2.0, 5.0, 10.0)
 
 
@@ -58,6 +59,8 @@ def _digits(value: float) -> int:
 
 def time_text(seconds: float) -> str:
     """A time in the unit in which it is easy to read."""
+    if seconds < LEAST_S:
+        return "less than 1 µs"
     return unit_for(seconds).text(seconds)
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from roslings.report.check_lines import LOG_LINES, points_of
 from roslings.report.hint_page import STEPS
-from roslings.report.html.markup import Markup, joined, tag
+from roslings.report.html.markup import Markup, joined, prose, tag
 from roslings.report.log_lines import helpful
 from roslings.verdict import CheckOutcome, CheckResult, Outcome, Verdict
 
@@ -70,7 +70,7 @@ def body(verdict: Verdict) -> Iterator[Markup]:
     if failed:
         yield tag("section", tag("h2", "What to mend"), *failed)
     if verdict.advice:
-        remarks = [tag("li", remark) for remark in verdict.advice]
+        remarks = [tag("li", prose(remark)) for remark in verdict.advice]
         heading = tag("h2", "Remarks that cost no points")
         yield tag("section", heading, tag("ul", *remarks))
     others = [_row(check) for outcome in ("inconclusive", "skip", "pass")
@@ -90,7 +90,7 @@ def _failed(check: CheckResult, package: str) -> Markup:
     }
     return tag(
         "article",
-        tag("h3", _mark("fail"), " ", check.title),
+        tag("h3", _mark("fail"), " ", prose(check.title)),
         tag("p", tag("code", check.id), f" · {points_of(check)} points", class_="about"),
         tag("dl", *(_row_of(label, text) for label, text in rows.items() if text)),
         *_log(check, package),
@@ -100,7 +100,7 @@ def _failed(check: CheckResult, package: str) -> Markup:
 
 
 def _row_of(label: str, text: str) -> Markup:
-    return tag("div", tag("dt", label), tag("dd", text))
+    return tag("div", tag("dt", label), tag("dd", prose(text)))
 
 
 def _log(check: CheckResult, package: str) -> Iterator[Markup]:
@@ -118,11 +118,11 @@ def _hints(hints: Sequence[str]) -> Iterator[Markup]:
 
 
 def _row(check: CheckResult) -> Markup:
-    why = tag("span", check.why, class_="why") if check.why else ""
+    why = tag("span", prose(check.why), class_="why") if check.why else ""
     return tag(
         "li",
         _mark(check.outcome),
-        tag("span", check.title, class_="title"),
+        tag("span", prose(check.title), class_="title"),
         tag("span", points_of(check), class_="points"),
         why,
         class_=check.outcome,
