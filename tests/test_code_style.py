@@ -28,7 +28,7 @@ ROOMS_BELOW = {
         "evidence", "near", "rates", "course", "arena", "probe", "workspace",
     },
     "judge": {"evidence", "verdict", "near", "rates", "course", "experiment"},
-    "report": {"evidence", "verdict"},
+    "report": {"evidence", "verdict", "near", "rates"},
     "doctor": set[str](),
     "bootstrap": set[str](),
     "ros2": {"evidence", "near", "rates", "arena", "probe", "report", "doctor"},

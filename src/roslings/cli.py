@@ -91,6 +91,7 @@ def parser() -> argparse.ArgumentParser:
     add("status", "which days and labs are done", "status")
     lab_options(add("start", "put a lab's starter into your workspace", "start"))
     check_options(add("check", "run what you built, and say what to do next", "check"))
+    regrade_options(add("regrade", "judge saved evidence again; runs nothing", "regrade"))
     watch_options(add("watch", "check again at every save", "watch"))
     lab_options(add("diff", "what you changed since the starter", "diff"))
     pack_options(add("pack", "make the zip file to hand in", "pack"))
@@ -137,10 +138,11 @@ def check_options(word: argparse.ArgumentParser) -> None:
     word.add_argument(
         "--solution", action="store_true", help="check the course's own solution instead"
     )
+    verdict_options(word)
     word.add_argument(
-        "--json", metavar="FILE", type=Path, help="write the verdict to FILE (- here)"
-    )
-    word.add_argument("--only", metavar="ID", help="show one check only, by its short name")
+        "--evidence", metavar="DIR", type=Path,
+        help="save all that was seen in the new folder DIR, to judge it again (regrade)",
+    )  # fmt: skip
     word.add_argument(
         "--clock", choices=("auto", "sim", "wall"), default="auto",
         help="simulated time where it can be believed (auto), always (sim), or never (wall)",
@@ -154,10 +156,34 @@ def check_options(word: argparse.ArgumentParser) -> None:
     )  # fmt: skip
 
 
+def regrade_options(word: argparse.ArgumentParser) -> None:
+    """What `regrade` takes."""
+    lab_options(word)
+    word.add_argument(
+        "evidence", metavar="EVIDENCE", type=Path, help="the folder that check --evidence made"
+    )
+    verdict_options(word)
+    word.set_defaults(hint=None)
+
+
+def verdict_options(word: argparse.ArgumentParser) -> None:
+    """Where a verdict goes, and how much of it is shown."""
+    word.add_argument(
+        "--json", metavar="FILE", type=Path, help="write the verdict to FILE (- here)"
+    )
+    word.add_argument(
+        "--html", metavar="FILE", type=Path, help="write a page for a browser, with pictures"
+    )
+    word.add_argument("--only", metavar="ID", help="show one check only, by its short name")
+
+
 def watch_options(word: argparse.ArgumentParser) -> None:
     """What `watch` takes."""
     package_options(word)
-    word.set_defaults(solution=False, json=None, only=None, seed=None, hint=None, clock="auto")
+    word.set_defaults(
+        solution=False, json=None, html=None, evidence=None, only=None, seed=None, hint=None,
+        clock="auto",
+    )  # fmt: skip
 
 
 def pack_options(word: argparse.ArgumentParser) -> None:

@@ -14,7 +14,14 @@ from roslings import course
 from roslings.cli import EXIT_OF_OUTCOME, FAILED, INCONCLUSIVE, OK, WRONG_USE
 from roslings.course import CourseError, Lab
 from roslings.experiment.declare import Clock
-from roslings.report import BadVerdictFile, CannotWrite, NoSuchCheck
+from roslings.report import (
+    BadEvidence,
+    BadVerdictFile,
+    CannotKeepThere,
+    CannotWrite,
+    NoSuchCheck,
+)
+from roslings.saving import Graded, NoBagWriter, NothingToSave, place_for_bags, save
 from roslings.verdict import Verdict
 from roslings.workspace.progress import LabStatus, Step
 from roslings.workspace.student import package_of, workspace_root
@@ -32,6 +39,8 @@ def exit_code_of(error: Exception) -> int | None:
         return INCONCLUSIVE
     if isinstance(error, WorkspaceError | CourseError | NoSuchCheck | BadVerdictFile):
         return WRONG_USE
+    if isinstance(error, BadEvidence | CannotKeepThere | NothingToSave | NoBagWriter):
+        return WRONG_USE
     if isinstance(error, FileExistsError | NotADirectoryError):
         return WRONG_USE
     return None
@@ -44,12 +53,18 @@ def check(options: argparse.Namespace) -> int:
     """Run what the student built, and say what to do next."""
     lab = course.lab(options.lab)
     if options.hint and not options.solution and _kept(lab).is_file():
+        if options.evidence or options.html:
+            raise NothingToSave
         return _show(_read(_kept(lab)), options)
     package = lab.solution if options.solution else package_of(lab, options.path)
-    verdict = grade(lab, package, options.seed, options.clock, quiet=_is_stdout(options.json))
-    if not options.solution:
-        _keep(lab, verdict)
-    return _show(verdict, options)
+    quiet = _is_stdout(options.json)
+    with place_for_bags(options.evidence, package) as bags:
+        graded = examine(lab, package, options.seed, options.clock, quiet, bags)
+        if not options.solution:
+            _keep(lab, graded.verdict)
+        code = _show(graded.verdict, options)
+        _save(graded, options, bags)
+    return code
 
 
 def grade(
@@ -59,7 +74,19 @@ def grade(
     clock: Clock = "auto",
     quiet: bool = False,
 ) -> Verdict:
-    """Measure a package and judge what was seen, telling each step as it comes."""
+    """The verdict on a package, telling each step as it comes."""
+    return examine(lab, package, seed, clock, quiet).verdict
+
+
+def examine(
+    lab: Lab,
+    package: Path,
+    seed: int | None = None,
+    clock: Clock = "auto",
+    quiet: bool = False,
+    bags: Path | None = None,
+) -> Graded:
+    """Measure a package and judge what was seen; what was said goes to the new folder `bags`."""
     from roslings.experiment import measure
     from roslings.judge import judge
     from roslings.report import Progress
@@ -70,9 +97,34 @@ def grade(
         progress.step(f"Reading {shown(package)}")
         files = inspect_package(package, lab.card)
         chosen = random.SystemRandom().randrange(SEEDS) if seed is None else seed
-        evidence = measure(lab.name, package, files, chosen, progress.step, clock)
+        evidence = measure(lab.name, package, files, chosen, progress.step, clock, bags)
         progress.step("Judging what was seen")
-        return judge(lab, evidence, time.monotonic() - began_s)
+        return Graded(lab, judge(lab, evidence, time.monotonic() - began_s), evidence)
+
+
+def _save(graded: Graded, options: argparse.Namespace, bags: Path | None) -> None:
+    """Save what was asked for, and say where it is."""
+    if options.html:
+        graded.write_page(options.html)
+    if options.evidence:
+        save(graded, options.evidence, bags)
+        say = f"\nThe evidence is in {shown(options.evidence)}. Look at it in a browser:"
+        page = shown(options.evidence / "report.html")
+        print(f"{say}\n{page}", file=sys.stderr if _is_stdout(options.json) else sys.stdout)
+
+
+def regrade(options: argparse.Namespace) -> int:
+    """Judge saved evidence again; nothing is run."""
+    from roslings.judge import judge
+    from roslings.report import read_evidence
+
+    began_s = time.monotonic()
+    lab = course.lab(options.lab)
+    evidence = read_evidence(options.evidence, lab.name)
+    verdict = judge(lab, evidence, time.monotonic() - began_s)
+    if options.html:
+        Graded(lab, verdict, evidence).write_page(options.html)
+    return _show(verdict, options)
 
 
 def _show(verdict: Verdict, options: argparse.Namespace) -> int:

@@ -41,7 +41,7 @@ def wheels_for_all(tmp_path_factory: pytest.TempPathFactory) -> Path:
             pytest.skip(
                 f"{tool} is not installed beside pytest: run the tests with ./roslings test"
             )
-    for name in ("ros-x", "col-x", "draw-x"):
+    for name in ("ros-x", "col-x", "draw-x", "bag-x"):
         make_wheel(folder, name, "1.0")
     program = {"check_x.py": "def main():\n    print('checked')\n"}
     make_wheel(folder, "check-x", "1.0", program, scripts={"check-x": "check_x:main"})

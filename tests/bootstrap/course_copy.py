@@ -22,7 +22,7 @@ seen = {
     "path": sys.path,
     "libraries": os.environ.get("LD_LIBRARY_PATH", ""),
     "once": os.environ.get("_ROS_WHEELS_BOOTSTRAP_COMPLETE", ""),
-    "has": [n for n in ("ros_x", "col_x", "check_x", "draw_x", "rclpy")
+    "has": [n for n in ("ros_x", "col_x", "check_x", "draw_x", "bag_x", "rclpy")
             if importlib.util.find_spec(n)],
 }
 print(json.dumps(seen))
@@ -37,10 +37,11 @@ ros = ["ros-x"]
 colcon = ["col-x"]
 check = ["check-x"]
 graph = ["draw-x"]
+ros2 = ["bag-x"]
 test = [{include-group = "check"}]
 """
 
-PINS = {"ros-x": "1.0", "col-x": "1.0", "check-x": "1.0", "draw-x": "1.0"}
+PINS = {"ros-x": "1.0", "col-x": "1.0", "check-x": "1.0", "draw-x": "1.0", "bag-x": "1.0"}
 
 GROUPS = {
     "pip": "setup",
@@ -49,6 +50,7 @@ GROUPS = {
     "col-x": "colcon",
     "check-x": "check test",
     "draw-x": "graph",
+    "bag-x": "ros2",
 }
 
 

@@ -143,3 +143,13 @@ def test_damage_is_found(ready: CourseCopy) -> None:
     (site / "ros_x-1.0.dist-info/RECORD").unlink()
     assert sorted(forget_damaged(site)) == ["check_x-1.0", "col_x-1.0", "ros_x-1.0"]
     assert set(installed(site)) == {"pip", "setuptools"}
+
+
+@pytest.mark.parametrize("words", [("--evidence", "here"), ("--evidence=here",)])
+def test_evidence_needs_what_writes_bags(ready: CourseCopy, words: tuple[str, ...]) -> None:
+    """`check` alone stays small; `check --evidence` loads one more group, once."""
+    assert "bag_x" not in ready.run("check").seen["has"]
+    outcome = ready.run("check", "lab", *words)
+    assert "Installing" in outcome.err
+    assert "bag_x" in outcome.seen["has"]
+    assert ready.run("check", "lab", *words).err == ""

@@ -21,6 +21,7 @@ class Assignment(BaseModel):
     folder: Path
     """The run's own folder: the staged source, the build, the nodes' home, the evidence."""
     package: PackageSeen
+    keeps_bags: bool = False
 
     @property
     def file(self) -> Path:
@@ -31,6 +32,11 @@ class Assignment(BaseModel):
     def evidence(self) -> Path:
         """Where the measuring process puts what it saw."""
         return self.folder / "evidence.json"
+
+    @property
+    def bags(self) -> Path:
+        """Where the measuring process puts a bag for each experiment, when asked to."""
+        return self.folder / "bags"
 
     @property
     def home(self) -> Path:

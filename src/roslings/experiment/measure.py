@@ -37,22 +37,27 @@ def measure(
     seed: int,
     on_step: Callable[[str], None],
     clock: Clock = "auto",
+    bags: Path | None = None,
 ) -> Evidence:
     """Build and run the package at `package`; `on_step` is told what happens.
 
+    `bags` is a new folder for what was said, one bag an experiment.
     Raises MeasuringFailed, and whatever staging a copy of the package raises.
     """
     with run_folder() as folder:
         wall = choose_isolation()
         assignment = Assignment(
-            lab=lab, seed=seed, wall=wall.wall, clock=clock, folder=folder, package=seen
-        )
+            lab=lab, seed=seed, wall=wall.wall, clock=clock, folder=folder, package=seen,
+            keeps_bags=bags is not None,
+        )  # fmt: skip
         assignment.home.mkdir()
         stage(package, folder / "src" / seen.name)
         assignment.file.write_text(assignment.model_dump_json(), "utf-8")
         module = [sys.executable, "-m", "roslings.experiment.measuring", str(assignment.file)]
         _follow(wall.command(module), folder, on_step)
         evidence = Evidence.model_validate_json(assignment.evidence.read_text("utf-8"))
+        if bags is not None and assignment.bags.is_dir():
+            shutil.copytree(assignment.bags, bags)
     if wall.because:
         evidence.advice.append(f"Measured without a network of its own: {wall.because}.")
     return evidence

@@ -25,6 +25,7 @@ from roslings.experiment.machine import look_at_machine
 from roslings.experiment.scene import Scene
 from roslings.experiment.simulated import clock_publishers
 from roslings.probe import Probe
+from roslings.probe.bag import MOST_BYTES, fresh_folder, write_bag
 from roslings.workspace.build import BuildRoom, build
 
 MOST_RUNS = 3
@@ -129,13 +130,16 @@ class Stage:
     ) -> ExperimentSeen:
         """Run an experiment once, in a fresh arena."""
         seen = ExperimentSeen(name=each.name, clock=clock)
+        large_bytes = MOST_BYTES if self.assignment.keeps_bags else 0
         wall = self.assignment.wall
         with (
             opened(self.installed, wall, self.assignment.home) as arena,
-            Probe(arena.domain_id, seen) as probe,
+            Probe(arena.domain_id, seen, large_bytes=large_bytes) as probe,
         ):
             scene = Scene(arena, probe, self.assignment.seed + number, self.ends_within_s)
             each.function(scene, *earlier)
+        if self.assignment.keeps_bags:
+            write_bag(fresh_folder(self.assignment.bags / each.name), seen, probe.recorders)
         return seen
 
 

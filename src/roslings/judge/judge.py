@@ -13,7 +13,8 @@ from roslings.course.files import CourseError
 from roslings.evidence import Evidence, ExperimentSeen
 from roslings.experiment.declare import experiments_of, load_grader
 from roslings.judge.plugin import Collector, evidence_plugin
-from roslings.judge.views import ExperimentView, views_of
+from roslings.judge.unrecorded import NotRecordedView
+from roslings.judge.views import ExperimentView, View, views_of
 from roslings.verdict import (
     CheckResult,
     Environment,
@@ -48,7 +49,7 @@ def run_checks(lab: Lab, evidence: Evidence) -> tuple[CheckResult, ...]:
     collector = Collector(lab)
     views = views_of(evidence)
     for name in _experiment_names(lab.grader):
-        views.setdefault(name, ExperimentView(ExperimentSeen(name=name, clock="wall")))
+        views.setdefault(name, _missing(name, evidence))
     options = [
         str(lab.grader),
         "-c",
@@ -70,6 +71,13 @@ def run_checks(lab: Lab, evidence: Evidence) -> tuple[CheckResult, ...]:
     pytest.main(options, plugins=[evidence_plugin(views), collector])
     _require_all(lab, collector)
     return tuple(collector.results)
+
+
+def _missing(name: str, evidence: Evidence) -> View:
+    """An experiment that was not made: none was, as nothing was built, or the grader is newer."""
+    if evidence.experiments:
+        return NotRecordedView(name)
+    return ExperimentView(ExperimentSeen(name=name, clock="wall"))
 
 
 def _experiment_names(grader: Path) -> list[str]:

@@ -13,6 +13,7 @@ from roslings.course import Lab
 from roslings.judge.check import check_of
 from roslings.judge.faults import Fault, Inconclusive, NothingToJudge, Unmet
 from roslings.judge.sheet import title_of
+from roslings.judge.unrecorded import NotRecordedView
 from roslings.judge.views import View
 from roslings.verdict import CheckResult
 
@@ -124,6 +125,8 @@ def evidence_plugin(views: dict[str, View]) -> types.ModuleType:
 def _fixture(name: str, view: View) -> Any:
     @pytest.fixture(name=name, scope="session")
     def give() -> View:
+        if isinstance(view, NotRecordedView):
+            view.refuse()
         return view
 
     return give

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from types import TracebackType
 from typing import Any
@@ -23,7 +23,7 @@ from roslings.probe import canary
 from roslings.probe.clock import Barrier, SimClock
 from roslings.probe.content import from_plain
 from roslings.probe.graph import read_graph
-from roslings.probe.recorder import Recorder, can_record
+from roslings.probe.recorder import Allowance, Recorder, can_record
 from roslings.rates import place_on_ticks
 
 NAME = "_roslings_probe"
@@ -39,11 +39,17 @@ class Probe:
     A context manager: leaving the block ends its thread, its node and its context.
     """
 
-    def __init__(self, domain_id: int, seen: ExperimentSeen, record: bool = True) -> None:
-        """With `record` off it looks at the graph and hears no message."""
+    def __init__(
+        self, domain_id: int, seen: ExperimentSeen, record: bool = True, large_bytes: int = 0
+    ) -> None:
+        """With `record` off it looks at the graph and hears no message.
+
+        `large_bytes` of messages too large to be read are kept as bytes, for a bag.
+        """
         self.seen = seen
         self._records = record
         self._domain_id = domain_id
+        self._large = Allowance(large_bytes)
         self._recorders: dict[str, Recorder] = {}
         self._publishers: dict[str, Any] = {}
         self._changed = threading.Condition()
@@ -87,6 +93,11 @@ class Probe:
             recorder.read_contents()
             place_on_ticks(recorder.seen.messages, self.seen.ticks)
             self.seen.topics[name] = recorder.seen
+
+    @property
+    def recorders(self) -> Mapping[str, Recorder]:
+        """What was heard, topic by topic, with the bytes as they came."""
+        return self._recorders
 
     def until(self, condition: Condition, within_s: float) -> bool:
         """Watch until `condition()` is true, at most `within_s`. Whether it became true.
@@ -198,7 +209,9 @@ class Probe:
     def _record(self, endpoint: Endpoint) -> None:
         recorder = self._recorders.get(endpoint.topic)
         if recorder is None and can_record(endpoint):
-            self._recorders[endpoint.topic] = Recorder(self._eye, endpoint, self.notify)
+            self._recorders[endpoint.topic] = Recorder(
+                self._eye, endpoint, self.notify, self._large
+            )
 
     def _hear_logs(self) -> None:
         from rcl_interfaces.msg import Log

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 from roslings.evidence import Endpoint, MessageSeen, TopicSeen
@@ -17,15 +17,38 @@ MOST_MESSAGES = 20_000
 LARGEST_CONTENT = 64 * 1024
 
 
+class Allowance:
+    """How many bytes of large messages may be kept: one for all topics of an experiment."""
+
+    def __init__(self, left_bytes: int = 0) -> None:
+        self._left_bytes = left_bytes
+
+    def take(self, size: int) -> bool:
+        """Take `size` bytes of it, where as much is left."""
+        fits = size <= self._left_bytes
+        self._left_bytes -= size if fits else 0
+        return fits
+
+
 class Recorder:
     """One subscription of the probe's; it takes bytes, and reads them when there is time."""
 
-    def __init__(self, eye: Any, endpoint: Endpoint, heard: Callable[[], None]) -> None:
-        """Raises UnknownType where the message type is not installed."""
+    def __init__(
+        self,
+        eye: Any,
+        endpoint: Endpoint,
+        heard: Callable[[], None],
+        large: Allowance | None = None,
+    ) -> None:
+        """Keeps messages above LARGEST_CONTENT as long as `large` lets it.
+
+        Raises UnknownType where the message type is not installed.
+        """
         self.seen = TopicSeen(name=endpoint.topic, type=endpoint.type)
         self.reliability = endpoint.qos.reliability
         self._class = message_class(endpoint.type)
         self._heard = heard
+        self._large = large or Allowance()
         self._raw: list[bytes] = []
         self._subscription = eye.create_subscription(
             self._class, endpoint.topic, self._take, _matching_qos(endpoint), raw=True
@@ -40,7 +63,8 @@ class Recorder:
         self._heard()
 
     def _keep(self, raw: bytes, info: Any, arrival_ns: int) -> None:
-        self._raw.append(raw if len(raw) <= LARGEST_CONTENT else b"")
+        keep = len(raw) <= LARGEST_CONTENT or self._large.take(len(raw))
+        self._raw.append(raw if keep else b"")
         self.seen.messages.append(
             MessageSeen(
                 source_ns=info["source_timestamp"] or None,
@@ -50,12 +74,16 @@ class Recorder:
             )
         )
 
+    def raw_messages(self) -> Iterator[tuple[MessageSeen, bytes]]:
+        """Each message whose bytes were kept, and these, as they came."""
+        return ((m, raw) for m, raw in zip(self.seen.messages, self._raw, strict=True) if raw)
+
     def read_contents(self) -> None:
         """Turn the bytes into values, after the watch, so that reading delays no message."""
         from rclpy.serialization import deserialize_message
 
         for message, raw in zip(self.seen.messages, self._raw, strict=True):
-            if raw:
+            if 0 < len(raw) <= LARGEST_CONTENT:
                 message.content = to_plain(deserialize_message(raw, self._class))
 
 

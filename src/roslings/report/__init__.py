@@ -1,4 +1,4 @@
-"""One verdict in, many shapes out: terminal, JSON; and the ROS graph in words and as a picture.
+"""One verdict in, many shapes out: terminal, JSON, HTML; the ROS graph in words and pictures.
 
 Nothing here knows how a verdict was measured. rich, pydantic and matplotlib are imported when a
 name is first used, so that `./roslings --help` stays quick.
@@ -10,6 +10,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from roslings.report.evidence_file import BadEvidence, read_evidence
+    from roslings.report.evidence_folder import CannotKeepThere
     from roslings.report.graph_picture import draw_graph
     from roslings.report.graph_words import describe_graph, graph_text
     from roslings.report.json_file import BadVerdictFile, read_json, write_json
@@ -18,7 +20,9 @@ if TYPE_CHECKING:
     from roslings.report.whole_file import CannotWrite
 
 __all__ = [
+    "BadEvidence",
     "BadVerdictFile",
+    "CannotKeepThere",
     "CannotWrite",
     "NoSuchCheck",
     "Progress",
@@ -26,11 +30,15 @@ __all__ = [
     "draw_graph",
     "graph_text",
     "print_verdict",
+    "read_evidence",
     "read_json",
     "write_json",
 ]
 
 _HOMES = {
+    "BadEvidence": "evidence_file",
+    "CannotKeepThere": "evidence_folder",
+    "read_evidence": "evidence_file",
     "BadVerdictFile": "json_file",
     "CannotWrite": "whole_file",
     "NoSuchCheck": "terminal",

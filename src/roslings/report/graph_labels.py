@@ -4,14 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Protocol
 
 from roslings.report.graph_layout import Box, Edge
 from roslings.report.graph_shape import GraphShape, NodeShape, TopicShape
-from roslings.report.lettering import INK, WARNING, Lettering, Line
+from roslings.report.lettering import INK, WARNING, Line
 from roslings.report.safe_text import harmless, wrapped
 
 LONGEST_NAME = 30
 SMALL = 9.0
+
+
+class Ruler(Protocol):
+    """Knows how wide a line of text is in its own font."""
+
+    def width(self, line: Line) -> float:
+        """Points that the line takes from left to right."""
 
 
 @dataclass(frozen=True)
@@ -27,9 +35,9 @@ class Label:
         """Points from the top of the first line to the bottom of the last."""
         return sum(line.height for line in self.lines)
 
-    def box(self, lettering: Lettering) -> Box:
+    def box(self, ruler: Ruler) -> Box:
         """The size that holds the lines."""
-        width = max(lettering.width(line) for line in self.lines)
+        width = max(ruler.width(line) for line in self.lines)
         if self.round:
             # An ellipse w by h holds a text a by b where (a/w)^2 + (b/h)^2 <= 1.
             return Box(width * 1.25 + 16, self.height * 1.85, 0)

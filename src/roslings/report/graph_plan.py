@@ -64,8 +64,13 @@ def plan_of(boxes: Mapping[str, Box], edges: Iterable[Edge]) -> Plan:
     across = _plan(layout(boxes, links, ASPECT))
     if across.width <= WIDE:
         return across
-    down = _plan(layout(_turned(boxes), links, 1 / ASPECT)).turned()
+    down = plan_down(boxes, links)
     return min(across, down, key=lambda plan: max(plan.width / ASPECT, plan.height))
+
+
+def plan_down(boxes: Mapping[str, Box], edges: Iterable[Edge]) -> Plan:
+    """From top to bottom, for a sheet that is narrow."""
+    return _plan(layout(_turned(boxes), edges, 1 / ASPECT)).turned()
 
 
 def _turned(boxes: Mapping[str, Box]) -> dict[str, Box]:

@@ -13,13 +13,18 @@ _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 _EMPTY = " \t^~"
 
 
+def without_colour(line: str) -> str:
+    """`line` without the codes that colour it in a terminal."""
+    return _COLOUR.sub("", line)
+
+
 def helpful(lines: Sequence[str], package: str, at_most: int) -> list[str]:
     """At most `at_most` of `lines`: the last ones; of a traceback, frames of libraries go first.
 
     Colours go, and the path to an installed file of `package` becomes `.../`: the student mends
     the file in src, not the copy that colcon installed.
     """
-    plain = [_COLOUR.sub("", line) for line in lines]
+    plain = [without_colour(line) for line in lines]
     kept = [line for line in plain if line.strip(_EMPTY)]
     if len(kept) > at_most:
         kept = _without_library_frames(kept, package)

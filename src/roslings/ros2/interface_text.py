@@ -57,10 +57,3 @@ def _full(name: str, package: str) -> str:
     if "/" not in name:
         return f"{package}/msg/{name}"
     return name if name.count("/") == 2 else name.replace("/", "/msg/", 1)
-
-
-def messages_in(type_name: str) -> list[str]:
-    """The message types of the fields of a message. Raises UnknownInterface."""
-    package = type_name.partition("/")[0]
-    found = (_message_in(line, package) for line in text_of(type_name).splitlines())
-    return [name for name in found if name]

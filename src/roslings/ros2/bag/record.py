@@ -10,8 +10,8 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Literal
 
+from roslings.probe.definition import definition_of
 from roslings.ros2 import stopping
-from roslings.ros2.bag.definition import definition_of, hash_of
 from roslings.ros2.bag.quality import kept
 from roslings.ros2.bag.speech import tell
 from roslings.ros2.eye import Eye
@@ -138,14 +138,14 @@ class Recorder:
     def _subscribe(self, topic: str, types: list[str]) -> None:
         try:
             cls = class_of(types[0], "msg")
-            definition = definition_of(types[0])
         except UnknownInterface as problem:
             self._refused.add(topic)
             tell(RECORDER, f"Topic '{topic}' is left out. {problem}", "WARN")
             return
+        definition = definition_of(types[0])
         publishers = self._eye.publishers(topic)
         connection = self._writer.add_connection(
-            topic, types[0], msgdef=definition, rihs01=hash_of(types[0]) or NO_HASH,
+            topic, types[0], msgdef=definition.text, rihs01=definition.hash,
             offered_qos_profiles=[kept(info.qos_profile) for info in publishers],
         )  # fmt: skip
         self._eye.node.create_subscription(
@@ -171,7 +171,3 @@ class Recorder:
             if topic not in there:
                 near = did_you_mean(topic, there)
                 tell(RECORDER, f"No node has the topic '{topic}' yet.{near}", "WARN")
-
-
-NO_HASH = "RIHS01_" + 64 * "0"
-"""For a type whose hash was not installed with it."""

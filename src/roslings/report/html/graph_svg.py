@@ -1,0 +1,115 @@
+"""The ROS graph as SVG, at the places that the PNG has too: no matplotlib is needed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from roslings.evidence import GraphSeen
+from roslings.report.graph_labels import Label, edges_of, labels_of
+from roslings.report.graph_layout import Box
+from roslings.report.graph_plan import Arrow, Plan, plan_down, plan_of
+from roslings.report.graph_shape import shape_of
+from roslings.report.graph_words import describe_graph
+from roslings.report.html.markup import Markup, joined, tag
+from roslings.report.lettering import WARNING, Line
+
+MARGIN = 8.0
+SCALE = 1.3
+CELL = 0.61
+"""Width of a letter in a monospaced font, as a part of its height: at most, of the usual ones."""
+NARROW = 330.0
+SHADOW = 5.0
+
+
+class MonospacedRuler:
+    """Widths of lines of text where every letter is equally wide, and East Asian ones twice."""
+
+    def width(self, line: Line) -> float:
+        """Points that the line takes."""
+        from rich.cells import cell_len
+
+        return cell_len(line.text) * CELL * line.size
+
+
+def graph_pictures(graph: GraphSeen) -> Markup:
+    """The graph from left to right; for narrow screens, where that is wide, also downwards."""
+    ruler = MonospacedRuler()
+    shape = shape_of(graph)
+    labels = labels_of(shape)
+    boxes = {key: label.box(ruler) for key, label in labels.items()}
+    edges = edges_of(shape)
+    words = describe_graph(graph)
+    across = plan_of(boxes, edges)
+    if across.width <= NARROW / SCALE:
+        return _picture(across, labels, words, None)
+    down = plan_down(boxes, edges)
+    return joined(_picture(across, labels, words, "wide"), _picture(down, labels, words, "narrow"))
+
+
+def _picture(plan: Plan, labels: Mapping[str, Label], words: str, screen: str | None) -> Markup:
+    width, height = plan.width + 2 * MARGIN, plan.height + 2 * MARGIN
+    drawing = tag(
+        "svg",
+        *_parts(plan.moved(MARGIN, MARGIN), labels),
+        role="img",
+        aria_label=words,
+        viewBox=f"0 0 {width:.0f} {height:.0f}",
+        width=width * SCALE,
+        height=height * SCALE,
+        class_="graph",
+    )
+    return tag("div", drawing, class_=" ".join(filter(None, ("scroll", screen))), tabindex="0",
+               role="group", aria_label="the graph, to scroll")  # fmt: skip
+
+
+def _parts(plan: Plan, labels: Mapping[str, Label]) -> Iterator[Markup]:
+    for arrow in plan.arrows:
+        yield from _arrow(arrow)
+    for key, box in plan.boxes.items():
+        yield from _box(box, labels[key])
+        yield from _lines(box, labels[key])
+
+
+def _arrow(arrow: Arrow) -> Iterator[Markup]:
+    (x, y), (x2, y2), *rest = arrow.line
+    path = [f"M{x:.1f} {y:.1f}L{x2:.1f} {y2:.1f}"]
+    for first in range(0, len(rest), 4):
+        numbers = [f"{px:.1f} {py:.1f}" for px, py in rest[first : first + 4]]
+        path.append(f"C{' '.join(numbers[:3])}L{numbers[3]}")
+    yield tag("path", d="".join(path), class_="arrow")
+    head = "L".join(f"{px:.1f} {py:.1f}" for px, py in arrow.head)
+    yield tag("path", d=f"M{head}z", class_="head")
+
+
+def _box(box: Box, label: Label) -> Iterator[Markup]:
+    if not label.round:
+        yield tag(
+            "rect", x=box.x - box.width / 2, y=box.y - box.height / 2, width=box.width,
+            height=box.height, rx=2.0, class_="topic",
+        )  # fmt: skip
+        return
+    if label.doubled:
+        yield _ellipse(box, SHADOW, "node doubled")
+    yield _ellipse(box, 0.0, "node doubled" if label.doubled else "node")
+
+
+def _ellipse(box: Box, shift: float, kind: str) -> Markup:
+    return tag(
+        "ellipse", cx=box.x + shift, cy=box.y + shift, rx=box.width / 2, ry=box.height / 2,
+        class_=kind,
+    )  # fmt: skip
+
+
+def _lines(box: Box, label: Label) -> Iterator[Markup]:
+    top = box.y - label.height / 2
+    for line in label.lines:
+        yield tag(
+            "text", line.text, x=box.x, y=top + line.size, text_anchor="middle",
+            font_size=line.size, class_=_kind(line),
+        )  # fmt: skip
+        top += line.height
+
+
+def _kind(line: Line) -> str | None:
+    kinds = ["warn"] * (line.colour == WARNING) + ["bold"] * line.bold
+    return " ".join(kinds) or None

@@ -1,0 +1,134 @@
+"""From message to message: how long it took, and how many were lost on the way."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+from roslings.evidence import Evidence, ExperimentSeen, MessageSeen, TopicSeen
+from roslings.near import nearest_endpoint, own_endpoints
+from roslings.rates import NS_PER_S, Rate, measure_rate, measure_simulated_rate
+
+
+@dataclass(frozen=True)
+class Asked:
+    """The rate that a lab asks for on a topic, and the limits that still count."""
+
+    topic: str
+    type: str
+    hz: float
+    low_hz: float
+    high_hz: float
+
+
+@dataclass(frozen=True)
+class Interval:
+    """The time between two messages that came one after the other."""
+
+    end_s: float
+    """When the later one was sent, in seconds since the first message."""
+    period_s: float
+    """Seconds for one message; where some were lost, the time is shared among them."""
+    lost: int
+
+
+@dataclass(frozen=True)
+class Watched:
+    """One topic in one experiment."""
+
+    experiment: ExperimentSeen
+    seen: TopicSeen
+    asked: Asked | None
+    rate: Rate | None
+    """None where there were too few messages to tell."""
+    intervals: tuple[Interval, ...]
+
+
+def watched(evidence: Evidence, asked: Sequence[Asked]) -> list[Watched]:
+    """Every topic that was heard, in each experiment; those with an asked rate first."""
+    found = [
+        _watched(experiment, topic, asked)
+        for experiment in evidence.experiments.values()
+        for topic in _heard(experiment)
+    ]
+    return sorted(found, key=lambda each: each.asked is None or each.rate is None)
+
+
+def _heard(experiment: ExperimentSeen) -> Iterator[TopicSeen]:
+    return (topic for topic in experiment.topics.values() if topic.messages)
+
+
+def _watched(experiment: ExperimentSeen, topic: TopicSeen, asked: Sequence[Asked]) -> Watched:
+    of_it = (each for each in asked if _is_meant(experiment, topic, each))
+    if experiment.clock == "sim":
+        rate = measure_simulated_rate(topic.messages, experiment.ticks, experiment.segments)
+        intervals = intervals_of(_in_segments(experiment, topic), _sim_ns)
+    else:
+        rate = measure_rate(topic.messages)
+        stamped = rate is not None and rate.from_stamps
+        intervals = intervals_of(topic.messages, _source_ns if stamped else _arrival_ns)
+    return Watched(experiment, topic, next(of_it, None), rate, tuple(intervals) if rate else ())
+
+
+def _in_segments(experiment: ExperimentSeen, topic: TopicSeen) -> list[MessageSeen]:
+    """The messages that a simulated rate counts: those since the first segment began."""
+    if not experiment.segments:
+        return []
+    begin_ns = experiment.ticks[experiment.segments[0].first].sim_ns
+    return [m for m in topic.messages if m.sim_ns is not None and m.sim_ns > begin_ns]
+
+
+def _sim_ns(message: MessageSeen) -> int:
+    return message.sim_ns or 0
+
+
+def _source_ns(message: MessageSeen) -> int:
+    return message.source_ns or 0
+
+
+def _arrival_ns(message: MessageSeen) -> int:
+    return message.arrival_ns
+
+
+def _is_meant(experiment: ExperimentSeen, topic: TopicSeen, asked: Asked) -> bool:
+    """The topic is the one that was asked for, or the nearest to it that is there."""
+    end = nearest_endpoint(experiment.graph, "publisher", asked.topic, asked.type)
+    return end is not None and end.topic == topic.name
+
+
+def unheard(evidence: Evidence) -> list[tuple[str, str, str]]:
+    """Experiment, topic and type of what was published and not heard."""
+    return sorted(
+        {
+            (experiment.name, end.topic, end.type)
+            for experiment in evidence.experiments.values()
+            for end in own_endpoints(experiment.graph)
+            if end.kind == "publisher" and not _has_messages(experiment, end.topic)
+        }
+    )
+
+
+def _has_messages(experiment: ExperimentSeen, topic: str) -> bool:
+    heard = experiment.topics.get(topic)
+    return bool(heard and heard.messages)
+
+
+def intervals_of(
+    messages: Sequence[MessageSeen], time_ns: Callable[[MessageSeen], int]
+) -> Iterator[Interval]:
+    """The intervals behind a rate, when it was measured by the clock `time_ns`."""
+    times_s = [time_ns(message) / NS_PER_S for message in messages]
+    for (earlier, before), (later, after) in pairwise(zip(times_s, _counts(messages), strict=True)):
+        if after > before:
+            steps = after - before
+            yield Interval(later - times_s[0], (later - earlier) / steps, steps - 1)
+
+
+def _counts(messages: Sequence[MessageSeen]) -> list[int]:
+    """The publisher's own count where it has one that grows; else the order of arrival."""
+    sequence = [m.sequence for m in messages if m.sequence is not None]
+    growing = all(before < after for before, after in pairwise(sequence))
+    if growing and len(sequence) == len(messages):
+        return sequence
+    return list(range(len(messages)))
