@@ -49,6 +49,7 @@ def answer(runs: Sequence[ExperimentSeen]) -> str:
     return "right"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("clock", CLOCKS)
 @pytest.mark.parametrize("style", STYLES, ids=lambda style: style.stem)
 def test_correct_nodes_of_every_style_are_right(style: Path, clock: Clock) -> None:
@@ -67,6 +68,7 @@ def test_what_follows_the_clock_is_judged_by_it(name: str) -> None:
     assert rate.hz == pytest.approx(RATE.hz)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("clock", CLOCKS)
 @pytest.mark.parametrize("name", TRICKY)
 def test_tricky_nodes_get_the_same_answer_by_both_clocks(name: str, clock: Clock) -> None:

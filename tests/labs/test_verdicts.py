@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 
 from roslings.course import Lab, Mutant, all_labs
+from roslings.experiment.declare import experiments_of, load_grader
 from roslings.judge.sheet import dependants
 
 
@@ -31,7 +32,7 @@ class Answer:
         return {c["id"]: c["fault"] for c in self.verdict["checks"] if c["outcome"] == "fail"}
 
 
-def check(lab: Lab, package: Path, folder: Path) -> Answer:
+def check(lab: Lab, package: Path, folder: Path, clock: str = "auto") -> Answer:
     """Grade a package with the command that a student types."""
     file = folder / "verdict.json"
     command = [
@@ -43,6 +44,8 @@ def check(lab: Lab, package: Path, folder: Path) -> Answer:
         str(package),
         "--json",
         str(file),
+        "--clock",
+        clock,
     ]
     ran = subprocess.run(command, capture_output=True, text=True, check=False, cwd=folder)
     assert file.is_file(), ran.stderr
@@ -58,6 +61,18 @@ def mutants() -> list[Any]:
     """Each mutant of each lab."""
     pairs = [(lab, mutant) for lab in all_labs() for mutant in lab.mutants()]
     return [pytest.param(lab, mutant, id=f"{lab.name}-{mutant.name}") for lab, mutant in pairs]
+
+
+def timed_mutants() -> list[Any]:
+    """Those that a clock can touch: it is chosen, and nothing keeps their nodes from running."""
+    ends_early = {"well_formed", "builds"}
+    return [
+        pytest.param(lab, mutant, id=f"{lab.name}-{mutant.name}")
+        for lab in all_labs()
+        if any(each.clock == "auto" for each in experiments_of(load_grader(lab.grader)))
+        for mutant in lab.mutants()
+        if not ends_early & set(mutant.fails)
+    ]
 
 
 @pytest.mark.parametrize("lab", labs())
@@ -86,3 +101,16 @@ def test_a_mutant_fails_where_it_says(lab: Lab, mutant: Mutant, tmp_path: Path) 
     assert answer.ids("inconclusive") == set()
     assert answer.ids("skip") == dependants(lab, set(mutant.fails)) | set(mutant.skips)
     assert mutant.faults.items() <= answer.faults().items()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("lab", "mutant"), timed_mutants())
+def test_a_mutant_gets_the_same_verdict_in_real_time(
+    lab: Lab, mutant: Mutant, tmp_path: Path
+) -> None:
+    """`--clock wall` and the simulated clock agree; a busy computer may only keep a rate back."""
+    package = mutant.make(lab.solution, tmp_path / "src" / lab.card.package)
+    answer = check(lab, package, tmp_path, "wall")
+    kept_back = answer.ids("inconclusive")
+    assert all(name.endswith("rate") for name in kept_back)
+    assert answer.ids("fail") | kept_back == set(mutant.fails) | kept_back, answer.faults()
