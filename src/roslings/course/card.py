@@ -15,6 +15,9 @@ DEFAULT_WITHIN = 0.1
 """The part of a rate that it may be off, where the card says nothing."""
 
 
+Plain = bool | int | float | str
+
+
 class Contract(BaseModel):
     """A part of the card; an unknown word in it is a mistake, not a comment."""
 
@@ -53,6 +56,10 @@ class TopicContract(Contract):
     qos: QosContract = QosContract()
     rate: RateContract | None = None
     text: str | None = Field(default=None, description="The message's text; `{n}` is a counter")
+    about: str = Field(default="", description="What the message says, in words")
+    fields: dict[str, Plain] = Field(
+        default_factory=dict, description="What each message holds; a dot leads into a field"
+    )
 
     def at(self, hz: float) -> TopicContract:
         """The same topic at another rate, as tolerant as before."""
@@ -70,7 +77,12 @@ class ParameterContract(Contract):
     tried: bool | int | float | str = Field(description="The other value that the check gives it")
 
 
-Plain = bool | int | float | str
+class ConstantContract(Contract):
+    """A number that the node reckons with."""
+
+    name: str
+    value: float
+    about: str = Field(description="Its unit, and what it is for")
 
 
 class AnswerContract(Contract):
@@ -109,6 +121,7 @@ class NodeContract(Contract):
     publishes: tuple[TopicContract, ...] = ()
     subscribes: tuple[TopicContract, ...] = ()
     parameters: tuple[ParameterContract, ...] = ()
+    constants: tuple[ConstantContract, ...] = ()
     serves: tuple[ServiceContract, ...] = ()
     calls: tuple[ServiceContract, ...] = ()
     gives_up: GiveUpContract | None = None
@@ -120,6 +133,22 @@ class NodeContract(Contract):
     log_examples: tuple[str, ...] = Field(
         default=(), description="For `{text}` in the task, where no topic has a text"
     )
+
+    def constant(self, name: str) -> float:
+        """A number of the card. Raises KeyError where there is none of this name."""
+        return {each.name: each.value for each in self.constants}[name]
+
+
+class LaunchContract(Contract):
+    """A launch file of the package, and the executables that it starts."""
+
+    file: str = Field(pattern=r"^launch/[a-z0-9_]+\.launch\.(xml|yaml|py)$")
+    starts: tuple[str, ...]
+
+    @property
+    def name(self) -> str:
+        """What stands behind `ros2 launch PACKAGE`."""
+        return self.file.rpartition("/")[2]
 
 
 class PictureContract(Contract):
@@ -150,6 +179,7 @@ class Card(Contract):
     package: str = Field(pattern=r"^[a-z][a-z0-9_]*$")
     build_type: Literal["ament_python"] = "ament_python"
     nodes: tuple[NodeContract, ...]
+    launch: LaunchContract | None = None
     ends_within_s: float = Field(default=2.0, gt=0, description="After Ctrl-C")
     pictures: tuple[PictureContract, ...] = ()
     points: dict[str, float] = Field(description="Check's name to its points")

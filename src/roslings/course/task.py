@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import PurePosixPath
 
 from roslings.course.card import (
@@ -83,7 +83,13 @@ def _package_rows(card: Card) -> Iterable[tuple[str, ...]]:
     yield "build type", f"`{card.build_type}`"
     for picture in card.pictures:
         yield "picture", _picture(picture)
+    if card.launch:
+        yield "launch file", f"`{card.launch.file}`, starts {_all_of(card.launch.starts)}"
     yield "Ctrl-C", f"ends each node within {card.ends_within_s:g} s"
+
+
+def _all_of(names: Sequence[str]) -> str:
+    return " and ".join(f"`{name}`" for name in names)
 
 
 def _picture(picture: PictureContract) -> str:
@@ -94,6 +100,8 @@ def _picture(picture: PictureContract) -> str:
 def _node_rows(node: NodeContract) -> Iterable[tuple[str, ...]]:
     yield "executable", f"`{node.executable}`"
     yield from _speaking_rows(node)
+    for constant in node.constants:
+        yield constant.name.replace("_", " "), f"{constant.value:g} {constant.about}"
     for parameter in node.parameters:
         yield "parameter", _parameter(parameter)
     if node.other_names:
@@ -125,7 +133,10 @@ def _service_rows(service: ServiceContract) -> Iterable[tuple[str, ...]]:
 
 
 def _answer(answer: AnswerContract) -> str:
-    asked = f"asked `{_fields(answer.request)}`: " if answer.request else ""
+    asked = f"`{_fields(answer.request)}`" if answer.request else ""
+    if not answer.response:
+        return asked
+    asked = f"asked {asked}: " if asked else ""
     then = "" if answer.state is None else f"; the topic then says `{answer.state}`"
     return f"{asked}{_fields(answer.response, '`')}{then}"
 
@@ -152,6 +163,8 @@ def _parameter(parameter: ParameterContract) -> str:
 
 
 def _topic_rows(topic: TopicContract) -> Iterable[tuple[str, ...]]:
+    if topic.about:
+        yield "which says", topic.about
     yield "message type", f"`{topic.type}`"
     yield "QoS", _qos(topic.qos)
     if topic.rate:
@@ -159,6 +172,8 @@ def _topic_rows(topic: TopicContract) -> Iterable[tuple[str, ...]]:
         yield "rate", f"{rate.hz:g} Hz; {rate.low_hz:.4g} Hz to {rate.high_hz:.4g} Hz is right"
     if topic.text:
         yield "text", _text(topic.text)
+    for name, value in topic.fields.items():
+        yield f"field `{name}`", f"`{_plain(value)}`"
 
 
 def _qos(qos: QosContract) -> str:

@@ -44,6 +44,11 @@ class Scene:
         return self._probe.seen
 
     @property
+    def arena(self) -> Arena:
+        """Where the processes run, for those that are no executable of the package."""
+        return self._arena
+
+    @property
     def probe(self) -> Probe:
         """The eyes and the voice, for what this class has no word for."""
         return self._probe
@@ -76,7 +81,7 @@ class Scene:
         ear = self._ear(contract)
         for _ in range(count if ear else 0):
             assert ear is not None
-            self._tell(listener, ear, self._sentence())
+            self._tell(listener, ear, self.sentence())
 
     def _ear(self, contract: TopicContract) -> Endpoint | None:
         """The subscription to a topic, or to the one nearest to it; None where there is none."""
@@ -87,10 +92,14 @@ class Scene:
         self._until_alive(lambda: find() is not None, FIRST_MESSAGE_WITHIN_S)
         return find()
 
-    def _sentence(self) -> str:
+    def sentence(self) -> str:
         """A sentence that nobody can know before it is said."""
         words = self._random.sample(WORDS, 3)
         return f"{' '.join(words)} {self._random.randrange(1000, 10000)}"
+
+    def between(self, low: float, high: float) -> float:
+        """A number that nobody can know before, to the third digit after the point."""
+        return round(self._random.uniform(low, high), 3)
 
     def _tell(self, process: Process, ear: Endpoint, text: str) -> None:
         """Say `text` to a listener and wait until it repeats it, or had its chance to."""
