@@ -4,12 +4,18 @@ The only room that reads them; each mistake in them is told with file and line.
 """
 
 from roslings.course.card import (
+    AnswerContract,
     Card,
+    ConstantContract,
+    GiveUpContract,
     Hint,
+    LaunchContract,
     NodeContract,
+    ParameterContract,
     PictureContract,
     QosContract,
     RateContract,
+    ServiceContract,
     TopicContract,
 )
 from roslings.course.files import CourseError, NoSuchLab
@@ -17,17 +23,23 @@ from roslings.course.labs import Lab, all_labs, lab, root
 from roslings.course.mutants import Edit, Mutant
 
 __all__ = [
+    "AnswerContract",
     "Card",
+    "ConstantContract",
     "CourseError",
     "Edit",
+    "GiveUpContract",
     "Hint",
     "Lab",
+    "LaunchContract",
     "Mutant",
     "NoSuchLab",
     "NodeContract",
+    "ParameterContract",
     "PictureContract",
     "QosContract",
     "RateContract",
+    "ServiceContract",
     "TopicContract",
     "all_labs",
     "lab",

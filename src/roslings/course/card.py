@@ -11,6 +11,12 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
+DEFAULT_WITHIN = 0.1
+"""The part of a rate that it may be off, where the card says nothing."""
+
+
+Plain = bool | int | float | str
+
 
 class Contract(BaseModel):
     """A part of the card; an unknown word in it is a mistake, not a comment."""
@@ -50,6 +56,61 @@ class TopicContract(Contract):
     qos: QosContract = QosContract()
     rate: RateContract | None = None
     text: str | None = Field(default=None, description="The message's text; `{n}` is a counter")
+    about: str = Field(default="", description="What the message says, in words")
+    fields: dict[str, Plain] = Field(
+        default_factory=dict, description="What each message holds; a dot leads into a field"
+    )
+
+    def at(self, hz: float) -> TopicContract:
+        """The same topic at another rate, as tolerant as before."""
+        within = self.rate.within if self.rate else DEFAULT_WITHIN
+        return self.model_copy(update={"rate": RateContract(hz=hz, within=within)})
+
+
+class ParameterContract(Contract):
+    """A setting of a node that is chosen when it starts."""
+
+    name: str = Field(pattern=r"^[a-z][a-z0-9_]*$")
+    type: Literal["bool", "integer", "double", "string"]
+    about: str = Field(description="What it sets, with its unit, e.g. `seconds between messages`")
+    default: bool | int | float | str
+    tried: bool | int | float | str = Field(description="The other value that the check gives it")
+
+
+class ConstantContract(Contract):
+    """A number that the node reckons with."""
+
+    name: str
+    value: float
+    about: str = Field(description="Its unit, and what it is for")
+
+
+class AnswerContract(Contract):
+    """What a server answers to one request, and what is to be seen of it afterwards."""
+
+    when: str = Field(description="In what state it is asked, e.g. `the limit is on`")
+    request: dict[str, Plain] = Field(default_factory=dict)
+    response: dict[str, Plain]
+    state: Plain | None = Field(
+        default=None, description="What the node's first topic carries afterwards, in `data`"
+    )
+
+
+class ServiceContract(Contract):
+    """One service that a node offers, or that it calls."""
+
+    service: str = Field(pattern=r"^/[A-Za-z_][A-Za-z0-9_/]*$")
+    type: str = Field(pattern=r"^[a-z][a-z0-9_]*/srv/[A-Z][A-Za-z0-9]*$")
+    within_s: float | None = Field(default=None, gt=0, description="The answer comes in this time")
+    answers: tuple[AnswerContract, ...] = ()
+
+
+class GiveUpContract(Contract):
+    """What a client does that finds no server."""
+
+    within_s: float = Field(gt=0, description="From its start to its end")
+    log: str
+    exit_code: int
 
 
 class NodeContract(Contract):
@@ -59,7 +120,35 @@ class NodeContract(Contract):
     executable: str
     publishes: tuple[TopicContract, ...] = ()
     subscribes: tuple[TopicContract, ...] = ()
+    parameters: tuple[ParameterContract, ...] = ()
+    constants: tuple[ConstantContract, ...] = ()
+    serves: tuple[ServiceContract, ...] = ()
+    calls: tuple[ServiceContract, ...] = ()
+    gives_up: GiveUpContract | None = None
+    other_names: tuple[str, ...] = Field(
+        default=(), description="Full names that it takes when it is started with remaps"
+    )
     log: str | None = Field(default=None, description="A line it writes; `{text}` is the message")
+    log_about: str = Field(default="the message's text", description="What `{text}` stands for")
+    log_examples: tuple[str, ...] = Field(
+        default=(), description="For `{text}` in the task, where no topic has a text"
+    )
+
+    def constant(self, name: str) -> float:
+        """A number of the card. Raises KeyError where there is none of this name."""
+        return {each.name: each.value for each in self.constants}[name]
+
+
+class LaunchContract(Contract):
+    """A launch file of the package, and the executables that it starts."""
+
+    file: str = Field(pattern=r"^launch/[a-z0-9_]+\.launch\.(xml|yaml|py)$")
+    starts: tuple[str, ...]
+
+    @property
+    def name(self) -> str:
+        """What stands behind `ros2 launch PACKAGE`."""
+        return self.file.rpartition("/")[2]
 
 
 class PictureContract(Contract):
@@ -90,6 +179,7 @@ class Card(Contract):
     package: str = Field(pattern=r"^[a-z][a-z0-9_]*$")
     build_type: Literal["ament_python"] = "ament_python"
     nodes: tuple[NodeContract, ...]
+    launch: LaunchContract | None = None
     ends_within_s: float = Field(default=2.0, gt=0, description="After Ctrl-C")
     pictures: tuple[PictureContract, ...] = ()
     points: dict[str, float] = Field(description="Check's name to its points")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import random
 import time
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 
@@ -18,6 +19,7 @@ from roslings.experiment.simulated import (
     SimulatedWatch,
     followed_clock,
 )
+from roslings.experiment.start import PLAIN, Start
 from roslings.near import Near, nearest, nearest_endpoint
 from roslings.probe import Probe
 
@@ -45,20 +47,28 @@ class Scene:
         """What was seen so far."""
         return self._probe.seen
 
+    @property
+    def arena(self) -> Arena:
+        """Where the processes run, for those that are no executable of the package."""
+        return self._arena
+
+    @property
+    def probe(self) -> Probe:
+        """The eyes and the voice, for what this class has no word for."""
+        return self._probe
+
     @contextmanager
-    def run(self, node: NodeContract, remaps: Sequence[str] = ()) -> Iterator[Process]:
+    def run(
+        self, node: NodeContract, remaps: Sequence[str] = (), start: Start = PLAIN
+    ) -> Iterator[Process]:
         """Start a node, wait until it is in the graph; press Ctrl-C when the block ends."""
-        known = set(self.seen.graph.nodes)
-        with self._arena.run(node.executable, self._arguments(remaps)) as process:
-            self.seen.processes[node.executable] = process.seen
+        known = Counter(self.seen.graph.nodes)
+        words = start.arguments(remaps, simulated=self._simulated)
+        with self._arena.run(node.executable, words) as process:
+            self.seen.processes[start.label(node)] = process.seen
             self._wait_up(process, known)
             yield process
             self._end(process)
-
-    def _arguments(self, remaps: Sequence[str]) -> list[str]:
-        words = [word for rule in remaps for word in ("-r", rule)]
-        clock = ["-p", "use_sim_time:=true"] if self._simulated else []
-        return ["--ros-args", *words, *clock] if words or clock else []
 
     def watch(self, contract: TopicContract) -> None:
         """Watch a topic, or the one nearest to it, until its rate is sure or the bound is met."""
@@ -99,7 +109,7 @@ class Scene:
         ear = self._ear(contract)
         for _ in range(count if ear else 0):
             assert ear is not None
-            self._tell(listener, ear, self._sentence())
+            self._tell(listener, ear, self.sentence())
 
     def _ear(self, contract: TopicContract) -> Endpoint | None:
         """The subscription to a topic, or to the one nearest to it; None where there is none."""
@@ -110,10 +120,14 @@ class Scene:
         self._until_alive(lambda: find() is not None, FIRST_MESSAGE_WITHIN_S)
         return find()
 
-    def _sentence(self) -> str:
+    def sentence(self) -> str:
         """A sentence that nobody can know before it is said."""
         words = self._random.sample(WORDS, 3)
         return f"{' '.join(words)} {self._random.randrange(1000, 10000)}"
+
+    def between(self, low: float, high: float) -> float:
+        """A number that nobody can know before, to the third digit after the point."""
+        return round(self._random.uniform(low, high), 3)
 
     def _tell(self, process: Process, ear: Endpoint, text: str) -> None:
         """Say `text` to a listener and wait until it repeats it, or had its chance to."""
@@ -142,10 +156,10 @@ class Scene:
         with self._timed_watching():
             self._until_alive(both, FIRST_MESSAGE_WITHIN_S)
 
-    def _wait_up(self, process: Process, known: set[str]) -> None:
+    def _wait_up(self, process: Process, known: Counter[str]) -> None:
         began_s = time.monotonic()
         self._probe.until(
-            lambda: not process.alive or bool(set(self.seen.graph.nodes) - known),
+            lambda: not process.alive or bool(Counter(self.seen.graph.nodes) - known),
             COMES_UP_WITHIN_S,
         )
         self.seen.discovery_s += time.monotonic() - began_s
@@ -154,6 +168,11 @@ class Scene:
         began_s = time.monotonic()
         process.interrupt(self._ends_within_s + INTERRUPT_SLACK_S)
         self.seen.ending_s += time.monotonic() - began_s
+
+    def until(self, condition: Callable[[], bool], within_s: float) -> bool:
+        """Wait for the condition, as long as every process lives. Whether it holds."""
+        with self._timed_watching():
+            return self._until_alive(condition, within_s)
 
     def _until_alive(self, condition: Callable[[], bool], within_s: float) -> bool:
         """Wait for the condition, as long as every process lives."""

@@ -169,7 +169,7 @@ def log_each(node: NodeContract, texts: Sequence[str]) -> Demand[ProcessView]:
         if not wanted:
             raise faults.NothingToJudge("there was no message to write about")
         if not any(line in written for written in process.texts for line in wanted):
-            near = _most_similar(wanted[0], process.texts)
+            near = most_similar(wanted[0], process.texts)
             raise faults.NotLogged(process.seen.executable, wanted[0], near)
 
     return demand
@@ -201,7 +201,8 @@ def _echo_fault(template: str, said: str, texts: list[str]) -> faults.DoesNotRep
     return faults.DoesNotRepeat(template, said, texts[-1] if texts else None)
 
 
-def _most_similar(wanted: str, lines: list[str]) -> str | None:
+def most_similar(wanted: str, lines: list[str]) -> str | None:
+    """The line most like the wanted one, else the last one; None where there is none."""
     near = difflib.get_close_matches(wanted, lines, n=1, cutoff=SIMILAR_LINE)
     return near[0] if near else (lines[-1] if lines else None)
 

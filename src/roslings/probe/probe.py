@@ -99,6 +99,11 @@ class Probe:
         """What was heard, topic by topic, with the bytes as they came."""
         return self._recorders
 
+    @property
+    def eye(self) -> Any:
+        """The rclpy node behind the probe, for what else of it is to be used."""
+        return self._eye
+
     def until(self, condition: Condition, within_s: float) -> bool:
         """Watch until `condition()` is true, at most `within_s`. Whether it became true.
 

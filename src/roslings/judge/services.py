@@ -1,0 +1,333 @@
+"""Demands on services: names, answers, the state behind them, and how soon they come."""
+
+from __future__ import annotations
+
+import math
+import statistics
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+from roslings.course import (
+    AnswerContract,
+    GiveUpContract,
+    NodeContract,
+    ServiceContract,
+    TopicContract,
+)
+from roslings.evidence import CallSeen, ProcessSeen, ServiceEnd
+from roslings.judge.demands import log_each, require_steady, written
+from roslings.judge.faults import DidNotComeUp, Inconclusive, NothingToJudge, NotLogged
+from roslings.judge.faults import services as faults
+from roslings.judge.views import Demand, ExperimentView, ProcessView, TopicView
+from roslings.judge.words import describe_status
+from roslings.near import nearest, nearest_endpoint
+
+NS_PER_S = 1e9
+MOST_LATE = 0.05
+"""One answer in twenty may be late: a computer does other things, too."""
+
+
+# --- who serves what ---------------------------------------------------------------------------
+
+
+def serve(service: ServiceContract) -> Demand[ExperimentView]:
+    """A node serves it under its very name."""
+
+    def demand(experiment: ExperimentView) -> None:
+        end = _server(experiment, service)
+        if end is None:
+            clients = _ends(experiment, "client")
+            raise faults.NoService(
+                service.service, any(each.service == service.service for each in clients)
+            )
+        near = nearest(service.service, [end.service])
+        if near and not near.exact:
+            raise faults.WrongService(near)
+
+    return demand
+
+
+def serve_its_type(service: ServiceContract) -> Demand[ExperimentView]:
+    """The service has the card's type; one that is missing is another check's business."""
+
+    def demand(experiment: ExperimentView) -> None:
+        end = _server(experiment, service)
+        if end is not None and end.type != service.type:
+            raise faults.WrongServiceType(end.service, service.type, end.type)
+
+    return demand
+
+
+def _ends(experiment: ExperimentView, kind: str) -> list[ServiceEnd]:
+    return [end for end in experiment.seen.services if end.kind == kind]
+
+
+def _server(experiment: ExperimentView, service: ServiceContract) -> ServiceEnd | None:
+    """The server that is meant: the very name, else the nearest one, the right type first.
+
+    A name that has nothing in common with it is another service, not a slip.
+    """
+    servers = _ends(experiment, "server")
+    same_type = [end for end in servers if end.type == service.type]
+    exact = [end for end in servers if end.service == service.service]
+    pool = exact or same_type or servers
+    near = nearest(service.service, (end.service for end in pool))
+    if near is None or near.how == "other":
+        return None
+    return next(end for end in pool if end.service == near.found)
+
+
+# --- answers -----------------------------------------------------------------------------------
+
+
+def answer_each(node: NodeContract, service: ServiceContract) -> Demand[ExperimentView]:
+    """Each request of the conversation gets the card's answer."""
+
+    def demand(experiment: ExperimentView) -> None:
+        for call in _conversation(experiment, service):
+            _require_answer(experiment, node, call)
+            _compare(call, service.answers[call.number])
+
+    return demand
+
+
+def show_each(services: Sequence[ServiceContract], topic: TopicContract) -> Demand[ExperimentView]:
+    """After each answer the topic says what the card says."""
+    answers = {service.service: service.answers for service in services}
+
+    def demand(experiment: ExperimentView) -> None:
+        calls = [c for c in experiment.seen.calls if c.part in answers and c.answered_ns]
+        if not calls:
+            raise NothingToJudge("no call was answered")
+        for call in calls:
+            answer = answers[call.part][call.number]
+            found = _said_after(experiment, call, topic)
+            if not _same(found, answer.state):
+                after = f"{call.service}{_asked(call)}"
+                shown = None if found is None else f"{found}"
+                raise faults.WrongState(topic.topic, after, f"{answer.state}", shown)
+
+    return demand
+
+
+def _same(found: Any, wanted: Any) -> bool:
+    """Equal, as far as a number of 32 bits can be."""
+    if isinstance(found, float) and isinstance(wanted, float):
+        return math.isclose(found, wanted, rel_tol=1e-6)
+    return bool(found == wanted)
+
+
+def _conversation(experiment: ExperimentView, service: ServiceContract) -> list[CallSeen]:
+    calls = [call for call in experiment.seen.calls if call.part == service.service]
+    if not calls:
+        raise NothingToJudge(f"{service.service} could not be called")
+    return calls
+
+
+def _require_answer(experiment: ExperimentView, node: NodeContract, call: CallSeen) -> None:
+    """Raises the fault that tells why no answer came."""
+    if call.response is not None:
+        return
+    process = experiment.process(node)
+    asked, waited_s = _asked(call), 5.0
+    if process.seen.ended_by_itself:
+        raise faults.EndedInsteadOfAnswering(
+            call.service, asked, waited_s, log=process.last_lines()
+        )
+    if experiment.seen.stuck:
+        calls = tuple(sorted({end.service for end in _ends(experiment, "client")}))
+        if calls:
+            raise faults.Deadlock(call.service, asked, waited_s, calls)
+        raise faults.StuckInCallback(call.service, asked, waited_s)
+    require_steady(experiment.seen.stall_s)
+    raise faults.NoAnswer(call.service, asked, waited_s)
+
+
+def _compare(call: CallSeen, answer: AnswerContract) -> None:
+    for name, wanted in answer.response.items():
+        found = call.response.get(name)
+        if found != wanted:
+            raise faults.WrongAnswer(
+                call.service, _asked(call), name, _shown(wanted), _shown(found), answer.when
+            )
+
+
+def _asked(call: CallSeen) -> str:
+    """The request as it stands behind the service's name; nothing where it has no fields."""
+    words = ", ".join(f"{name}: {_shown(value)}" for name, value in call.request.items())
+    return f" ({words})" if words else ""
+
+
+def _shown(value: Any) -> str:
+    return str(value).lower() if isinstance(value, bool) else repr(value)
+
+
+def _said_after(experiment: ExperimentView, call: CallSeen, topic: TopicContract) -> Any:
+    """The last value of the topic while it was watched after a call; None where none came."""
+    publisher = nearest_endpoint(experiment.seen.graph, "publisher", topic.topic, topic.type)
+    heard = experiment.seen.topics.get(publisher.topic) if publisher else None
+    if heard is None:
+        raise NothingToJudge(f"nothing came on {topic.topic}")
+    start_ns, end_ns = call.answered_ns or 0, call.watched_until_ns or 0
+    said = [
+        message.content["data"]
+        for message in heard.messages
+        if start_ns < message.arrival_ns <= end_ns and isinstance(message.content, dict)
+        and "data" in message.content
+    ]  # fmt: skip
+    return said[-1] if said else None
+
+
+def before_the_calls(experiment: ExperimentView, topic: TopicContract) -> TopicView:
+    """The topic as it was while nobody asked for anything."""
+    view = experiment.topic(topic)
+    first_ns = min((call.sent_ns for call in experiment.seen.calls), default=None)
+    quiet = [m for m in view.messages if first_ns is None or m.arrival_ns < first_ns]
+    return replace(view, heard=view.heard.model_copy(update={"messages": quiet}))
+
+
+# --- how soon ----------------------------------------------------------------------------------
+
+
+def answer_in_time(
+    node: NodeContract, service: ServiceContract, part: str, who: str, asked: int
+) -> Demand[ExperimentView]:
+    """Nearly every answer of this part of the experiment comes within the card's time."""
+    limit_s = written(service.within_s, service.service)
+
+    def demand(experiment: ExperimentView) -> None:
+        calls = [call for call in experiment.seen.calls if call.part == part]
+        if not calls:
+            raise NothingToJudge(f"{service.service} could not be called")
+        for call in calls:
+            _require_answer(experiment, node, call)
+            _compare(call, _answer_to(call, service))
+        took_s = sorted(_took_s(call) for call in calls)
+        late = [each for each in took_s if each > limit_s]
+        if len(late) > MOST_LATE * asked:
+            _require_worse_than_the_machine(experiment, took_s, limit_s)
+            name = calls[0].service
+            raise faults.LateAnswers(name, who, limit_s, len(late), len(calls), took_s[-1])
+
+    return demand
+
+
+def _answer_to(call: CallSeen, service: ServiceContract) -> AnswerContract:
+    return next(answer for answer in service.answers if answer.request == call.request)
+
+
+def _took_s(call: CallSeen) -> float:
+    return ((call.answered_ns or call.sent_ns) - call.sent_ns) / NS_PER_S
+
+
+def _require_worse_than_the_machine(
+    experiment: ExperimentView, took_s: Sequence[float], limit_s: float
+) -> None:
+    """Single late answers may be this computer's doing. Raises Inconclusive.
+
+    Where half of them are late, no pause of the computer explains that; where fewer are, they
+    must be late by more than the longest time for which the observer itself was not run.
+    """
+    stall_s = experiment.seen.stall_s
+    require_steady(stall_s)
+    too_long_s = statistics.median(each for each in took_s if each > limit_s) - limit_s
+    if statistics.median(took_s) <= limit_s and too_long_s < stall_s:
+        raise Inconclusive(
+            f"some answers were late by {too_long_s:.2f} s, but this computer stood still for"
+            f" {stall_s:.2f} s; close other programs and check again"
+        )
+
+
+# --- clients -----------------------------------------------------------------------------------
+
+
+def ask(node: NodeContract, service: ServiceContract) -> Demand[ExperimentView]:
+    """The client sends the card's request to the server."""
+    wanted = service.answers[0].request
+
+    def demand(experiment: ExperimentView) -> None:
+        process = experiment.process(node)
+        if not experiment.seen.served:
+            _require_no_crash(process)
+            near = nearest(service.service, (e.service for e in _ends(experiment, "client")))
+            if near and not near.exact:
+                raise faults.AsksElsewhere(near)
+            raise faults.DidNotAsk(
+                node.executable, service.service, _how_it_went(process.seen),
+                log=process.last_lines(6),
+            )  # fmt: skip
+        found = experiment.seen.served[0].request
+        if found != wanted:
+            shown = (", ".join(f"{n}: {_shown(v)}" for n, v in d.items()) for d in (wanted, found))
+            raise faults.AskedOtherwise(node.executable, *shown)
+
+    return demand
+
+
+def _require_no_crash(process: ProcessView) -> None:
+    seen = process.seen
+    if seen.ended_by_itself and any(text.startswith("Traceback") for text in process.texts):
+        how = f"it ended with an error ({describe_status(seen.status)})"
+        raise DidNotComeUp(seen.executable, how, log=process.last_lines())
+
+
+def _how_it_went(seen: ProcessSeen) -> str:
+    if seen.ended_by_itself:
+        return f"the program ended ({describe_status(seen.status)})"
+    return "the program ran on"
+
+
+def tell_the_answer(node: NodeContract) -> Demand[ExperimentView]:
+    """The client writes the card's line with the message of the answer."""
+
+    def demand(experiment: ExperimentView) -> None:
+        said = [str(call.response["message"]) for call in experiment.seen.served]
+        process = experiment.process(node)
+        if experiment.seen.stuck:
+            raise NothingToJudge("it waits for ever, so it has no answer to write")
+        process.must(log_each(node, said[:1]))
+
+    return demand
+
+
+def end_by_itself(node: NodeContract) -> Demand[ExperimentView]:
+    """The client ends when it has its answer, with exit code 0."""
+
+    def demand(experiment: ExperimentView) -> None:
+        process = experiment.process(node)
+        if not process.seen.ended_by_itself:
+            require_steady(experiment.seen.stall_s)
+            if experiment.seen.stuck:
+                answered = bool(experiment.seen.served)
+                raise faults.ClientDeadlock(node.executable, process.ran_s, answered)
+            raise faults.ClientStays(node.executable, process.ran_s)
+        _require_code(process, 0, "after an answer")
+
+    return demand
+
+
+def give_up(node: NodeContract) -> Demand[ExperimentView]:
+    """Without a server the client ends in time, says why, and its exit code says so, too."""
+    contract: GiveUpContract = written(node.gives_up, node.node)
+
+    def demand(experiment: ExperimentView) -> None:
+        process = experiment.process(node)
+        if not process.seen.ended_by_itself:
+            require_steady(experiment.seen.stall_s)
+            raise faults.NeverGivesUp(node.executable, process.ran_s, contract.within_s)
+        if not any(contract.log in text for text in process.texts):
+            _require_no_crash(process)
+            last = process.texts[-1] if process.texts else None
+            raise NotLogged(node.executable, contract.log, last)
+        _require_code(process, contract.exit_code, "without a server")
+
+    return demand
+
+
+def _require_code(process: ProcessView, wanted: int, when: str) -> None:
+    seen = process.seen
+    if seen.status != wanted:
+        raise faults.WrongExitCode(
+            seen.executable, when, wanted, describe_status(seen.status), log=process.last_lines(6)
+        )
