@@ -65,7 +65,7 @@ def check(options: argparse.Namespace) -> int:
     package = lab.solution if options.solution else package_of(lab, options.path)
     quiet = _is_stdout(options.json)
     with place_for_bags(options.evidence, package) as bags:
-        graded = examine(lab, package, options.seed, options.clock, quiet, bags)
+        graded = grade(lab, package, options.seed, options.clock, quiet, bags)
         if not options.solution:
             _keep(lab, graded.verdict)
         code = _show(graded.verdict, options)
@@ -74,17 +74,6 @@ def check(options: argparse.Namespace) -> int:
 
 
 def grade(
-    lab: Lab,
-    package: Path,
-    seed: int | None = None,
-    clock: Clock = "auto",
-    quiet: bool = False,
-) -> Verdict:
-    """The verdict on a package, telling each step as it comes."""
-    return examine(lab, package, seed, clock, quiet).verdict
-
-
-def examine(
     lab: Lab,
     package: Path,
     seed: int | None = None,
