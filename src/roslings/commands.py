@@ -9,6 +9,7 @@ import sys
 import time
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from roslings import course
 from roslings.cli import EXIT_OF_OUTCOME, FAILED, INCONCLUSIVE, OK, WRONG_USE
@@ -21,11 +22,13 @@ from roslings.report import (
     CannotWrite,
     NoSuchCheck,
 )
-from roslings.saving import Graded, NoBagWriter, NothingToSave, place_for_bags, save
 from roslings.verdict import Verdict
 from roslings.workspace.progress import LabStatus, Step
 from roslings.workspace.student import package_of, workspace_root
 from roslings.workspace.trouble import MachineTrouble, WorkspaceError, shown
+
+if TYPE_CHECKING:
+    from roslings.saving import Graded
 
 SEEDS = 10**9
 
@@ -34,6 +37,7 @@ def exit_code_of(error: Exception) -> int | None:
     """The exit code for what went wrong; None for what nobody expected."""
     from roslings.arena import NoFreeDomain
     from roslings.experiment import MeasuringFailed
+    from roslings.saving import NoBagWriter, NothingToSave
 
     if isinstance(error, MeasuringFailed | NoFreeDomain | MachineTrouble | CannotWrite):
         return INCONCLUSIVE
@@ -51,6 +55,8 @@ def exit_code_of(error: Exception) -> int | None:
 
 def check(options: argparse.Namespace) -> int:
     """Run what the student built, and say what to do next."""
+    from roslings.saving import NothingToSave, place_for_bags
+
     lab = course.lab(options.lab)
     if options.hint and not options.solution and _kept(lab).is_file():
         if options.evidence or options.html:
@@ -59,7 +65,7 @@ def check(options: argparse.Namespace) -> int:
     package = lab.solution if options.solution else package_of(lab, options.path)
     quiet = _is_stdout(options.json)
     with place_for_bags(options.evidence, package) as bags:
-        graded = examine(lab, package, options.seed, options.clock, quiet, bags)
+        graded = grade(lab, package, options.seed, options.clock, quiet, bags)
         if not options.solution:
             _keep(lab, graded.verdict)
         code = _show(graded.verdict, options)
@@ -73,23 +79,13 @@ def grade(
     seed: int | None = None,
     clock: Clock = "auto",
     quiet: bool = False,
-) -> Verdict:
-    """The verdict on a package, telling each step as it comes."""
-    return examine(lab, package, seed, clock, quiet).verdict
-
-
-def examine(
-    lab: Lab,
-    package: Path,
-    seed: int | None = None,
-    clock: Clock = "auto",
-    quiet: bool = False,
     bags: Path | None = None,
 ) -> Graded:
     """Measure a package and judge what was seen; what was said goes to the new folder `bags`."""
     from roslings.experiment import measure
     from roslings.judge import judge
     from roslings.report import Progress
+    from roslings.saving import Graded
     from roslings.workspace.inspect import inspect_package
 
     began_s = time.monotonic()
@@ -104,6 +100,8 @@ def examine(
 
 def _save(graded: Graded, options: argparse.Namespace, bags: Path | None) -> None:
     """Save what was asked for, and say where it is."""
+    from roslings.saving import save
+
     if options.html:
         graded.write_page(options.html)
     if options.evidence:
@@ -117,6 +115,7 @@ def regrade(options: argparse.Namespace) -> int:
     """Judge saved evidence again; nothing is run."""
     from roslings.judge import judge
     from roslings.report import read_evidence
+    from roslings.saving import Graded
 
     began_s = time.monotonic()
     lab = course.lab(options.lab)

@@ -145,6 +145,11 @@ def test_damage_is_found(ready: CourseCopy) -> None:
     assert set(installed(site)) == {"pip", "setuptools"}
 
 
+def test_judging_again_needs_no_ros(course: CourseCopy) -> None:
+    """Who only judges saved evidence downloads little."""
+    assert course.run("regrade").seen["has"] == ["check_x"]
+
+
 @pytest.mark.parametrize("words", [("--evidence", "here"), ("--evidence=here",)])
 def test_evidence_needs_what_writes_bags(ready: CourseCopy, words: tuple[str, ...]) -> None:
     """`check` alone stays small; `check --evidence` loads one more group, once."""

@@ -126,6 +126,24 @@ def test_nothing_is_overwritten(
     assert sorted(tmp_path.rglob("*")) == before
 
 
+@pytest.mark.parametrize("name", [".", "", "..", "/", "../here"])
+def test_the_folder_that_one_is_in_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    """It would be replaced under one's feet; the new name is a name."""
+    here = tmp_path / "here"
+    here.mkdir()
+    monkeypatch.chdir(here)
+    with pytest.raises(CannotKeepThere, match=r"--evidence (\.\./here|evidence)-2"):
+        require_free(Path(name))
+
+
+def test_a_place_where_nobody_can_write_is_refused() -> None:
+    """Not even root."""
+    with pytest.raises(CannotKeepThere, match="cannot be made: "):
+        require_free(Path("/proc/kept"))
+
+
 def test_an_empty_folder_is_filled(tmp_path: Path) -> None:
     """And one that is not there is made; nothing else stays beside it."""
     for name in ("empty", "new"):

@@ -11,7 +11,7 @@ from written_evidence import evidence, messages, process, steady, talking
 from written_graphs import STRING, graph
 from written_verdicts import HINTS, TOO_SLOW, failing, left_open, too_slow, verdict
 
-from roslings.evidence import Evidence, ExperimentSeen, LogLine, Segment, Tick
+from roslings.evidence import Evidence, ExperimentSeen, LogLine, Qos, Segment, Spoken, Tick
 from roslings.rates import measure_rate
 from roslings.report.html import Asked, html_of
 from roslings.report.html.interval_plot import BOTTOM, TOP, interval_plot
@@ -85,6 +85,9 @@ def test_what_a_student_writes_is_text_and_nothing_else() -> None:
     seen.graph = graph(publishes=[(EVIL, f"/{EVIL}", EVIL)], nodes=[EVIL, EVIL])
     seen.rosout = {EVIL: [LogLine(arrival_ns=1, text=EVIL, source="rosout")]}
     seen.not_believed = EVIL
+    seen.spoken = [
+        Spoken(topic=EVIL, type=EVIL, content={EVIL: EVIL}, sent_ns=1, matched=False, offered=Qos())
+    ]
     seen.processes[EVIL] = process(EVIL, EVIL)
     bad = evidence(seen, talking([]).model_copy(update={"name": EVIL}), package=EVIL)
     bad.attempts, bad.advice = [seen], [EVIL]
@@ -200,6 +203,19 @@ def test_the_graph_has_its_picture_and_its_words() -> None:
     assert "/talker publishes on /chatter" in found.text
     seen.graph.nodes.append("/talker")
     assert page(evidence(seen)).classes["doubled"] == 4
+
+
+def test_what_the_grader_said_is_told() -> None:
+    """And whether somebody was there to hear it."""
+    seen = ExperimentSeen(name="hearing", clock="wall")
+    seen.spoken = [
+        Spoken(topic="/chatter", type=STRING, content=content, sent_ns=1, matched=matched,
+               offered=Qos())
+        for content, matched in (({"data": "amber 1234"}, True), ({"x": 1, "y": 2}, False))
+    ]  # fmt: skip
+    text = page(evidence(seen)).text
+    assert "in hearing, on /chatter: 'amber 1234'" in text
+    assert "{'x': 1, 'y': 2} (nobody was listening)" in text
 
 
 def test_a_run_that_was_made_again_is_told() -> None:

@@ -31,19 +31,21 @@ def require_free(folder: Path) -> None:
 
     Raises CannotKeepThere.
     """
+    step = f"Give a new name: --evidence {_free_name(folder)}"
+    if folder.resolve() == Path.cwd():
+        raise CannotKeepThere(folder, "is the folder that you are in.", step)
     if _taken(folder):
-        step = f"Give a new name: --evidence {_free_name(folder)}"
-        if not folder.is_dir():
-            raise CannotKeepThere(folder, "is a file.", step)
-        held = "the evidence of another check" if (folder / FILE).is_file() else "other files"
-        raise CannotKeepThere(folder, f"holds {held}.", step)
+        raise CannotKeepThere(folder, _what_is_there(folder), step)
     parent = folder.absolute().parent
     if not parent.is_dir():
         step = f"Make the folder around it first: mkdir -p '{parent}'"
         raise CannotKeepThere(folder, "cannot be made here.", step)
-    if not os.access(parent, os.W_OK | os.X_OK):
+    try:
+        _part(folder).mkdir()
+        _part(folder).rmdir()
+    except OSError as error:
         step = "Give a place where you may write, for example: --evidence ~/evidence"
-        raise CannotKeepThere(folder, "lies where you may not write.", step)
+        raise CannotKeepThere(folder, f"cannot be made: {error.strerror}.", step) from error
 
 
 def _taken(folder: Path) -> bool:
@@ -52,12 +54,26 @@ def _taken(folder: Path) -> bool:
     return any(folder.iterdir())
 
 
+def _what_is_there(folder: Path) -> str:
+    if not folder.is_dir():
+        return "is a file."
+    ours = (folder / FILE).is_file()
+    return f"holds {'the evidence of another check' if ours else 'other files'}."
+
+
 def _free_name(folder: Path) -> Path:
     """The first of NAME-2, NAME-3 and so on that is not there."""
+    plain = folder if folder.name.strip(".") else Path("evidence")
     number = 2
-    while (name := folder.with_name(f"{folder.name or 'evidence'}-{number}")).exists():
+    while (name := plain.with_name(f"{plain.stem}-{number}")).exists():
         number += 1
     return name
+
+
+def _part(folder: Path) -> Path:
+    """The hidden name, beside it, that a folder has until it is whole."""
+    place = folder.absolute()
+    return place.with_name(f".{place.name}-{os.getpid()}.part")
 
 
 @contextmanager
@@ -66,12 +82,11 @@ def in_the_making(folder: Path) -> Iterator[Path]:
 
     Raises CannotKeepThere where somebody made `folder` meanwhile, and CannotWrite.
     """
-    place = folder.absolute()
-    part = place.with_name(f".{place.name}-{os.getpid()}.part")
+    part = _part(folder)
     try:
         part.mkdir()
         yield part
-        part.replace(place)  # an empty folder gives way, a full one does not
+        part.replace(folder.absolute())  # an empty folder gives way, a full one does not
     except OSError as error:
         if _taken(folder):
             require_free(folder)

@@ -45,6 +45,7 @@ def _body(verdict: Verdict, evidence: Evidence, asked: Sequence[Asked]) -> Marku
     parts = joined(
         *verdict_part.body(verdict),
         *seen_part.topics(evidence, asked),
+        *seen_part.said(evidence),
         *seen_part.graphs(evidence),
         *seen_part.processes(evidence),
         *seen_part.set_aside(evidence),

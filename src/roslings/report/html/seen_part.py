@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from roslings.evidence import Evidence, ExperimentSeen, GraphSeen, ProcessSeen
+from roslings.evidence import Evidence, ExperimentSeen, GraphSeen, ProcessSeen, Spoken
 from roslings.near import own_endpoints
 from roslings.rates import Rate
 from roslings.report.graph_words import describe_graph
@@ -99,6 +99,24 @@ def _clock(each: Watched, rate: Rate) -> str:
     if each.experiment.clock == "sim":
         return "the simulated clock"
     return "the publisher's stamps" if rate.from_stamps else "the moments of arrival"
+
+
+def said(evidence: Evidence) -> Iterator[Markup]:
+    """What the grader said to the nodes, in the order in which it did."""
+    lines = [
+        tag("li", f"in {seen.name}, on ", tag("code", spoken.topic), f": {_words_of(spoken)}")
+        for seen in evidence.experiments.values()
+        for spoken in seen.spoken
+    ]
+    if lines:
+        yield tag("section", tag("h2", "What was said to the nodes"), tag("ul", *lines))
+
+
+def _words_of(spoken: Spoken) -> str:
+    content = spoken.content
+    only_text = isinstance(content, dict) and content.keys() == {"data"}
+    alone = "" if spoken.matched else " (nobody was listening)"
+    return f"{content['data'] if only_text else content!r}{alone}"
 
 
 def graphs(evidence: Evidence) -> Iterator[Markup]:
