@@ -15,7 +15,7 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 
 from roslings.course import RateContract
-from roslings.evidence import ExperimentSeen, Segment
+from roslings.evidence import ExperimentSeen, MessageSeen, Segment
 from roslings.probe import Probe
 from roslings.probe.clock import Barrier, SimClock
 from roslings.rates import (
@@ -37,6 +37,9 @@ SLOWER = 2.0
 """The second stretch is watched at the speed of the first, divided by this."""
 
 FEWEST_TIMES_SLOWER = 1.5
+LARGEST_GROUP = 8
+"""Messages that come so many at a time are counted for so much longer."""
+
 COUNTS_TELL = 0.4
 """A rate may be uncertain by this part, from counting, for two of them to be compared."""
 
@@ -80,6 +83,9 @@ class SimulatedWatch:
         first = self._stretch(step_ns, FIRST_PERIODS * self.period_s)
         while self._too_coarse(first):
             first = self._again(first)
+        if 1 < (group := self._largest_group(first)) <= LARGEST_GROUP:
+            self.probe.seen.segments.clear()
+            first = self._stretch(first.step_ns, group * self._length_s(first))
         self._require_speed(first)
         length_s = self._length_s(first) * SECOND_PERIODS / FIRST_PERIODS
         step_ns = round(first.step_ns * FIRST_STEPS / SECOND_STEPS)
@@ -100,7 +106,8 @@ class SimulatedWatch:
         messages = self.probe.messages(self.topic)
         place_on_ticks(messages, self.clock.ticks)
         rate = measure_simulated_rate(messages, self.clock.ticks, seen.segments)
-        return not (rate and limit) or rate.clear_of((limit.low_hz, limit.high_hz))
+        limits_hz = (limit.low_hz, limit.high_hz) if limit else ()
+        return rate is None or rate.in_groups or rate.clear_of(limits_hz)
 
     def _until_first_message(self) -> None:
         step_ns = round(self.period_s / FIRST_STEPS * NS_PER_S)
@@ -171,7 +178,7 @@ class SimulatedWatch:
             raise NotBelieved("it sends too little while the clock runs fast")
         lengths_s = [self._length_s(first), self._length_s(second)]
         rates_hz = [count / length_s for count, length_s in zip(counts, lengths_s, strict=True)]
-        group = self._largest_group()
+        group = max(self._largest_group(first), self._largest_group(second))
         counting_hz = sum(1.01 * group / length_s for length_s in lengths_s)
         if counting_hz > COUNTS_TELL * min(rates_hz):
             raise NotBelieved("its messages come in groups")
@@ -181,17 +188,20 @@ class SimulatedWatch:
                 " as fast as the clock runs"
             )
 
-    def _largest_group(self) -> int:
+    def _largest_group(self, segment: Segment) -> int:
         """The most messages that came at one tick."""
-        return max(Counter(m.sim_ns for m in self.probe.messages(self.topic)).values())
+        return max(Counter(m.sim_ns for m in self._in(segment)).values(), default=0)
 
     def _length_s(self, segment: Segment) -> float:
         return (segment.last - segment.first) * segment.step_ns / NS_PER_S
 
     def _heard(self, segment: Segment) -> int:
+        return len(self._in(segment))
+
+    def _in(self, segment: Segment) -> list[MessageSeen]:
         messages, ticks = self.probe.messages(self.topic), self.clock.ticks
         place_on_ticks(messages, ticks)
-        return len(in_segment(messages, ticks, segment))
+        return in_segment(messages, ticks, segment)
 
     def _count(self) -> int:
         return self.probe.count(self.topic)
