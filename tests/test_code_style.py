@@ -31,6 +31,7 @@ ROOMS_BELOW = {
     "report": {"evidence", "verdict"},
     "doctor": set[str](),
     "bootstrap": set[str](),
+    "devices": set[str](),
     "ros2": {"evidence", "near", "rates", "arena", "probe", "report", "doctor"},
 }  # fmt: skip
 """Room to the rooms that it may import: the arrows run one way."""
