@@ -25,11 +25,15 @@ SEEDS = 10**9
 def exit_code_of(error: Exception) -> int | None:
     """The exit code for what went wrong; None for what nobody expected."""
     from roslings.arena import NoFreeDomain
+    from roslings.devices.trouble import DeviceTrouble
     from roslings.experiment import MeasuringFailed
+    from roslings.ros2.problem import Problem
 
     if isinstance(error, MeasuringFailed | NoFreeDomain | MachineTrouble | CannotWrite):
         return INCONCLUSIVE
     if isinstance(error, WorkspaceError | CourseError | NoSuchCheck | BadVerdictFile):
+        return WRONG_USE
+    if isinstance(error, DeviceTrouble | Problem):
         return WRONG_USE
     if isinstance(error, FileExistsError | NotADirectoryError):
         return WRONG_USE
@@ -242,6 +246,21 @@ def graph(options: argparse.Namespace) -> int:
             return WRONG_USE
         print(f"\nSaved {options.save}")
     return OK if seen.nodes else FAILED
+
+
+# --- the rover ---------------------------------------------------------------------------------
+
+
+def rover(options: argparse.Namespace) -> int:
+    """Run the rover and its map until Ctrl-C."""
+    from roslings.devices.rover.running import run
+    from roslings.ros2.surroundings import check_middleware, domain_id, prepare
+
+    prepare()
+    domain_id()
+    check_middleware()
+    run(options.view, options.save, options.seed)
+    return OK
 
 
 # --- the tests ---------------------------------------------------------------------------------
