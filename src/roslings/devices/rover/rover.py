@@ -33,6 +33,8 @@ class Rover:
         self.pose = pose
         self.wheels = Wheels()
         self.wanted = Wheels()
+        self.turned_rad = (0.0, 0.0)
+        """How far each wheel has turned since the start, left and right."""
         self.time_s = 0.0
         self.way_m = 0.0
         self.touches = False
@@ -60,7 +62,7 @@ class Rover:
         """Let time go on. Raises ValueError where it would go back."""
         if not dt_s >= 0:
             raise ValueError(f"a step of {dt_s} s is no step")
-        steps = max(1, math.ceil(dt_s / LONGEST_STEP_S - 1e-9))
+        steps = math.ceil(dt_s / LONGEST_STEP_S - 1e-9)
         for _ in range(steps):
             self._small_step(dt_s / steps)
         self._remember()
@@ -72,6 +74,10 @@ class Rover:
         if self.touches:  # its motors are too weak to slip: the wheels stand
             there = replace(there, x_m=self.pose.x_m, y_m=self.pose.y_m)
             self.wheels = self._turning_on_the_spot()
+        self.turned_rad = (
+            self.turned_rad[0] + self.wheels.left_rad_s * dt_s,
+            self.turned_rad[1] + self.wheels.right_rad_s * dt_s,
+        )
         self.way_m += math.hypot(there.x_m - self.pose.x_m, there.y_m - self.pose.y_m)
         self.pose = there
         self.time_s += dt_s
