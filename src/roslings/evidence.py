@@ -14,9 +14,12 @@ SCHEMA_VERSION = 1
 
 
 class Record(BaseModel):
-    """A model that is written once, and that refuses unknown fields when it is read back."""
+    """A model that is written once, and that refuses unknown fields when it is read back.
 
-    model_config = ConfigDict(extra="forbid")
+    Numbers that JSON cannot hold become the texts NaN, Infinity and -Infinity: float() reads them.
+    """
+
+    model_config = ConfigDict(extra="forbid", ser_json_inf_nan="strings")
 
 
 class Qos(Record):
@@ -112,6 +115,32 @@ class Spoken(Record):
     offered: Qos
 
 
+class ServiceEnd(Record):
+    """One side of a service: who answers it, or who may call it."""
+
+    kind: Literal["server", "client"]
+    node: str = Field(description="Full name of the node")
+    service: str
+    type: str = Field(description="e.g. `std_srvs/srv/SetBool`")
+
+
+class CallSeen(Record):
+    """One call of a service: what was asked, what came back, and when."""
+
+    service: str
+    type: str
+    request: Any
+    response: Any = Field(default=None, description="None where no answer came")
+    sent_ns: int
+    answered_ns: int | None = Field(default=None, description="None where no answer came")
+    part: str = Field(default="", description="The part of the experiment that it belongs to")
+    number: int = Field(default=0, description="Its place in that part, from 0")
+    client: int = Field(default=0, description="Which of several clients at once called")
+    watched_until_ns: int | None = Field(
+        default=None, description="How long the topics were watched for its effect"
+    )
+
+
 class ExperimentSeen(Record):
     """One experiment: the processes it ran, and all that was seen while they ran."""
 
@@ -124,6 +153,15 @@ class ExperimentSeen(Record):
     )
     processes: dict[str, ProcessSeen] = Field(default_factory=dict, description="By executable")
     spoken: list[Spoken] = Field(default_factory=list)
+    services: list[ServiceEnd] = Field(default_factory=list)
+    calls: list[CallSeen] = Field(default_factory=list, description="Made by the grader")
+    served: list[CallSeen] = Field(default_factory=list, description="Answered by the grader")
+    parameters: dict[str, list[str]] = Field(
+        default_factory=dict, description="Node to the names of its parameters"
+    )
+    stuck: list[str] = Field(
+        default_factory=list, description="Nodes that ran, and whose callbacks ran no more"
+    )
     discovery_s: float = 0.0
     watching_s: float = 0.0
     ending_s: float = 0.0
@@ -197,4 +235,6 @@ class Evidence(Record):
     experiments: dict[str, ExperimentSeen] = Field(default_factory=dict)
     advice: list[str] = Field(default_factory=list)
 
-    model_config = ConfigDict(extra="forbid", validate_by_name=True, validate_by_alias=True)
+    model_config = ConfigDict(
+        extra="forbid", validate_by_name=True, validate_by_alias=True, ser_json_inf_nan="strings"
+    )

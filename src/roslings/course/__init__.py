@@ -4,12 +4,16 @@ The only room that reads them; each mistake in them is told with file and line.
 """
 
 from roslings.course.card import (
+    AnswerContract,
     Card,
+    GiveUpContract,
     Hint,
     NodeContract,
+    ParameterContract,
     PictureContract,
     QosContract,
     RateContract,
+    ServiceContract,
     TopicContract,
 )
 from roslings.course.files import CourseError, NoSuchLab
@@ -17,17 +21,21 @@ from roslings.course.labs import Lab, all_labs, lab, root
 from roslings.course.mutants import Edit, Mutant
 
 __all__ = [
+    "AnswerContract",
     "Card",
     "CourseError",
     "Edit",
+    "GiveUpContract",
     "Hint",
     "Lab",
     "Mutant",
     "NoSuchLab",
     "NodeContract",
+    "ParameterContract",
     "PictureContract",
     "QosContract",
     "RateContract",
+    "ServiceContract",
     "TopicContract",
     "all_labs",
     "lab",

@@ -11,6 +11,9 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
+DEFAULT_WITHIN = 0.1
+"""The part of a rate that it may be off, where the card says nothing."""
+
 
 class Contract(BaseModel):
     """A part of the card; an unknown word in it is a mistake, not a comment."""
@@ -51,6 +54,52 @@ class TopicContract(Contract):
     rate: RateContract | None = None
     text: str | None = Field(default=None, description="The message's text; `{n}` is a counter")
 
+    def at(self, hz: float) -> TopicContract:
+        """The same topic at another rate, as tolerant as before."""
+        within = self.rate.within if self.rate else DEFAULT_WITHIN
+        return self.model_copy(update={"rate": RateContract(hz=hz, within=within)})
+
+
+class ParameterContract(Contract):
+    """A setting of a node that is chosen when it starts."""
+
+    name: str = Field(pattern=r"^[a-z][a-z0-9_]*$")
+    type: Literal["bool", "integer", "double", "string"]
+    about: str = Field(description="What it sets, with its unit, e.g. `seconds between messages`")
+    default: bool | int | float | str
+    tried: bool | int | float | str = Field(description="The other value that the check gives it")
+
+
+Plain = bool | int | float | str
+
+
+class AnswerContract(Contract):
+    """What a server answers to one request, and what is to be seen of it afterwards."""
+
+    when: str = Field(description="In what state it is asked, e.g. `the limit is on`")
+    request: dict[str, Plain] = Field(default_factory=dict)
+    response: dict[str, Plain]
+    state: Plain | None = Field(
+        default=None, description="What the node's first topic carries afterwards, in `data`"
+    )
+
+
+class ServiceContract(Contract):
+    """One service that a node offers, or that it calls."""
+
+    service: str = Field(pattern=r"^/[A-Za-z_][A-Za-z0-9_/]*$")
+    type: str = Field(pattern=r"^[a-z][a-z0-9_]*/srv/[A-Z][A-Za-z0-9]*$")
+    within_s: float | None = Field(default=None, gt=0, description="The answer comes in this time")
+    answers: tuple[AnswerContract, ...] = ()
+
+
+class GiveUpContract(Contract):
+    """What a client does that finds no server."""
+
+    within_s: float = Field(gt=0, description="From its start to its end")
+    log: str
+    exit_code: int
+
 
 class NodeContract(Contract):
     """One node: its full name, the executable that starts it, and its topics."""
@@ -59,7 +108,18 @@ class NodeContract(Contract):
     executable: str
     publishes: tuple[TopicContract, ...] = ()
     subscribes: tuple[TopicContract, ...] = ()
+    parameters: tuple[ParameterContract, ...] = ()
+    serves: tuple[ServiceContract, ...] = ()
+    calls: tuple[ServiceContract, ...] = ()
+    gives_up: GiveUpContract | None = None
+    other_names: tuple[str, ...] = Field(
+        default=(), description="Full names that it takes when it is started with remaps"
+    )
     log: str | None = Field(default=None, description="A line it writes; `{text}` is the message")
+    log_about: str = Field(default="the message's text", description="What `{text}` stands for")
+    log_examples: tuple[str, ...] = Field(
+        default=(), description="For `{text}` in the task, where no topic has a text"
+    )
 
 
 class PictureContract(Contract):

@@ -70,10 +70,10 @@ class Lab:
 
 
 def all_labs() -> list[Lab]:
-    """Every lab of the course, in the order of its days."""
+    """Every lab of the course, in the order of its days; in a day, what needs less comes first."""
     folders = [path.parent for path in (root() / "labs").glob("*/card.yaml")]
     labs = [_lab_in(folder) for folder in folders]
-    return sorted(labs, key=lambda lab: (lab.card.day, lab.name))
+    return sorted(labs, key=lambda lab: (lab.card.day, len(lab.card.needs), lab.name))
 
 
 def lab(name: str) -> Lab:

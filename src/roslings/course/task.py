@@ -8,10 +8,21 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import PurePosixPath
 
-from roslings.course.card import Card, NodeContract, PictureContract, QosContract, TopicContract
+from roslings.course.card import (
+    AnswerContract,
+    Card,
+    GiveUpContract,
+    NodeContract,
+    ParameterContract,
+    PictureContract,
+    Plain,
+    QosContract,
+    ServiceContract,
+    TopicContract,
+)
 from roslings.course.files import BadCourseFile
 from roslings.course.labs import Lab, all_labs, lab
 
@@ -82,14 +93,62 @@ def _picture(picture: PictureContract) -> str:
 
 def _node_rows(node: NodeContract) -> Iterable[tuple[str, ...]]:
     yield "executable", f"`{node.executable}`"
-    for topic in node.publishes:
-        yield "publishes on", f"`{topic.topic}`"
-        yield from _topic_rows(topic)
-    for topic in node.subscribes:
-        yield "subscribes to", f"`{topic.topic}`"
-        yield from _topic_rows(topic)
+    yield from _speaking_rows(node)
+    for parameter in node.parameters:
+        yield "parameter", _parameter(parameter)
+    if node.other_names:
+        yield "also runs as", ", ".join(f"`{name}`" for name in node.other_names)
     if node.log:
-        yield "logs", f"`{node.log.format(text='TEXT')}`, TEXT being the message's text"
+        yield "logs", f"`{node.log.format(text='TEXT')}`, TEXT being {node.log_about}"
+    if node.gives_up:
+        yield "without a server", _giving_up(node.gives_up)
+
+
+def _speaking_rows(node: NodeContract) -> Iterable[tuple[str, ...]]:
+    """What goes in and out: topics, then services."""
+    topics = {"publishes on": node.publishes, "subscribes to": node.subscribes}
+    for verb, topic in ((verb, topic) for verb, each in topics.items() for topic in each):
+        yield verb, f"`{topic.topic}`"
+        yield from _topic_rows(topic)
+    services = {"serves": node.serves, "calls": node.calls}
+    for verb, service in ((verb, service) for verb, each in services.items() for service in each):
+        yield verb, f"`{service.service}`"
+        yield from _service_rows(service)
+
+
+def _service_rows(service: ServiceContract) -> Iterable[tuple[str, ...]]:
+    yield "service type", f"`{service.type}`"
+    for answer in service.answers:
+        yield answer.when, _answer(answer)
+    if service.within_s:
+        yield "time to answer", f"{service.within_s:g} s at most"
+
+
+def _answer(answer: AnswerContract) -> str:
+    asked = f"asked `{_fields(answer.request)}`: " if answer.request else ""
+    then = "" if answer.state is None else f"; the topic then says `{answer.state}`"
+    return f"{asked}{_fields(answer.response, '`')}{then}"
+
+
+def _fields(fields: Mapping[str, Plain], quote: str = "") -> str:
+    return ", ".join(f"{name}: {quote}{_plain(value)}{quote}" for name, value in fields.items())
+
+
+def _plain(value: Plain) -> str:
+    """A value as ROS's command line shows it."""
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def _giving_up(contract: GiveUpContract) -> str:
+    return (
+        f"logs `{contract.log}` and ends by itself within {contract.within_s:g} s,"
+        f" with exit code {contract.exit_code}"
+    )
+
+
+def _parameter(parameter: ParameterContract) -> str:
+    default = f"`{parameter.default}` when nobody sets it"
+    return f"`{parameter.name}`, {parameter.about}; type {parameter.type}; {default}"
 
 
 def _topic_rows(topic: TopicContract) -> Iterable[tuple[str, ...]]:
@@ -123,7 +182,7 @@ def _free(lab: Lab) -> Iterable[str]:
 
 
 def _success(lab: Lab) -> Iterable[str]:
-    for node in lab.card.nodes:
+    for node in (node for node in lab.card.nodes if node.log):
         yield f"`{node.executable}` writes:"
         yield ""
         yield "```text"
@@ -133,9 +192,9 @@ def _success(lab: Lab) -> Iterable[str]:
 
 
 def _log_lines(card: Card, node: NodeContract) -> Iterable[str]:
-    text = next(topic.text for topic in _all_published(card) if topic.text)
-    for n in range(_EXAMPLES):
-        line = (node.log or "").format(text=text.format(n=n))
+    texts = [topic.text for topic in _all_published(card) if topic.text]
+    for text in node.log_examples or [texts[0].format(n=n) for n in range(_EXAMPLES)]:
+        line = (node.log or "").format(text=text)
         yield f"[INFO] [...] [{node.node[1:]}]: {line}"
 
 

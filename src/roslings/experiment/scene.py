@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import random
 import time
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 
 from roslings.arena import Arena, Process
 from roslings.course import NodeContract, TopicContract
 from roslings.evidence import Endpoint, ExperimentSeen
+from roslings.experiment.start import PLAIN, Start
 from roslings.near import Near, nearest, nearest_endpoint
 from roslings.probe import Probe
 from roslings.rates import measure_rate
@@ -19,6 +21,9 @@ FIRST_MESSAGE_WITHIN_S = 10.0
 HEARD_WITHIN_S = 10.0
 AFTER_THE_TURN_S = 1.0
 SHORTEST_WATCH_PERIODS = 10
+SHORTEST_WATCH_S = 5.0
+"""A slow topic has told enough by then: five messages make a rate, if all of them agree."""
+
 LONGEST_WATCH_PERIODS = 40
 INTERRUPT_SLACK_S = 1.0
 
@@ -38,15 +43,19 @@ class Scene:
         """What was seen so far."""
         return self._probe.seen
 
+    @property
+    def probe(self) -> Probe:
+        """The eyes and the voice, for what this class has no word for."""
+        return self._probe
+
     @contextmanager
-    def run(self, node: NodeContract, remaps: Sequence[str] = ()) -> Iterator[Process]:
+    def run(
+        self, node: NodeContract, remaps: Sequence[str] = (), start: Start = PLAIN
+    ) -> Iterator[Process]:
         """Start a node, wait until it is in the graph; press Ctrl-C when the block ends."""
-        known = set(self.seen.graph.nodes)
-        arguments = [word for rule in remaps for word in ("-r", rule)]
-        with self._arena.run(
-            node.executable, ["--ros-args", *arguments] if remaps else []
-        ) as process:
-            self.seen.processes[node.executable] = process.seen
+        known = Counter(self.seen.graph.nodes)
+        with self._arena.run(node.executable, start.arguments(remaps)) as process:
+            self.seen.processes[start.label(node)] = process.seen
             self._wait_up(process, known)
             yield process
             self._end(process)
@@ -57,8 +66,9 @@ class Scene:
             self._until_alive(lambda: self._heard(contract) > 0, FIRST_MESSAGE_WITHIN_S)
             if contract.rate and self._heard(contract):
                 period_s = 1 / contract.rate.hz
-                self._until_alive(lambda: False, SHORTEST_WATCH_PERIODS * period_s)
-                rest_s = (LONGEST_WATCH_PERIODS - SHORTEST_WATCH_PERIODS) * period_s
+                shortest_s = min(SHORTEST_WATCH_PERIODS * period_s, SHORTEST_WATCH_S)
+                self._until_alive(lambda: False, shortest_s)
+                rest_s = LONGEST_WATCH_PERIODS * period_s - shortest_s
                 self._until_alive(lambda: self._rate_is_sure(contract), rest_s)
 
     def say_sentences(self, listener: Process, contract: TopicContract, count: int) -> None:
@@ -109,10 +119,10 @@ class Scene:
         with self._timed_watching():
             self._until_alive(both, FIRST_MESSAGE_WITHIN_S)
 
-    def _wait_up(self, process: Process, known: set[str]) -> None:
+    def _wait_up(self, process: Process, known: Counter[str]) -> None:
         began_s = time.monotonic()
         self._probe.until(
-            lambda: not process.alive or bool(set(self.seen.graph.nodes) - known),
+            lambda: not process.alive or bool(Counter(self.seen.graph.nodes) - known),
             COMES_UP_WITHIN_S,
         )
         self.seen.discovery_s += time.monotonic() - began_s
@@ -121,6 +131,11 @@ class Scene:
         began_s = time.monotonic()
         process.interrupt(self._ends_within_s + INTERRUPT_SLACK_S)
         self.seen.ending_s += time.monotonic() - began_s
+
+    def until(self, condition: Callable[[], bool], within_s: float) -> bool:
+        """Wait for the condition, as long as every process lives. Whether it holds."""
+        with self._timed_watching():
+            return self._until_alive(condition, within_s)
 
     def _until_alive(self, condition: Callable[[], bool], within_s: float) -> bool:
         """Wait for the condition, as long as every process lives."""

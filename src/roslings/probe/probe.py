@@ -75,6 +75,11 @@ class Probe:
             recorder.read_contents()
             self.seen.topics[name] = recorder.seen
 
+    @property
+    def eye(self) -> Any:
+        """The rclpy node behind the probe, for what else of it is to be used."""
+        return self._eye
+
     def until(self, condition: Condition, within_s: float) -> bool:
         """Watch until `condition()` is true, at most `within_s`. Whether it became true.
 

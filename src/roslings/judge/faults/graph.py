@@ -24,9 +24,7 @@ class WrongNodeName(Fault):
     @property
     def measured(self) -> str:
         """The name that is there."""
-        return (
-            f"there is no {self.near.wanted}, but {self.near.found} is running{_guess(self.near)}"
-        )
+        return f"there is no {self.near.wanted}, but {self.near.found} is running{guess(self.near)}"
 
     @property
     def hint(self) -> str:
@@ -55,7 +53,7 @@ class WrongTopic(Fault):
         """The topic that is there, and the likely slip."""
         return (
             f"there is no {self.near.wanted}, but {self.near.found} carries"
-            f" {self.type}{_guess(self.near)}"
+            f" {self.type}{guess(self.near)}"
         )
 
     @property
@@ -203,7 +201,8 @@ def qos_conflict(
     return None
 
 
-def _guess(near: Near) -> str:
+def guess(near: Near) -> str:
+    """The likely slip, as the end of a sentence; empty where none is likely."""
     sentences = {
         "namespace": ": another namespace?",
         "case": ": capital letters?",

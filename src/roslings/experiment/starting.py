@@ -1,0 +1,26 @@
+"""Experiments on how a node is started: what its parameters are, and several of it at once."""
+
+from __future__ import annotations
+
+from roslings.course import NodeContract
+from roslings.experiment.scene import FIRST_MESSAGE_WITHIN_S, Scene
+from roslings.near import nearest, own_endpoints
+from roslings.probe.calling import parameters_of
+
+
+def list_parameters(scene: Scene, node: NodeContract) -> None:
+    """Ask the node, or the one nearest to it, which parameters it has."""
+    near = nearest(node.node, scene.seen.graph.nodes)
+    if near:
+        names = parameters_of(scene.probe, near.found, FIRST_MESSAGE_WITHIN_S)
+        scene.seen.parameters[near.found] = names
+
+
+def await_publishers(scene: Scene) -> None:
+    """Wait until each node in the graph publishes something of its own."""
+
+    def there() -> bool:
+        ends = own_endpoints(scene.seen.graph)
+        return {e.node for e in ends if e.kind == "publisher"} >= set(scene.seen.graph.nodes)
+
+    scene.until(there, FIRST_MESSAGE_WITHIN_S)

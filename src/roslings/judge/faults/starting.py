@@ -1,0 +1,141 @@
+"""Faults in what a node makes of the way it is started: parameters, other names."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from roslings.judge.faults.base import Fault
+
+
+@dataclass(eq=False)
+class NoParameter(Fault):
+    """The node has no parameter of the name that the card gives."""
+
+    node: str
+    wanted: str
+    found: tuple[str, ...]
+    near: str | None
+    why = "ROS gives a node only those parameters that its code has declared."
+
+    @property
+    def expected(self) -> str:
+        """The parameter."""
+        return f"{self.node} has a parameter {self.wanted!r}"
+
+    @property
+    def measured(self) -> str:
+        """What it has."""
+        if self.near:
+            return f"it has no {self.wanted!r}, but {self.near!r}: a spelling?"
+        return f"its own parameters are: {', '.join(self.found) or 'none'}"
+
+    @property
+    def hint(self) -> str:
+        """The call that makes one."""
+        return (
+            "Look at declare_parameter(NAME, DEFAULT) in __init__. Check with `ros2 param list`"
+            " while the node runs."
+        )
+
+
+@dataclass(eq=False)
+class ParameterIgnored(Fault):
+    """The node has the parameter, and its value changes nothing."""
+
+    name: str
+    value: str
+    wanted: str
+    found: str
+    why = "A parameter lets others change the node without changing its code."
+
+    @property
+    def expected(self) -> str:
+        """What the value asks for."""
+        return f"with `--ros-args -p {self.name}:={self.value}`: {self.wanted}"
+
+    @property
+    def measured(self) -> str:
+        """What happened."""
+        return f"{self.found}, as if the parameter were not there"
+
+    @property
+    def hint(self) -> str:
+        """Where the value is to be read."""
+        return (
+            f"Read it with self.get_parameter('{self.name}').value, after declare_parameter,"
+            " and give that value to create_timer. Does main() say rclpy.init(args=args)?"
+        )
+
+
+@dataclass(eq=False)
+class ParameterMisread(ParameterIgnored):
+    """The value changes something, but not as the card says."""
+
+    about: str
+    why = "Who sets a parameter relies on what it means, and in which unit."
+
+    @property
+    def measured(self) -> str:
+        """What happened."""
+        return self.found
+
+    @property
+    def hint(self) -> str:
+        """What the value means."""
+        return f"The value of {self.name} is {self.about}. What does your code make of it?"
+
+
+@dataclass(eq=False)
+class NameStays(Fault):
+    """A node was started under another name, and keeps its own."""
+
+    wanted: str
+    found: tuple[str, ...]
+    why = "A robot with two wheels starts one program twice. Each node then needs its own name."
+
+    @property
+    def expected(self) -> str:
+        """The name that it was given."""
+        space, _, name = self.wanted.rpartition("/")
+        return f"with `-r __node:={name} -r __ns:={space}` the node is {self.wanted}"
+
+    @property
+    def measured(self) -> str:
+        """The names that are there."""
+        return f"the nodes are: {', '.join(self.found) or 'none'}"
+
+    @property
+    def hint(self) -> str:
+        """Where the words of the command line get lost."""
+        return (
+            "The words after --ros-args reach the node through rclpy.init(args=args). Does main()"
+            " give it a list of its own, or does the node say use_global_arguments=False?"
+        )
+
+
+@dataclass(eq=False)
+class TopicStays(Fault):
+    """A node was started in another namespace, and its topic did not follow."""
+
+    node: str
+    wanted: str
+    found: tuple[str, ...]
+    why = "Two nodes that publish on one topic mix their messages: nobody knows who said what."
+
+    @property
+    def expected(self) -> str:
+        """The topic in the namespace."""
+        return f"the node {self.node} publishes on {self.wanted}"
+
+    @property
+    def measured(self) -> str:
+        """The topic that it uses."""
+        return f"it publishes on {', '.join(self.found) or 'no topic'}"
+
+    @property
+    def hint(self) -> str:
+        """Why a name does not follow."""
+        return (
+            "A topic's name that begins with a slash stays the same in every namespace. Write the"
+            " name in create_publisher without the slash."
+        )
