@@ -25,9 +25,9 @@ ROOMS_BELOW = {
     "probe": {"evidence", "near", "rates", "arena"},
     "workspace": {"evidence", "verdict", "course", "arena"},
     "experiment": {
-        "evidence", "near", "rates", "course", "arena", "probe", "workspace",
+        "evidence", "near", "rates", "course", "arena", "probe", "workspace", "devices",
     },
-    "judge": {"evidence", "verdict", "near", "rates", "course", "experiment"},
+    "judge": {"evidence", "verdict", "near", "rates", "course", "experiment", "devices"},
     "report": {"evidence", "verdict"},
     "doctor": set[str](),
     "bootstrap": set[str](),

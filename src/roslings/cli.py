@@ -97,6 +97,7 @@ def parser() -> argparse.ArgumentParser:
     graph_options(add("graph", "show the running graph, or save a picture of it", "graph"))
     test_options(add("test", "run the tests of roslings", "test"))
     rover_options(add("rover", "a small robot to drive by ROS, and its map", "rover"))
+    board_options(add("board", "the rover's Arduino board on a serial port", "board"))
     add("ros2", "the ros2 commands, where the real ones are not installed", None)
     add("wheels", "fetch every package into a folder, for a lab without a network", None)
     return top
@@ -178,6 +179,17 @@ def rover_options(word: argparse.ArgumentParser) -> None:
     )  # fmt: skip
     word.add_argument("--save", metavar="FILE.png", type=Path, help="save the map at the end")
     word.add_argument("--seed", metavar="N", type=int, default=0, help="for the sensors' noise")
+
+
+def board_options(word: argparse.ArgumentParser) -> None:
+    """What `board` takes."""
+    word.add_argument("--port", metavar="FILE", type=Path, help="default: /tmp/ttyROVER")
+    word.add_argument(
+        "--sketch",
+        metavar="FILE.ino",
+        type=Path,
+        help="run this sketch, in an emulated Mega",
+    )
 
 
 def test_options(word: argparse.ArgumentParser) -> None:

@@ -263,6 +263,14 @@ def rover(options: argparse.Namespace) -> int:
     return OK
 
 
+def board(options: argparse.Namespace) -> int:
+    """Run the rover's board on a serial port until Ctrl-C."""
+    from roslings.devices.board.live import run, usual_port
+
+    run(options.port or usual_port(), options.sketch)
+    return OK
+
+
 # --- the tests ---------------------------------------------------------------------------------
 
 

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from program import environment, run, running
 
 from roslings.devices.board import Board, Drive, LineReader, Mega, Spoiler
 from roslings.devices.rover import Box, Rover, World
@@ -36,7 +37,7 @@ def test_lines_arrive_and_commands_are_obeyed(board: Board) -> None:
     assert bodies[0] == "A,5"
     assert bodies[1].startswith("W,0,20,")
     assert (board.chip.truth.left_pwm, board.chip.truth.right_pwm) == (100, 50)
-    assert board.heard == Drive(5, 100, 50).line()
+    assert [chunk.content for chunk in board.heard] == [Drive(5, 100, 50).line()]
 
 
 def test_what_nobody_reads_is_lost_and_the_board_goes_on(board: Board) -> None:
@@ -125,3 +126,38 @@ def test_the_same_seed_spoils_the_same() -> None:
     """So that a grading can be repeated."""
     assert through(Spoiler(3, noise=0.02)) == through(Spoiler(3, noise=0.02))
     assert through(Spoiler(3, noise=0.02)) != through(Spoiler(4, noise=0.02))
+
+
+# --- ./roslings board --------------------------------------------------------------------------
+
+
+def test_the_board_runs_as_a_command(tmp_path: Path) -> None:
+    """It says where its port is, obeys, and leaves no port behind; a second one is refused."""
+    port = tmp_path / "ttyROVER"
+    surroundings = environment(0, tmp_path)
+    with running(["board", "--port", str(port)], surroundings, tmp_path) as program:
+        program.wait_for(f"The board is on {port}")
+        second = run(["board", "--port", str(port)], surroundings, tmp_path)
+        assert second.returncode == 2
+        assert "runs already" in second.stderr
+        with serial.Serial(str(port), 115200, timeout=30, exclusive=True) as host:
+            while "100" not in "".join(program.lines[2:]):
+                host.write(Drive(1, 100, 100).line())
+                assert host.read(20)
+        assert program.interrupt() == 0
+    assert not port.exists()
+
+
+def test_a_port_that_cannot_be_made_is_told(tmp_path: Path) -> None:
+    """A folder that is not there, a file in its place, a sketch that is not there."""
+    (tmp_path / "file").touch()
+    surroundings = environment(0, tmp_path)
+    for words, says in (
+        (["--port", "no/such/tty"], "No such file"),
+        (["--port", "file"], "a file of this name"),
+        (["--port", "tty", "--sketch", "none.ino"], "no sketch"),
+    ):
+        done = run(["board", *words], surroundings, tmp_path)
+        assert done.returncode == 2
+        assert says in done.stderr
+        assert "Traceback" not in done.stderr

@@ -53,6 +53,9 @@ class TopicContract(Contract):
     qos: QosContract = QosContract()
     rate: RateContract | None = None
     text: str | None = Field(default=None, description="The message's text; `{n}` is a counter")
+    holds: dict[str, str] = Field(
+        default_factory=dict, description="Field to what it always holds; a list's parts by commas"
+    )
 
     def at(self, hz: float) -> TopicContract:
         """The same topic at another rate, as tolerant as before."""

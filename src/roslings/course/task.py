@@ -159,6 +159,8 @@ def _topic_rows(topic: TopicContract) -> Iterable[tuple[str, ...]]:
         yield "rate", f"{rate.hz:g} Hz; {rate.low_hz:.4g} Hz to {rate.high_hz:.4g} Hz is right"
     if topic.text:
         yield "text", _text(topic.text)
+    for field, value in topic.holds.items():
+        yield f"field `{field}`", f"always `{value}`"
 
 
 def _qos(qos: QosContract) -> str:

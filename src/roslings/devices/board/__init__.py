@@ -8,7 +8,7 @@ pseudo-terminal, in real time or step by step, and can spoil the line between it
 from roslings.devices.board.chip import Applied, Chip, Counts, Truth
 from roslings.devices.board.lines import BadLine, Drive, LineReader, Speeds, framed, unframed
 from roslings.devices.board.mega import Mega
-from roslings.devices.board.on_pty import Board
+from roslings.devices.board.on_pty import Board, Chunk
 from roslings.devices.board.spoil import Spoiler
 
 __all__ = [
@@ -16,6 +16,7 @@ __all__ = [
     "BadLine",
     "Board",
     "Chip",
+    "Chunk",
     "Counts",
     "Drive",
     "LineReader",

@@ -8,6 +8,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 
 from roslings.devices.board.chip import Chip
@@ -20,18 +21,29 @@ LONGEST_PAUSE_S = 0.1
 """Time that a busy computer withheld is not made up for: the board's clock then runs late."""
 
 
+@dataclass(frozen=True)
+class Chunk:
+    """Bytes that were sent in one go, and when, by the board's clock and by this computer's."""
+
+    board_s: float
+    sent_ns: int
+    content: bytes
+
+
 class Board:
     """A chip at one end of a cable, and what happens on the cable.
 
-    `to_host` and `to_board` spoil the line; `heard` holds what the host wrote, unspoiled. A
-    context manager, whose end closes the port; `with board.running():` lets it live in real time.
+    `to_host` and `to_board` spoil the line; `heard` and `told` hold what the host and the board
+    sent, unspoiled, with the time. A context manager, whose end closes the port;
+    `with board.running():` lets it live in real time.
     """
 
     def __init__(self, chip: Chip, name: Path | None = None) -> None:
         """`name` is the path of the port; a new one in a folder of its own without it."""
         self.chip = chip
         self.to_host, self.to_board = Spoiler(), Spoiler()
-        self.heard = bytearray()
+        self.heard: list[Chunk] = []
+        self.told: list[Chunk] = []
         self.sent_bytes = self.lost_bytes = 0
         self.trouble: DeviceTrouble | None = None
         """Why the chip lives no longer; its port is then unplugged."""
@@ -61,12 +73,18 @@ class Board:
         """Carry bytes both ways, and let the board's time go on."""
         with self._lock:
             heard = self.port.read()
-            self.heard += heard
+            self._note(self.heard, heard)
             self.chip.receive(self.to_board(heard))
-            outgoing = self.to_host(self.chip.step(dt_s))
+            told = self.chip.step(dt_s)
+            self._note(self.told, told)
+            outgoing = self.to_host(told)
             written = self.port.write(outgoing)
             self.sent_bytes += written
             self.lost_bytes += len(outgoing) - written
+
+    def _note(self, record: list[Chunk], content: bytes) -> None:
+        if content:
+            record.append(Chunk(self.chip.truth.time_s, time.monotonic_ns(), content))
 
     def unplug(self) -> None:
         """Pull the cable. The board lives on."""

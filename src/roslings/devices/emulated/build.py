@@ -52,6 +52,8 @@ def missing() -> list[str]:
 
 def built(sketch: Path) -> Built:
     """Build `sketch` (a .ino), or find what was built of it before. Raises CannotBuild."""
+    if not sketch.is_file():
+        raise CannotBuild(f"There is no sketch {sketch}. Give the path of an .ino file.")
     if lacking := missing():
         raise CannotBuild(f"The emulated board needs {', '.join(lacking)}. Type: {APT_LINE}")
     folder = _cache() / _fingerprint(sketch)

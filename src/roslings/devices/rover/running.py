@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import signal
+import threading
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
+from roslings.devices.asked import listening
 from roslings.devices.rover.displays import Display, View, opened
 from roslings.devices.rover.node import RoverNode
 from roslings.devices.rover.rover import Rover
@@ -22,17 +21,6 @@ class CannotSave(DeviceTrouble):
         super().__init__(f"The map cannot be saved as {file}: {because}. Give another FILE.")
 
 
-class Asked:
-    """Whether somebody asked to stop: Ctrl-C, or a kind `kill`."""
-
-    def __init__(self) -> None:
-        self.stop = False
-
-    def __call__(self, *_: object) -> None:
-        """Take a signal."""
-        self.stop = True
-
-
 def run(view: View = "auto", picture: Path | None = None, seed: int = 0) -> Rover:
     """Run the rover until Ctrl-C; returns it as it then is.
 
@@ -40,7 +28,7 @@ def run(view: View = "auto", picture: Path | None = None, seed: int = 0) -> Rove
     """
     if picture:
         _require_place_for(picture)
-    with RoverNode(Rover(seed=seed)) as node, _listening() as asked:
+    with RoverNode(Rover(seed=seed)) as node, listening() as asked:
         with opened(view, node) as display:
             _go_on(node, display, asked)
         print(f"\nThe rover is at {position(node)}.\nIt went {node.rover.way_m:.2f} m.")
@@ -49,28 +37,13 @@ def run(view: View = "auto", picture: Path | None = None, seed: int = 0) -> Rove
     return node.rover
 
 
-def _go_on(node: RoverNode, display: Display, asked: Asked) -> None:
+def _go_on(node: RoverNode, display: Display, asked: threading.Event) -> None:
     due_s = time.monotonic()
-    while not (asked.stop or display.closed):
+    while not (asked.is_set() or display.closed):
         node.turn()
         if time.monotonic() >= due_s:
             display.show(node)
             due_s = time.monotonic() + display.every_s
-
-
-@contextmanager
-def _listening() -> Iterator[Asked]:
-    """Ctrl-C as a wish, not as an exception: nothing is then left half done.
-
-    Also where a script started us deaf to it, as a shell does with a job in the background.
-    """
-    asked = Asked()
-    before = {number: signal.signal(number, asked) for number in (signal.SIGINT, signal.SIGTERM)}
-    try:
-        yield asked
-    finally:
-        for number, action in before.items():
-            signal.signal(number, action)
 
 
 def _require_place_for(picture: Path) -> None:
