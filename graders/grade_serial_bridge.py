@@ -76,9 +76,6 @@ def noisy(scene: Scene) -> None:
         spoiler.silent = False
         cable.mark("good again")
         cable.await_messages(WHEELS, 20)
-        cable.say_nonsense(CMD_VEL)
-        cable.live(for_s=0.3)
-        cable.mark("nonsense")
 
 
 @experiment
@@ -97,6 +94,16 @@ def unplugged(scene: Scene) -> None:
             cable.board.plug_in()
         if cable.await_messages(WHEELS, 10):
             cable.mark("came back")
+
+
+@experiment
+def nonsense(scene: Scene) -> None:
+    """A command that is no number."""
+    with board_beside(scene) as cable, scene.run(BRIDGE, start=cable.start()):
+        cable.await_messages(WHEELS, 10)
+        cable.say_nonsense(CMD_VEL)
+        cable.live(for_s=0.4)
+        cable.mark("nonsense")
 
 
 # --- the package -------------------------------------------------------------------------------
@@ -173,7 +180,7 @@ def test_drives(driving: ExperimentView) -> None:
     )
 
 
-@check(needs=["drives"])
+@check(needs=["cmd_topic", "checksums"])
 def test_stops(driving: ExperimentView) -> None:
     """The motors stop when no command comes any more."""
     driving.must(stop_by_itself("straight, driving"))
@@ -188,26 +195,26 @@ def test_every_line(driving: ExperimentView) -> None:
     driving.topic(WHEELS).must(tell_every_line(driving))
 
 
-@check(needs=["every_line", "drives"])
+@check(needs=["wheel_topic"])
 def test_wheel_speeds(driving: ExperimentView) -> None:
     """The messages carry the board's wheel speeds, left and right, in rad/s."""
     driving.topic(WHEELS).must(tell_the_speeds(driving))
 
 
-@check(needs=["every_line", "odom_topic"])
+@check(needs=["wheel_topic", "odom_topic"])
 def test_frames(driving: ExperimentView) -> None:
     """The messages name the wheels and the frames as the card does."""
     driving.topic(WHEELS).must(hold_its_fields(WHEELS))
     driving.topic(ODOM).must(hold_its_fields(ODOM))
 
 
-@check(needs=["odom_topic", "drives"])
+@check(needs=["odom_topic"])
 def test_straight(driving: ExperimentView) -> None:
     """Straight on: {ODOM.topic} says how far the rover went."""
     driving.topic(ODOM).must(know_the_way(driving, "start", "straight"))
 
 
-@check(needs=["odom_topic", "drives"])
+@check(needs=["odom_topic"])
 def test_turn(driving: ExperimentView) -> None:
     """A turn on the spot: {ODOM.topic} says how far the rover turned."""
     driving.topic(ODOM).must(know_the_way(driving, "straight", "turn"))
@@ -229,7 +236,7 @@ def test_bad_lines(noisy: ExperimentView) -> None:
     noisy.topic(WHEELS).must(tell_nothing_else(noisy))
 
 
-@check(needs=["every_line"])
+@check(needs=["wheel_topic"])
 def test_reconnects(unplugged: ExperimentView) -> None:
     """The node waits for its board, and finds it again when its cable was pulled."""
     unplugged.process(BRIDGE).must(come_up, stay_up)
@@ -237,11 +244,11 @@ def test_reconnects(unplugged: ExperimentView) -> None:
     unplugged.must(come_back("came back", "the pulled cable"))
 
 
-@check(needs=["drives", "bad_lines"])
-def test_not_a_number(noisy: ExperimentView) -> None:
+@check(needs=["cmd_topic", "checksums"])
+def test_not_a_number(nonsense: ExperimentView) -> None:
     """A command that is no number (NaN) moves nothing."""
-    noisy.process(BRIDGE).must(stay_up)
-    noisy.must(keep_still("nonsense"))
+    nonsense.process(BRIDGE).must(stay_up)
+    nonsense.must(keep_still("nonsense"))
 
 
 @check(needs=["runs"])
