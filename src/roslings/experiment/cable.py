@@ -72,17 +72,16 @@ class Cable:
         if ear is None:
             return
         until_s = self._now_s + for_s
-        while self._now_s < until_s and self._lives():
-            self.say(ear, forward_m_s, turn_rad_s)
+        while self._now_s < until_s and self.say(ear, forward_m_s, turn_rad_s):
             self._scene.until(lambda: False, SAY_EVERY_S)
         self.mark(part)
 
     def flood(self, topic: TopicContract, motions: Sequence[tuple[float, float]]) -> None:
         """Say many motions without a pause between them."""
         ear = self._ear(topic)
-        for forward_m_s, turn_rad_s in motions if ear else ():
-            assert ear is not None
-            self.say(ear, forward_m_s, turn_rad_s)
+        for forward_m_s, turn_rad_s in motions:
+            if ear is None or not self.say(ear, forward_m_s, turn_rad_s):
+                return
 
     def rest(self, part: str, counted: TopicContract) -> None:
         """Say nothing until the wheels stand and the node has told so; marks where the rover is."""
@@ -118,10 +117,12 @@ class Cable:
             )
         )
 
-    def say(self, ear: Endpoint, forward_m_s: float, turn_rad_s: float) -> None:
-        """Say one motion."""
+    def say(self, ear: Endpoint, forward_m_s: float, turn_rad_s: float) -> bool:
+        """Say one motion; whether somebody was there to hear it. A dead node is not waited for."""
+        if not self._lives():
+            return False
         content = {"linear": {"x": forward_m_s}, "angular": {"z": turn_rad_s}}
-        self._scene.probe.say(ear, content, FIRST_MESSAGE_WITHIN_S)
+        return self._scene.probe.say(ear, content, FIRST_MESSAGE_WITHIN_S).matched
 
     def say_nonsense(self, topic: TopicContract) -> None:
         """Say a motion that is no number."""
