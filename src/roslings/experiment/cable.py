@@ -22,6 +22,7 @@ SETTLES_LINES = 10
 """So many messages after the wheels stand, what was said before has been worked through."""
 
 COMES_BACK_WITHIN_S = 15.0
+LONGEST_LINE = 200
 FLOOR = World(room=Box(-100.0, -100.0, 100.0, 100.0))
 
 
@@ -165,10 +166,15 @@ class Cable:
 
 
 def lines_of(chunks: Sequence[Chunk]) -> list[CableLine]:
-    """The lines in bytes that came in pieces; a line's time is that of its end."""
+    """The lines in bytes that came in pieces; a line's time is that of its end.
+
+    What has no end for too long is a line as well, a wrong one.
+    """
     lines, begun = list[CableLine](), b""
     for chunk in chunks:
         *whole, begun = (begun + chunk.content).split(b"\n")
+        if len(begun) > LONGEST_LINE:
+            whole, begun = [*whole, begun], b""
         lines += [
             CableLine(board_s=chunk.board_s, sent_ns=chunk.sent_ns, text=line.decode("latin-1"))
             for line in whole
