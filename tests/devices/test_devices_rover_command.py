@@ -61,6 +61,8 @@ def test_its_topics_have_the_usual_names_and_types(
     assert "frame_id: odom" in odom and "child_frame_id: base_link" in odom
     scan = run(["ros2", "topic", "echo", "--once", "/scan"], terminal, tmp_path).stdout
     assert "range_max: 6.0" in scan
+    field = ["ros2", "topic", "echo", "--once", "/camera/image_raw", "--field"]
+    assert "1920" in run([*field, "step"], terminal, tmp_path).stdout
     assert "tf2_msgs" in "\n".join(rover.lines) or "/tf [tf2_msgs/msg/TFMessage]" in listed
 
 

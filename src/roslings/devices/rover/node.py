@@ -1,20 +1,28 @@
-"""The rover as a ROS node: it listens on /cmd_vel and publishes /odom, /scan and /tf."""
+"""The rover as a ROS node: it listens on /cmd_vel and publishes /odom, /scan and /tf.
+
+What its camera sees is on /camera/image_raw, as long as somebody listens.
+"""
 
 from __future__ import annotations
 
+import array
 import math
 import time
 from dataclasses import dataclass, field
 from types import TracebackType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from roslings.devices.rover.body import Motion
 from roslings.devices.rover.rover import Rover
 
+if TYPE_CHECKING:
+    from roslings.devices.camera import Frame
+
 NAME = "rover"
-ODOM_FRAME, BODY_FRAME = "odom", "base_link"
+ODOM_FRAME, BODY_FRAME, CAMERA_FRAME = "odom", "base_link", "camera"
 STEP_S = 0.02
 ODOM_EVERY_S = 0.05
+PICTURE_EVERY_S = 0.1
 LOOK_EVERY_S = 2.0
 COMMAND_LASTS_S = 1.5
 """`ros2 topic pub` repeats a command once a second: the rover then drives without a break."""
@@ -76,12 +84,16 @@ class RoverNode:
         from geometry_msgs.msg import Twist
         from nav_msgs.msg import Odometry
         from rclpy.qos import qos_profile_sensor_data
-        from sensor_msgs.msg import LaserScan
+        from sensor_msgs.msg import Image, LaserScan
+
+        from roslings.devices.camera import SyntheticCamera
 
         node = self._node
         self._ear = node.create_subscription(Twist, "cmd_vel", self._hear, 10)
         self._odom = node.create_publisher(Odometry, "odom", 10)
         self._scan = node.create_publisher(LaserScan, "scan", qos_profile_sensor_data)
+        self._pictures = node.create_publisher(Image, "camera/image_raw", qos_profile_sensor_data)
+        self._camera = SyntheticCamera(self.rover.eye)
         self._tf = _tf_publisher(node)
         self.publishes_tf = self._tf is not None
 
@@ -91,6 +103,7 @@ class RoverNode:
             node.create_timer(STEP_S, self._step),
             node.create_timer(ODOM_EVERY_S, self._tell_where),
             node.create_timer(1 / self.rover.scanner.turns_hz, self._tell_distances),
+            node.create_timer(PICTURE_EVERY_S, self._show_picture),
             node.create_timer(LOOK_EVERY_S, self._look_for_twins),
         ]
 
@@ -120,6 +133,11 @@ class RoverNode:
 
     def _tell_distances(self) -> None:
         self._scan.publish(_laser_scan(self.rover, self._node.get_clock().now().to_msg()))
+
+    def _show_picture(self) -> None:
+        if self._pictures.get_subscription_count():
+            stamp = self._node.get_clock().now().to_msg()
+            self._pictures.publish(_image(self._camera.look(self.rover), stamp))
 
     def _look_for_twins(self) -> None:
         if self._node.get_node_names().count(NAME) > 1:
@@ -182,6 +200,20 @@ def _laser_scan(rover: Rover, stamp: Any) -> Any:
     )
     scan.header.stamp, scan.header.frame_id = stamp, BODY_FRAME
     return scan
+
+
+def _image(frame: Frame, stamp: Any) -> Any:
+    from sensor_msgs.msg import Image
+
+    image = Image(
+        height=frame.height,
+        width=frame.width,
+        encoding=frame.encoding,
+        step=frame.step,
+        data=array.array("B", frame.content),  # other types are copied value by value
+    )
+    image.header.stamp, image.header.frame_id = stamp, CAMERA_FRAME
+    return image
 
 
 def _transforms(rover: Rover, stamp: Any) -> Any:

@@ -25,6 +25,7 @@ def beside(node: RoverNode) -> list[str]:
         "",
         "hears /cmd_vel",
         f"says  {', '.join(said(node))}",
+        "      /camera/image_raw",
         *(() if node.publishes_tf else ("(no /tf: tf2_msgs is", " not installed here)")),
         "",
         "Ctrl-C ends it",
