@@ -25,12 +25,13 @@ ROOMS_BELOW = {
     "probe": {"evidence", "near", "rates", "arena"},
     "workspace": {"evidence", "verdict", "course", "arena"},
     "experiment": {
-        "evidence", "near", "rates", "course", "arena", "probe", "workspace",
+        "evidence", "near", "rates", "course", "arena", "probe", "workspace", "devices",
     },
-    "judge": {"evidence", "verdict", "near", "rates", "course", "experiment"},
+    "judge": {"evidence", "verdict", "near", "rates", "course", "experiment", "devices"},
     "report": {"evidence", "verdict", "near", "rates"},
     "doctor": set[str](),
     "bootstrap": set[str](),
+    "devices": set[str](),
     "ros2": {"evidence", "near", "rates", "arena", "probe", "report", "doctor"},
 }  # fmt: skip
 """Room to the rooms that it may import: the arrows run one way."""

@@ -97,6 +97,8 @@ def parser() -> argparse.ArgumentParser:
     pack_options(add("pack", "make the zip file to hand in", "pack"))
     graph_options(add("graph", "show the running graph, or save a picture of it", "graph"))
     test_options(add("test", "run the tests of roslings", "test"))
+    rover_options(add("rover", "a small robot to drive by ROS, and its map", "rover"))
+    board_options(add("board", "the rover's Arduino board on a serial port", "board"))
     add("ros2", "the ros2 commands, where the real ones are not installed", None)
     add("wheels", "fetch every package into a folder, for a lab without a network", None)
     return top
@@ -197,6 +199,27 @@ def graph_options(word: argparse.ArgumentParser) -> None:
     word.add_argument("--save", metavar="FILE.png", type=Path, help="save a picture of it")
     word.add_argument("--force", action="store_true", help="replace FILE.png if it is there")
     word.add_argument("--all", action="store_true", help="also /rosout and other parts of ROS")
+
+
+def rover_options(word: argparse.ArgumentParser) -> None:
+    """What `rover` takes."""
+    word.add_argument(
+        "--view", choices=("auto", "window", "terminal", "lines"), default="auto",
+        help="where the map is shown (default: a window where there is a screen)",
+    )  # fmt: skip
+    word.add_argument("--save", metavar="FILE.png", type=Path, help="save the map at the end")
+    word.add_argument("--seed", metavar="N", type=int, default=0, help="for the sensors' noise")
+
+
+def board_options(word: argparse.ArgumentParser) -> None:
+    """What `board` takes."""
+    word.add_argument("--port", metavar="FILE", type=Path, help="default: /tmp/ttyROVER")
+    word.add_argument(
+        "--sketch",
+        metavar="FILE.ino",
+        type=Path,
+        help="run this sketch, in an emulated Mega",
+    )
 
 
 def test_options(word: argparse.ArgumentParser) -> None:

@@ -36,7 +36,9 @@ SEEDS = 10**9
 def exit_code_of(error: Exception) -> int | None:
     """The exit code for what went wrong; None for what nobody expected."""
     from roslings.arena import NoFreeDomain
+    from roslings.devices.trouble import DeviceTrouble
     from roslings.experiment import MeasuringFailed
+    from roslings.ros2.problem import Problem
     from roslings.saving import NoBagWriter, NothingToSave
 
     if isinstance(error, MeasuringFailed | NoFreeDomain | MachineTrouble | CannotWrite):
@@ -44,6 +46,8 @@ def exit_code_of(error: Exception) -> int | None:
     if isinstance(error, WorkspaceError | CourseError | NoSuchCheck | BadVerdictFile):
         return WRONG_USE
     if isinstance(error, BadEvidence | CannotKeepThere | NothingToSave | NoBagWriter):
+        return WRONG_USE
+    if isinstance(error, DeviceTrouble | Problem):
         return WRONG_USE
     if isinstance(error, FileExistsError | NotADirectoryError):
         return WRONG_USE
@@ -300,6 +304,29 @@ def graph(options: argparse.Namespace) -> int:
             return WRONG_USE
         print(f"\nSaved {options.save}")
     return OK if seen.nodes else FAILED
+
+
+# --- the rover ---------------------------------------------------------------------------------
+
+
+def rover(options: argparse.Namespace) -> int:
+    """Run the rover and its map until Ctrl-C."""
+    from roslings.devices.rover.running import run
+    from roslings.ros2.surroundings import check_middleware, domain_id, prepare
+
+    prepare()
+    domain_id()
+    check_middleware()
+    run(options.view, options.save, options.seed)
+    return OK
+
+
+def board(options: argparse.Namespace) -> int:
+    """Run the rover's board on a serial port until Ctrl-C."""
+    from roslings.devices.board.live import run, usual_port
+
+    run(options.port or usual_port(), options.sketch)
+    return OK
 
 
 # --- the tests ---------------------------------------------------------------------------------

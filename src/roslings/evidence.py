@@ -177,6 +177,45 @@ class CallSeen(Record):
     )
 
 
+class CableLine(Record):
+    """One whole line on a serial cable, without the end of line, as it was sent."""
+
+    board_s: float = Field(description="The board's clock")
+    sent_ns: int = Field(description="Observer's monotonic clock")
+    text: str
+
+
+class MotorsSeen(Record):
+    """What reached the motors, from one moment on."""
+
+    board_s: float
+    left_pwm: int
+    right_pwm: int
+
+
+class BoardMark(Record):
+    """How things really stood at a moment of the experiment."""
+
+    part: str
+    arrival_ns: int = Field(description="Observer's monotonic clock")
+    board_s: float
+    x_m: float
+    y_m: float
+    heading_rad: float
+    left_pwm: int
+    right_pwm: int
+
+
+class BoardSeen(Record):
+    """All that was seen at the board's end of a serial cable."""
+
+    told: list[CableLine] = Field(default_factory=list, description="By the board, unspoiled")
+    heard: list[CableLine] = Field(default_factory=list, description="From the node")
+    motors: list[MotorsSeen] = Field(default_factory=list)
+    marks: list[BoardMark] = Field(default_factory=list)
+    rejected: int = Field(default=0, description="Lines of the node that the board refused")
+
+
 class ExperimentSeen(Record):
     """One experiment: the processes it ran, and all that was seen while they ran."""
 
@@ -195,6 +234,7 @@ class ExperimentSeen(Record):
     services: list[ServiceEnd] = Field(default_factory=list)
     calls: list[CallSeen] = Field(default_factory=list, description="Made by the grader")
     served: list[CallSeen] = Field(default_factory=list, description="Answered by the grader")
+    board: BoardSeen | None = Field(default=None, description="The board, where there was one")
     parameters: dict[str, list[str]] = Field(
         default_factory=dict, description="Node to the names of its parameters"
     )

@@ -1,0 +1,263 @@
+"""What counts as done in the lab "serial-bridge": a node between ROS and the rover's board.
+
+The numbers, names and points stand in labs/serial-bridge/card.yaml. Experiments run the student's
+node beside a board and watch both; checks read what was seen and run nothing.
+"""
+
+from roslings.course import lab
+from roslings.experiment import Scene, experiment
+from roslings.experiment.cable import board_beside
+from roslings.judge import (
+    ExperimentView,
+    PackageView,
+    be_built_as,
+    be_named,
+    be_the_only_one,
+    be_there,
+    be_well_formed,
+    carry_its_type,
+    check,
+    come_up,
+    end_within,
+    exit_cleanly,
+    install,
+    list_what_it_imports,
+    match_qos,
+    stay_up,
+)
+from roslings.judge.cable import (
+    come_back,
+    drive_as_told,
+    hold_its_fields,
+    keep_still,
+    know_the_way,
+    send_good_lines,
+    stop_by_itself,
+    tell_every_line,
+    tell_nothing_else,
+    tell_the_speeds,
+)
+
+CARD = lab("serial-bridge").card
+BRIDGE = CARD.node("serial_bridge")
+WHEELS, ODOM = BRIDGE.publishes
+CMD_VEL = BRIDGE.subscribes[0]
+STRAIGHT, TURN, ARC = (0.3, 0.0), (0.0, 1.2), (0.25, -0.8)
+"""The motions of the test drive: metres a second forward, radians a second to the left."""
+
+
+# --- experiments: run the node beside a board --------------------------------------------------
+
+
+@experiment
+def driving(scene: Scene) -> None:
+    """A drive: straight on, a turn on the spot, an arc."""
+    with board_beside(scene) as cable, scene.run(BRIDGE, start=cable.start()):
+        cable.await_messages(ODOM, 10)
+        cable.mark("start")
+        for part, motion in (("straight", STRAIGHT), ("turn", TURN), ("arc", ARC)):
+            cable.drive(f"{part}, driving", CMD_VEL, *motion)
+            cable.rest(part, ODOM)
+        cable.flood(CMD_VEL, [(n / 100 - 0.3, 0.0) for n in range(100)])
+        cable.drive("after many", CMD_VEL, *STRAIGHT, for_s=0.4)
+
+
+@experiment
+def noisy(scene: Scene) -> None:
+    """A bad cable: noise, half lines, wrong checksums, then silence."""
+    with board_beside(scene) as cable, scene.run(BRIDGE, start=cable.start()):
+        cable.await_messages(WHEELS, 10)
+        spoiler = cable.board.to_host
+        spoiler.noise, spoiler.half_lines, spoiler.wrong_checksums = 0.01, 0.2, 0.2
+        cable.drive("noise", CMD_VEL, *ARC, for_s=3.0)
+        spoiler.noise = spoiler.half_lines = spoiler.wrong_checksums = 0.0
+        spoiler.silent = True
+        cable.live(for_s=1.0)
+        spoiler.silent = False
+        cable.mark("good again")
+        cable.await_messages(WHEELS, 20)
+
+
+@experiment
+def unplugged(scene: Scene) -> None:
+    """The board comes late, its cable is pulled, and comes back."""
+    with (
+        board_beside(scene, plugged_in=False) as cable,
+        scene.run(BRIDGE, start=cable.start()),
+    ):
+        cable.live(for_s=0.5)
+        cable.board.plug_in()
+        if cable.await_messages(WHEELS, 10):
+            cable.mark("came late")
+            cable.board.unplug()
+            cable.live(for_s=1.0)
+            cable.board.plug_in()
+        if cable.await_messages(WHEELS, 10):
+            cable.mark("came back")
+
+
+@experiment
+def nonsense(scene: Scene) -> None:
+    """A command that is no number."""
+    with board_beside(scene) as cable, scene.run(BRIDGE, start=cable.start()):
+        cable.await_messages(WHEELS, 10)
+        cable.say_nonsense(CMD_VEL)
+        cable.live(for_s=0.4)
+        cable.mark("nonsense")
+
+
+# --- the package -------------------------------------------------------------------------------
+
+
+@check()
+def test_well_formed(package: PackageView) -> None:
+    """The package has all its files, and ROS and Python can read them."""
+    package.must(be_well_formed(CARD.build_type))
+
+
+@check()
+def test_depends(package: PackageView) -> None:
+    """package.xml names every ROS package that the code imports."""
+    package.must(list_what_it_imports)
+
+
+@check(needs=["well_formed"])
+def test_builds(package: PackageView) -> None:
+    """colcon builds it, and `ros2 run` finds {BRIDGE.executable}."""
+    package.must(be_built_as(CARD.build_type), install([BRIDGE.executable]))
+
+
+# --- the node ----------------------------------------------------------------------------------
+
+
+@check(needs=["builds"])
+def test_runs(driving: ExperimentView) -> None:
+    """The node starts and runs until Ctrl-C."""
+    driving.process(BRIDGE).must(come_up, stay_up)
+
+
+@check(needs=["runs"])
+def test_name(driving: ExperimentView) -> None:
+    """The node is called {BRIDGE.node}."""
+    driving.node(BRIDGE).must(be_named)
+
+
+@check(needs=["runs"])
+def test_wheel_topic(driving: ExperimentView) -> None:
+    """It publishes {WHEELS.type} on {WHEELS.topic}."""
+    driving.publisher(BRIDGE, WHEELS).must(be_there, be_the_only_one, carry_its_type, match_qos)
+
+
+@check(needs=["runs"])
+def test_odom_topic(driving: ExperimentView) -> None:
+    """It publishes {ODOM.type} on {ODOM.topic}."""
+    driving.publisher(BRIDGE, ODOM).must(be_there, be_the_only_one, carry_its_type, match_qos)
+
+
+@check(needs=["runs"])
+def test_cmd_topic(driving: ExperimentView) -> None:
+    """It subscribes to {CMD_VEL.topic} ({CMD_VEL.type})."""
+    driving.subscription(BRIDGE, CMD_VEL).must(be_there, carry_its_type, match_qos)
+
+
+# --- from ROS to the board ---------------------------------------------------------------------
+
+
+@check(needs=["cmd_topic"])
+def test_checksums(driving: ExperimentView) -> None:
+    """The board can use every line of the node."""
+    driving.must(send_good_lines)
+
+
+@check(needs=["cmd_topic", "checksums"])
+def test_drives(driving: ExperimentView) -> None:
+    """The motors do what {CMD_VEL.topic} says."""
+    driving.must(
+        drive_as_told("straight, driving", *STRAIGHT),
+        drive_as_told("turn, driving", *TURN),
+        drive_as_told("arc, driving", *ARC),
+        drive_as_told("after many", *STRAIGHT),
+    )
+
+
+@check(needs=["cmd_topic", "checksums"])
+def test_stops(driving: ExperimentView) -> None:
+    """The motors stop when no command comes any more."""
+    driving.must(stop_by_itself("straight, driving"))
+
+
+# --- from the board to ROS ---------------------------------------------------------------------
+
+
+@check(needs=["wheel_topic"])
+def test_every_line(driving: ExperimentView) -> None:
+    """Each line of wheel speeds becomes one message."""
+    driving.topic(WHEELS).must(tell_every_line(driving))
+
+
+@check(needs=["wheel_topic"])
+def test_wheel_speeds(driving: ExperimentView) -> None:
+    """The messages carry the board's wheel speeds, left and right, in rad/s."""
+    driving.topic(WHEELS).must(tell_the_speeds(driving))
+
+
+@check(needs=["wheel_topic", "odom_topic"])
+def test_frames(driving: ExperimentView) -> None:
+    """The messages name the wheels and the frames as the card does."""
+    driving.topic(WHEELS).must(hold_its_fields(WHEELS))
+    driving.topic(ODOM).must(hold_its_fields(ODOM))
+
+
+@check(needs=["odom_topic"])
+def test_straight(driving: ExperimentView) -> None:
+    """Straight on: {ODOM.topic} says how far the rover went."""
+    driving.topic(ODOM).must(know_the_way(driving, "start", "straight"))
+
+
+@check(needs=["odom_topic"])
+def test_turn(driving: ExperimentView) -> None:
+    """A turn on the spot: {ODOM.topic} says how far the rover turned."""
+    driving.topic(ODOM).must(know_the_way(driving, "straight", "turn"))
+
+
+@check(needs=["straight", "turn"])
+def test_arc(driving: ExperimentView) -> None:
+    """An arc: {ODOM.topic} says where the rover is."""
+    driving.topic(ODOM).must(know_the_way(driving, "turn", "arc"))
+
+
+# --- when something is wrong -------------------------------------------------------------------
+
+
+@check(needs=["wheel_speeds"])
+def test_bad_lines(noisy: ExperimentView) -> None:
+    """On a noisy cable, no wrong line becomes a message."""
+    noisy.process(BRIDGE).must(stay_up)
+    noisy.topic(WHEELS).must(tell_nothing_else(noisy))
+
+
+@check(needs=["wheel_topic"])
+def test_reconnects(unplugged: ExperimentView) -> None:
+    """The node waits for its board, and finds it again when its cable was pulled."""
+    unplugged.process(BRIDGE).must(come_up, stay_up)
+    unplugged.must(come_back("came late", "the start without a board"))
+    unplugged.must(come_back("came back", "the pulled cable"))
+
+
+@check(needs=["cmd_topic", "checksums"])
+def test_not_a_number(nonsense: ExperimentView) -> None:
+    """A command that is no number (NaN) moves nothing."""
+    nonsense.process(BRIDGE).must(stay_up)
+    nonsense.must(keep_still("nonsense"))
+
+
+@check(needs=["runs"])
+def test_ends(driving: ExperimentView) -> None:
+    """The node ends within {CARD.ends_within_s:g} s of Ctrl-C."""
+    driving.process(BRIDGE).must(end_within(CARD.ends_within_s))
+
+
+@check(needs=["ends"])
+def test_clean_exit(driving: ExperimentView) -> None:
+    """After Ctrl-C the node ends without an error."""
+    driving.process(BRIDGE).must(exit_cleanly)

@@ -1,0 +1,29 @@
+"""The rover's Arduino Mega on a serial port: what stands at the other end of the cable.
+
+Two boards keep one contract (tests/devices/test_devices_contract.py): `Mega`, in Python alone,
+and `roslings.devices.emulated`, which runs the real sketch. `Board` puts either on a
+pseudo-terminal, in real time or step by step, and can spoil the line between it and the host.
+"""
+
+from roslings.devices.board.chip import Applied, Chip, Counts, Truth
+from roslings.devices.board.lines import BadLine, Drive, LineReader, Speeds, framed, unframed
+from roslings.devices.board.mega import Mega
+from roslings.devices.board.on_pty import Board, Chunk
+from roslings.devices.board.spoil import Spoiler
+
+__all__ = [
+    "Applied",
+    "BadLine",
+    "Board",
+    "Chip",
+    "Chunk",
+    "Counts",
+    "Drive",
+    "LineReader",
+    "Mega",
+    "Speeds",
+    "Spoiler",
+    "Truth",
+    "framed",
+    "unframed",
+]

@@ -1,0 +1,74 @@
+"""A serial port without hardware: a pseudo-terminal, found under a name that stays."""
+
+from __future__ import annotations
+
+import errno
+import os
+import select
+import tty
+from pathlib import Path
+
+MOST_AT_ONCE = 4096
+
+
+class Port:
+    """The board's end of a cable. `name` is what the host opens; it is gone while unplugged."""
+
+    def __init__(self, name: Path) -> None:
+        self.name = name
+        self._ours = self._theirs = -1
+
+    def __enter__(self) -> Port:
+        self.plug_in()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.unplug()
+
+    @property
+    def plugged_in(self) -> bool:
+        """The cable is in."""
+        return self._ours >= 0
+
+    def plug_in(self) -> None:
+        """Make the port appear. Raises OSError where its name cannot be made."""
+        if self.plugged_in:
+            return
+        self._ours, self._theirs = os.openpty()
+        tty.setraw(self._theirs)  # bytes pass as they are, and nothing is echoed
+        os.set_blocking(self._ours, False)
+        self.name.unlink(missing_ok=True)
+        self.name.symlink_to(os.ttyname(self._theirs))
+
+    def unplug(self) -> None:
+        """Make it vanish: who has it open reads and writes an error from now on."""
+        if not self.plugged_in:
+            return
+        self.name.unlink(missing_ok=True)  # first: a stale name would open a stranger's port
+        os.close(self._ours)
+        os.close(self._theirs)
+        self._ours = self._theirs = -1
+
+    def read(self) -> bytes:
+        """What the host wrote; nothing where it wrote nothing."""
+        try:
+            return os.read(self._ours, MOST_AT_ONCE) if self.plugged_in else b""
+        except OSError as error:
+            if error.errno in (errno.EAGAIN, errno.EIO):
+                return b""
+            raise
+
+    def write(self, outgoing: bytes) -> int:
+        """Send to the host; what nobody reads is lost once the buffer is full, as on a wire.
+
+        Returns the number of bytes that were not lost.
+        """
+        try:
+            return os.write(self._ours, outgoing) if self.plugged_in and outgoing else 0
+        except BlockingIOError:
+            return 0
+
+    def wait(self, within_s: float, wake: int) -> None:
+        """Wait until the host wrote, until the descriptor `wake` can be read, or so long."""
+        watched = [wake, *([self._ours] if self.plugged_in else [])]
+        select.select(watched, [], [], max(0.0, within_s))

@@ -1,0 +1,215 @@
+"""Where the map is shown: a window, the terminal, or lines of text for a file or a pipe."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any, Literal, Protocol, TextIO
+
+from roslings.devices.rover.node import RoverNode
+from roslings.devices.rover.text_map import ASCII, UNICODE, Cell, cells
+from roslings.devices.rover.words import FIRST_COMMAND, below, beside, position, said
+from roslings.devices.trouble import DeviceTrouble
+
+View = Literal["auto", "window", "terminal", "lines"]
+SIDE_COLUMNS = 34
+LEAST_LINES = 18
+LEAST_COLUMNS = 60
+STYLES = {"floor": "", "wall": "bright_black", "path": "cyan", "rover": "bold yellow"}
+HUES = ((15, "red"), (35, "yellow"), (85, "green"), (100, "cyan"), (130, "blue"), (165, "magenta"))
+
+
+class Display(Protocol):
+    """Shows a rover again and again."""
+
+    every_s: float
+
+    @property
+    def closed(self) -> bool:
+        """Somebody closed it: the rover ends, too."""
+        ...
+
+    def show(self, node: RoverNode) -> None:
+        """Show how things stand now."""
+        ...
+
+
+class NoWindow(DeviceTrouble):
+    """A window was asked for and cannot be opened here."""
+
+    def __init__(self, because: str) -> None:
+        super().__init__(f"There is no window: {because}. Type: ./roslings rover --view terminal")
+
+
+@contextmanager
+def opened(view: View, node: RoverNode) -> Iterator[Display]:
+    """The display that was asked for, or the best that this place has. Raises NoWindow."""
+    because = why_no_window()
+    if view == "window" and because:
+        raise NoWindow(because)
+    if view == "window" or (view == "auto" and not because):
+        with Window(node) as window:
+            yield window
+    elif view == "terminal" or (view == "auto" and _is_roomy_terminal()):
+        with Terminal() as terminal:
+            yield terminal
+    else:
+        yield Lines(node, sys.stdout)
+
+
+def why_no_window() -> str:
+    """Why this place has no window; empty where it has one."""
+    if not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
+        return "this terminal has no screen (DISPLAY is not set)"
+    try:
+        import tkinter
+
+        import matplotlib.pyplot as plt
+
+        tkinter.Tk().destroy()
+        plt.switch_backend("TkAgg")
+    except ImportError:
+        return "this Python has no tkinter"
+    except Exception as error:  # tkinter.TclError is known only where tkinter is there
+        return f"the screen cannot be opened ({error})"
+    return ""
+
+
+def _is_roomy_terminal() -> bool:
+    columns, lines = shutil.get_terminal_size()
+    return sys.stdout.isatty() and columns >= LEAST_COLUMNS and lines >= LEAST_LINES
+
+
+class Window:
+    """The map in a window of matplotlib's."""
+
+    every_s = 0.1
+
+    def __init__(self, node: RoverNode) -> None:
+        import matplotlib.pyplot as plt
+
+        from roslings.devices.rover.picture import draw_world
+
+        self._plt = plt
+        self._figure, self._axes = plt.subplots(figsize=(7, 7), layout="constrained")
+        self._title("roslings rover")
+        draw_world(node.rover.world, self._axes)
+        (self._path,) = self._axes.plot([], [], color="#1f77b4")
+        self._parts: list[Any] = []
+        self._shown: object = None
+        print(f"The map is in its own window. Make the rover move, in a second terminal:\n"
+              f"source setup.bash\n{FIRST_COMMAND}\nCtrl-C here ends it.", flush=True)  # fmt: skip
+
+    def __enter__(self) -> Window:
+        self._plt.show(block=False)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._plt.close(self._figure)
+
+    @property
+    def closed(self) -> bool:
+        """The window was closed."""
+        return not self._plt.fignum_exists(self._figure.number)
+
+    def show(self, node: RoverNode) -> None:
+        """Move the rover and its path; a picture that would be the same is not drawn again."""
+        now = (node.rover.pose, node.notice, position(node))
+        if now != self._shown:
+            self._shown = now
+            self._draw(node)
+        self._figure.canvas.flush_events()
+
+    def _draw(self, node: RoverNode) -> None:
+        from roslings.devices.rover.picture import draw_rover
+
+        for part in self._parts:
+            part.remove()
+        path = [*node.rover.path, node.rover.pose]
+        self._path.set_data([p.x_m for p in path], [p.y_m for p in path])
+        self._parts = draw_rover(node.rover, self._axes)
+        self._axes.set_title(node.notice or position(node), fontsize=10)
+        self._figure.canvas.draw_idle()
+
+    def _title(self, text: str) -> None:
+        if self._figure.canvas.manager is not None:
+            self._figure.canvas.manager.set_window_title(text)
+
+
+class Terminal:
+    """The map over the whole terminal; what stood there before comes back at the end."""
+
+    every_s = 0.1
+    closed = False
+
+    def __init__(self) -> None:
+        from rich.console import Console
+        from rich.live import Live
+
+        self._console = Console()
+        self._live = Live(console=self._console, screen=True, auto_refresh=False)
+        encoding = (self._console.encoding or "").lower().replace("-", "")
+        self._letters = UNICODE if encoding.startswith("utf") else ASCII
+
+    def __enter__(self) -> Terminal:
+        self._live.__enter__()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._live.__exit__(None, None, None)
+
+    def show(self, node: RoverNode) -> None:
+        """Draw map and words anew, as large as the terminal is now."""
+        from rich.text import Text
+
+        columns, lines = self._console.size
+        wide = max(columns - SIDE_COLUMNS, 20)
+        drawn = cells(node.rover, wide, lines - 3, self._letters)
+        text = Text(no_wrap=True, overflow="crop")
+        for row, words in zip(drawn, _filled(beside(node), len(drawn)), strict=True):
+            _append_row(text, row)
+            text.append(f"  {words}\n")
+        text.append("\n".join(["", *below(node)]), style="bold" if node.notice else "")
+        self._live.update(text, refresh=True)
+
+
+def _filled(words: list[str], lines: int) -> list[str]:
+    return [*words[:lines], *[""] * (lines - len(words))]
+
+
+def _append_row(text: Any, row: list[Cell]) -> None:
+    for cell in row:
+        text.append(cell.letter, style=_ball_style(cell.hue) if cell.hue is not None else
+                    STYLES[cell.kind])  # fmt: skip
+
+
+def _ball_style(hue: int) -> str:
+    return next((style for upto, style in HUES if hue < upto), "red")
+
+
+class Lines:
+    """One line whenever the rover has moved: for a pipe, a file, or a very small terminal."""
+
+    every_s = 1.0
+    closed = False
+
+    def __init__(self, node: RoverNode, out: TextIO) -> None:
+        self._out, self._last = out, ""
+        self._say("The rover is ready. It hears /cmd_vel and says " + ", ".join(said(node)) + ".")
+        if not node.publishes_tf:
+            self._say("/tf is left out: tf2_msgs is not installed here.")
+        self._say("Make it move, in a second terminal: source setup.bash, then")
+        self._say(FIRST_COMMAND)
+
+    def show(self, node: RoverNode) -> None:
+        """Say where it is, if that is news."""
+        for line in (node.notice, position(node)):
+            if line and line not in self._last:
+                self._say(line)
+        self._last = f"{node.notice}\n{position(node)}"
+
+    def _say(self, line: str) -> None:
+        print(line, file=self._out, flush=True)

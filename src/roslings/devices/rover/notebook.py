@@ -1,0 +1,78 @@
+"""The rover in a notebook: a node that runs beside the cells, and its map as a picture.
+
+from roslings.devices.rover.notebook import start
+rover = start()     # one cell: the node runs from now on
+rover               # another cell: the map as it is now
+rover.stop()        # the last cell
+"""
+
+from __future__ import annotations
+
+import io
+import os
+import threading
+
+from roslings.devices.rover.body import Pose
+from roslings.devices.rover.node import RoverNode
+from roslings.devices.rover.rover import Rover
+
+
+class LiveRover:
+    """A rover whose node runs in a thread. Also a context manager, which stops it at its end."""
+
+    def __init__(self, rover: Rover) -> None:
+        self._rover = rover
+        self._stopping = threading.Event()
+        self._ready = threading.Event()
+        self._thread = threading.Thread(target=self._run, name="rover", daemon=True)
+        self._thread.start()
+        self._ready.wait()
+
+    def __enter__(self) -> LiveRover:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.stop()
+
+    @property
+    def pose(self) -> Pose:
+        """Where it is now."""
+        return self._rover.pose
+
+    def stop(self) -> None:
+        """End the node. The map stays."""
+        self._stopping.set()
+        self._thread.join()
+
+    def picture(self) -> bytes:
+        """The map with the path, as a PNG file."""
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.figure import Figure
+
+        from roslings.devices.rover.picture import draw
+
+        figure = Figure(figsize=(6, 5.5), layout="constrained")
+        FigureCanvasAgg(figure)
+        draw(self._rover, figure.add_subplot())
+        file = io.BytesIO()
+        figure.savefig(file, format="png")
+        return file.getvalue()
+
+    def _repr_png_(self) -> bytes:
+        """Jupyter shows what a cell ends with through this."""
+        return self.picture()
+
+    def _run(self) -> None:
+        try:
+            with RoverNode(self._rover) as node:
+                self._ready.set()
+                while not self._stopping.is_set():
+                    node.turn()
+        finally:
+            self._ready.set()
+
+
+def start(seed: int = 0) -> LiveRover:
+    """Start a rover. Without a word about the range, only this computer hears it."""
+    os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+    return LiveRover(Rover(seed=seed))

@@ -1,0 +1,65 @@
+"""Run the rover, with its map, until Ctrl-C."""
+
+from __future__ import annotations
+
+import threading
+import time
+from pathlib import Path
+
+from roslings.devices.asked import listening
+from roslings.devices.rover.displays import Display, View, opened
+from roslings.devices.rover.node import RoverNode
+from roslings.devices.rover.rover import Rover
+from roslings.devices.rover.words import position
+from roslings.devices.trouble import DeviceTrouble
+
+
+class CannotSave(DeviceTrouble):
+    """The picture of the map cannot be written there."""
+
+    def __init__(self, file: Path, because: str) -> None:
+        super().__init__(f"The map cannot be saved as {file}: {because}. Give another FILE.")
+
+
+def run(view: View = "auto", picture: Path | None = None, seed: int = 0) -> Rover:
+    """Run the rover until Ctrl-C; returns it as it then is.
+
+    Raises NoWindow, CannotSave.
+    """
+    if picture:
+        _require_place_for(picture)
+    with RoverNode(Rover(seed=seed)) as node, listening() as asked:
+        with opened(view, node) as display:
+            _go_on(node, display, asked)
+        print(f"\nThe rover is at {position(node)}.\nIt went {node.rover.way_m:.2f} m.")
+        if picture:
+            _save(node.rover, picture)
+    return node.rover
+
+
+def _go_on(node: RoverNode, display: Display, asked: threading.Event) -> None:
+    due_s = time.monotonic()
+    while not (asked.is_set() or display.closed):
+        node.turn()
+        if time.monotonic() >= due_s:
+            display.show(node)
+            due_s = time.monotonic() + display.every_s
+
+
+def _require_place_for(picture: Path) -> None:
+    if picture.suffix.lower() not in (".png", ".svg", ".pdf"):
+        raise CannotSave(picture, "its name must end in .png, .svg or .pdf")
+    if not picture.parent.is_dir():
+        raise CannotSave(picture, f"there is no folder {picture.parent}")
+    if picture.is_dir():
+        raise CannotSave(picture, "that is a folder")
+
+
+def _save(rover: Rover, picture: Path) -> None:
+    from roslings.devices.rover.picture import save
+
+    try:
+        save(rover, picture)
+    except OSError as error:
+        raise CannotSave(picture, error.strerror or str(error)) from error
+    print(f"Saved {picture}")

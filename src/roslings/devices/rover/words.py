@@ -1,0 +1,57 @@
+"""What the screen says beside the map."""
+
+from __future__ import annotations
+
+import math
+
+from roslings.devices.rover.node import RoverNode
+
+FIRST_COMMAND = 'ros2 topic pub --once /cmd_vel geometry_msgs/msg/Twist "{linear: {x: 0.5}}"'
+STOPPED = 0.005
+
+
+def beside(node: RoverNode) -> list[str]:
+    """Where the rover is, and what it hears and says; at most 32 columns."""
+    pose, motion = node.rover.pose, node.rover.motion
+    return [
+        "The rover",
+        "",
+        f"x        {pose.x_m:6.2f} m",
+        f"y        {pose.y_m:6.2f} m",
+        f"heading  {math.degrees(pose.heading_rad):6.0f} degrees",
+        f"speed    {motion.forward_m_s + 0.0:6.2f} m/s",
+        f"turn     {motion.turn_rad_s + 0.0:6.2f} rad/s",
+        f"way      {node.rover.way_m:6.2f} m",
+        "",
+        "hears /cmd_vel",
+        f"says  {', '.join(said(node))}",
+        "      /camera/image_raw",
+        *(() if node.publishes_tf else ("(no /tf: tf2_msgs is", " not installed here)")),
+        "",
+        "Ctrl-C ends it",
+    ]
+
+
+def said(node: RoverNode) -> list[str]:
+    """The topics that it publishes."""
+    return ["/odom", "/scan", *(["/tf"] if node.publishes_tf else [])]
+
+
+def below(node: RoverNode) -> list[str]:
+    """What to do next; at most 80 columns, always two lines."""
+    if node.notice:
+        return [node.notice, ""]
+    if node.rover.touches:
+        return ["The rover touches something. Drive it back: a negative linear.x.", ""]
+    if node.commands:
+        return ["angular.z turns it, in rad/s; a positive one to the left.", FIRST_COMMAND]
+    return ["Make it move. In a second terminal: source setup.bash, then", FIRST_COMMAND]
+
+
+def position(node: RoverNode) -> str:
+    """Where it is and how it moves, in one line."""
+    pose, motion = node.rover.pose, node.rover.motion
+    moves = abs(motion.forward_m_s) > STOPPED or abs(motion.turn_rad_s) > STOPPED
+    degrees = math.degrees(pose.heading_rad)
+    where = f"x {pose.x_m:.2f} m, y {pose.y_m:.2f} m, heading {degrees:.0f} degrees"
+    return f"{where}, {'moving' if moves else 'standing'}"

@@ -1,0 +1,183 @@
+"""Experiments with a board at the other end of a serial cable."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+
+from roslings.course import TopicContract
+from roslings.devices.board import Board, Chunk, Mega
+from roslings.devices.rover import Body, Box, Rover, World
+from roslings.evidence import BoardMark, BoardSeen, CableLine, Endpoint, MotorsSeen
+from roslings.experiment.scene import FIRST_MESSAGE_WITHIN_S, Scene
+from roslings.experiment.start import Start
+from roslings.near import nearest_endpoint
+
+SAY_EVERY_S = 0.05
+STANDS_WITHIN_S = 5.0
+STANDS_RAD_S = 0.02
+SETTLES_LINES = 10
+"""So many messages after the wheels stand, what was said before has been worked through."""
+
+COMES_BACK_WITHIN_S = 15.0
+LONGEST_LINE = 200
+FLOOR = World(room=Box(-100.0, -100.0, 100.0, 100.0))
+
+
+@contextmanager
+def board_beside(
+    scene: Scene, plugged_in: bool = True, parameter: str = "port", body: Body | None = None
+) -> Iterator[Cable]:
+    """A rover's board in real time, on an empty floor; the node finds it by a parameter.
+
+    >>> with board_beside(scene) as cable, scene.run(BRIDGE, start=cable.start()):
+    ...     cable.drive("straight", CMD_VEL, forward_m_s=0.3, for_s=1.5)
+    """
+    mega = Mega(Rover(FLOOR, body=body or Body()))
+    with Board(mega) as board:
+        if not plugged_in:
+            board.unplug()
+        with board.running():
+            cable = Cable(scene, board, mega, parameter)
+            try:
+                yield cable
+            finally:
+                cable.write_down()
+
+
+class Cable:
+    """The board, its cable, and the voice that tells the node where to drive."""
+
+    def __init__(self, scene: Scene, board: Board, mega: Mega, parameter: str) -> None:
+        self.board = board
+        self._scene, self._mega, self._parameter = scene, mega, parameter
+        self.seen = BoardSeen()
+        scene.seen.board = self.seen
+
+    def start(self) -> Start:
+        """How the node is started: with the name of this port."""
+        return Start(parameters={self._parameter: self.board.name})
+
+    def drive(
+        self,
+        part: str,
+        topic: TopicContract,
+        forward_m_s: float = 0.0,
+        turn_rad_s: float = 0.0,
+        for_s: float = 1.5,
+    ) -> None:
+        """Say one motion again and again; marks how things stand at the end of it."""
+        ear = self._ear(topic)
+        if ear is None:
+            return
+        until_s = self._now_s + for_s
+        while self._now_s < until_s and self.say(ear, forward_m_s, turn_rad_s):
+            self._scene.until(lambda: False, SAY_EVERY_S)
+        self.mark(part)
+
+    def flood(self, topic: TopicContract, motions: Sequence[tuple[float, float]]) -> None:
+        """Say many motions without a pause between them."""
+        ear = self._ear(topic)
+        for forward_m_s, turn_rad_s in motions:
+            if ear is None or not self.say(ear, forward_m_s, turn_rad_s):
+                return
+
+    def rest(self, part: str, counted: TopicContract) -> None:
+        """Say nothing until the wheels stand and the node has told so; marks where the rover is."""
+        self._scene.until(self._stands, STANDS_WITHIN_S)
+        self.await_messages(counted, SETTLES_LINES, STANDS_WITHIN_S)
+        self.mark(part)
+
+    def await_messages(
+        self, topic: TopicContract, count: int, within_s: float = COMES_BACK_WITHIN_S
+    ) -> bool:
+        """Wait until so many more messages came on a topic, or on the one nearest to it."""
+        before = self._heard(topic)
+        return self._scene.until(lambda: self._heard(topic) >= before + count, within_s)
+
+    def live(self, for_s: float) -> None:
+        """Let so much of the board's time pass."""
+        until_s = self._now_s + for_s
+        self._scene.until(lambda: self._now_s >= until_s, 5 * for_s + STANDS_WITHIN_S)
+
+    def mark(self, part: str) -> None:
+        """Write down how things really are now."""
+        truth = self._mega.truth
+        self.seen.marks.append(
+            BoardMark(
+                part=part,
+                arrival_ns=time.monotonic_ns(),
+                board_s=truth.time_s,
+                x_m=truth.pose.x_m,
+                y_m=truth.pose.y_m,
+                heading_rad=truth.pose.heading_rad,
+                left_pwm=truth.left_pwm,
+                right_pwm=truth.right_pwm,
+            )
+        )
+
+    def say(self, ear: Endpoint, forward_m_s: float, turn_rad_s: float) -> bool:
+        """Say one motion; whether somebody was there to hear it. A dead node is not waited for."""
+        if not self._lives():
+            return False
+        content = {"linear": {"x": forward_m_s}, "angular": {"z": turn_rad_s}}
+        return self._scene.probe.say(ear, content, FIRST_MESSAGE_WITHIN_S).matched
+
+    def say_nonsense(self, topic: TopicContract) -> None:
+        """Say a motion that is no number."""
+        if ear := self._ear(topic):
+            self.say(ear, math.nan, math.inf)
+
+    def write_down(self) -> None:
+        """Put what the board and its cable saw into the evidence."""
+        self.seen.told = lines_of(self.board.told)
+        self.seen.heard = lines_of(self.board.heard)
+        self.seen.rejected = self._mega.counts.rejected
+        self.seen.motors = [
+            MotorsSeen(board_s=a.time_s, left_pwm=a.left_pwm, right_pwm=a.right_pwm)
+            for a in self._mega.applied
+        ]
+
+    @property
+    def _now_s(self) -> float:
+        return self._mega.truth.time_s
+
+    def _lives(self) -> bool:
+        return all(seen.ended_ns is None for seen in self._scene.seen.processes.values())
+
+    def _stands(self) -> bool:
+        truth = self._mega.truth
+        speeds = (abs(truth.left_rad_s), abs(truth.right_rad_s))
+        return max(speeds) < STANDS_RAD_S and truth.left_pwm == truth.right_pwm == 0
+
+    def _heard(self, topic: TopicContract) -> int:
+        found = nearest_endpoint(self._scene.seen.graph, "publisher", topic.topic, topic.type)
+        return self._scene.probe.count(found.topic) if found else 0
+
+    def _ear(self, topic: TopicContract) -> Endpoint | None:
+        def find() -> Endpoint | None:
+            graph = self._scene.seen.graph
+            return nearest_endpoint(graph, "subscription", topic.topic, topic.type)
+
+        self._scene.until(lambda: find() is not None, FIRST_MESSAGE_WITHIN_S)
+        return find()
+
+
+def lines_of(chunks: Sequence[Chunk]) -> list[CableLine]:
+    """The lines in bytes that came in pieces; a line's time is that of its end.
+
+    What has no end for too long is a line as well, a wrong one.
+    """
+    lines, begun = list[CableLine](), b""
+    for chunk in chunks:
+        *whole, begun = (begun + chunk.content).split(b"\n")
+        if len(begun) > LONGEST_LINE:
+            whole, begun = [*whole, begun], b""
+        lines += [
+            CableLine(board_s=chunk.board_s, sent_ns=chunk.sent_ns, text=line.decode("latin-1"))
+            for line in whole
+            if line
+        ]
+    return lines

@@ -1,0 +1,338 @@
+"""Demands on a node that stands between ROS and a board on a serial cable."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+from roslings.course import TopicContract
+from roslings.devices.board import BadLine, Drive, Speeds, unframed
+from roslings.devices.rover import Body, Motion
+from roslings.evidence import BoardMark, BoardSeen, CableLine, MessageSeen
+from roslings.judge import faults
+from roslings.judge.demands import require_steady
+from roslings.judge.faults import cable as cable_faults
+from roslings.judge.views import Demand, ExperimentView, TopicView
+
+MOST_LINES_LOST = 0.03
+"""Part of the board's lines that may be without a message: the first and the last ones."""
+
+SPEED_EXACT_RAD_S = 0.002
+PLACE_WITHIN_M = 0.05
+HEADING_WITHIN_RAD = math.radians(4)
+PWM_WITHIN = 3
+FULL_PWM = 255
+STOPS_WITHIN_S = 1.0
+FEWEST = 10
+
+
+# --- what the node makes of the board's lines --------------------------------------------------
+
+
+def hold_its_fields(contract: TopicContract) -> Demand[TopicView]:
+    """Every message holds what the card says."""
+
+    def demand(topic: TopicView) -> None:
+        for message in _contents(topic):
+            for field, wanted in contract.fields.items():
+                found = _written(_field(message, field))
+                if found != str(wanted):
+                    raise cable_faults.WrongField(topic.name, field, str(wanted), found)
+
+    return demand
+
+
+def tell_every_line(experiment: ExperimentView) -> Demand[TopicView]:
+    """As many messages as the board sent lines while the node was listening."""
+
+    def demand(topic: TopicView) -> None:
+        if len(topic.messages) < FEWEST:
+            raise faults.NoMessages(topic.name, len(topic.messages), topic.experiment.watching_s)
+        lines = _lines_between(experiment, topic.messages)
+        if abs(lines - len(topic.messages)) > max(FEWEST, MOST_LINES_LOST * lines):
+            require_steady(topic.experiment.stall_s)
+            raise cable_faults.LinesAndMessagesDiffer(topic.name, lines, len(topic.messages))
+
+    return demand
+
+
+def tell_the_speeds(experiment: ExperimentView) -> Demand[TopicView]:
+    """Each pair of velocities is one that the board told, in rad/s, left wheel first."""
+
+    def demand(topic: TopicView) -> None:
+        told = _told(_board(experiment))
+        for left, right in _velocities(topic):
+            if not _is_among(left, right, told):
+                raise _speed_fault(left, right, told)
+        if not any(abs(left) > 1 for left, _ in _velocities(topic)):
+            raise faults.NothingToJudge("the wheels did not turn")
+
+    return demand
+
+
+def tell_nothing_else(experiment: ExperimentView) -> Demand[TopicView]:
+    """On a bad cable: what was published was told by the board, and the node lived through it."""
+
+    def demand(topic: TopicView) -> None:
+        told = _told(_board(experiment))
+        for left, right in _velocities(topic):
+            if not _is_among(left, right, told):
+                raise cable_faults.BadLineUsed(left, right)
+        if not _went_on(experiment, topic, "good again"):
+            raise cable_faults.SilentAfter("the noise on the cable", topic.name)
+
+    return demand
+
+
+def come_back(part: str, after: str) -> Demand[ExperimentView]:
+    """Messages come again; `part` is the mark that was set when they did."""
+
+    def demand(experiment: ExperimentView) -> None:
+        if not any(mark.part == part for mark in _board(experiment).marks):
+            raise cable_faults.SilentAfter(after, "the port")
+
+    return demand
+
+
+# --- odometry ----------------------------------------------------------------------------------
+
+
+def know_the_way(experiment: ExperimentView, before: str, after: str) -> Demand[TopicView]:
+    """Between two marks, the odometry moved as the rover really did."""
+
+    def demand(topic: TopicView) -> None:
+        marks = {mark.part: mark for mark in _board(experiment).marks}
+        if before not in marks or after not in marks:
+            raise faults.NothingToJudge("the rover was not driven so far")
+        really = _moved(_true_place(marks[before]), _true_place(marks[after]))
+        if math.hypot(really.x_m, really.y_m) < 0.02 and abs(really.turn_rad) < 0.1:
+            raise faults.NothingToJudge("the rover did not move")
+        told = _moved(_told_place(topic, marks[before]), _told_place(topic, marks[after]))
+        _compare(after, really, told)
+
+    return demand
+
+
+@dataclass(frozen=True)
+class Place:
+    """A place on the floor, or a way seen from where it began."""
+
+    x_m: float
+    y_m: float
+    turn_rad: float
+
+
+def _moved(begin: Place, end: Place) -> Place:
+    """The way, seen by the rover at its beginning: earlier mistakes do not count again."""
+    dx, dy = end.x_m - begin.x_m, end.y_m - begin.y_m
+    cos, sin = math.cos(begin.turn_rad), math.sin(begin.turn_rad)
+    turn = math.remainder(end.turn_rad - begin.turn_rad, 2 * math.pi)
+    return Place(dx * cos + dy * sin, dy * cos - dx * sin, turn)
+
+
+def _compare(part: str, really: Place, told: Place) -> None:
+    off_m = math.hypot(told.x_m - really.x_m, told.y_m - really.y_m)
+    off_rad = abs(math.remainder(told.turn_rad - really.turn_rad, 2 * math.pi))
+    length_m = math.hypot(really.x_m, really.y_m)
+    if off_m > PLACE_WITHIN_M + 0.05 * length_m or off_rad > HEADING_WITHIN_RAD:
+        raise cable_faults.WrongOdometry(
+            part,
+            (really.x_m, really.y_m, math.degrees(really.turn_rad)),
+            (told.x_m, told.y_m, math.degrees(told.turn_rad)),
+        )
+
+
+def _true_place(mark: BoardMark) -> Place:
+    return Place(mark.x_m, mark.y_m, mark.heading_rad)
+
+
+def _told_place(topic: TopicView, mark: BoardMark) -> Place:
+    """The last place that was published before a mark; the origin where none was."""
+    before = [m for m in topic.messages if m.arrival_ns <= mark.arrival_ns and m.content]
+    if not before:
+        return Place(0.0, 0.0, 0.0)
+    pose = before[-1].content["pose"]["pose"]
+    at, turned = pose["position"], pose["orientation"]
+    z, w = _number(turned["z"]), _number(turned["w"])
+    return Place(_number(at["x"]), _number(at["y"]), 2 * math.atan2(z, w))
+
+
+# --- what the node makes of commands -----------------------------------------------------------
+
+
+def drive_as_told(part: str, forward_m_s: float, turn_rad_s: float) -> Demand[ExperimentView]:
+    """At the mark `part`, the motors had the PWM of this motion."""
+    wheels = Body().wheels_for(Motion(forward_m_s, turn_rad_s))
+    full = FULL_PWM / Body().fastest_wheel_rad_s
+    wanted = (round(wheels.left_rad_s * full), round(wheels.right_rad_s * full))
+
+    def demand(experiment: ExperimentView) -> None:
+        mark = _mark(experiment, part)
+        got = (mark.left_pwm, mark.right_pwm)
+        if max(abs(g - w) for g, w in zip(got, wanted, strict=True)) > PWM_WITHIN:
+            require_steady(experiment.seen.stall_s)
+            raise _drive_fault((forward_m_s, turn_rad_s), wanted, got)
+
+    return demand
+
+
+def _drive_fault(
+    motion: tuple[float, float], wanted: tuple[int, int], got: tuple[int, int]
+) -> cable_faults.WrongDrive:
+    if got == (0, 0):
+        return cable_faults.DoesNotDrive(motion, wanted, got)
+    swapped = max(abs(got[0] - wanted[1]), abs(got[1] - wanted[0])) <= PWM_WITHIN
+    kind = cable_faults.WheelsSwapped if swapped else cable_faults.WrongDrive
+    return kind(motion, wanted, got)
+
+
+def stop_by_itself(after: str) -> Demand[ExperimentView]:
+    """After the mark `after`, when nobody commands any more, it sends a stop of its own."""
+
+    def demand(experiment: ExperimentView) -> None:
+        begun_s = _mark(experiment, after).board_s
+        moving = [d for at, d in _commands(experiment) if at <= begun_s]
+        if not moving or not (moving[-1].left_pwm or moving[-1].right_pwm):
+            raise faults.NothingToJudge("the motors were not running")
+        stops = (at for at, d in _commands(experiment) if at > begun_s and not _runs(d))
+        stop_s = next(stops, None)
+        if stop_s is None or stop_s - begun_s > STOPS_WITHIN_S:
+            require_steady(experiment.seen.stall_s)
+            raise cable_faults.DoesNotStop(STOPS_WITHIN_S, stop_s and stop_s - begun_s)
+
+    return demand
+
+
+def send_good_lines(experiment: ExperimentView) -> None:
+    """The board refused nothing that the node sent over a good cable."""
+    board = _board(experiment)
+    if not board.heard:
+        raise faults.NothingToJudge("the node sent nothing to the board")
+    for line in board.heard:
+        if _command(line) is None:
+            raise cable_faults.RejectedLine(line.text, _why_rejected(line.text))
+
+
+def keep_still(part: str) -> Demand[ExperimentView]:
+    """At the mark `part`, the motors stand."""
+
+    def demand(experiment: ExperimentView) -> None:
+        mark = _mark(experiment, part)
+        if mark.left_pwm or mark.right_pwm:
+            raise cable_faults.FollowedNonsense((mark.left_pwm, mark.right_pwm))
+
+    return demand
+
+
+# --- reading the evidence ----------------------------------------------------------------------
+
+
+def _board(experiment: ExperimentView) -> BoardSeen:
+    if experiment.seen.board is None:
+        raise faults.NothingToJudge("there was no board")
+    return experiment.seen.board
+
+
+def _mark(experiment: ExperimentView, part: str) -> BoardMark:
+    for mark in _board(experiment).marks:
+        if mark.part == part:
+            return mark
+    raise faults.NothingToJudge("the experiment did not come so far")
+
+
+def _commands(experiment: ExperimentView) -> list[tuple[float, Drive]]:
+    lines = _board(experiment).heard
+    found = ((line.board_s, _command(line)) for line in lines)
+    return [(at, drive) for at, drive in found if drive]
+
+
+def _command(line: CableLine) -> Drive | None:
+    try:
+        return Drive.read(unframed(line.text.lstrip("$").encode("latin-1")))
+    except BadLine:
+        return None
+
+
+def _why_rejected(text: str) -> str:
+    if not text.startswith("$"):
+        return "it does not begin with $"
+    try:
+        Drive.read(unframed(text[1:].encode("latin-1")))
+    except BadLine as error:
+        return str(error).partition(": ")[0]
+    return "it has two beginnings"
+
+
+def _runs(drive: Drive) -> bool:
+    return bool(drive.left_pwm or drive.right_pwm)
+
+
+def _told(board: BoardSeen) -> set[tuple[int, int]]:
+    """The pairs of wheel speeds that the board told, in mrad/s."""
+    found = set()
+    for line in board.told:
+        if line.text.startswith("$W,"):
+            speeds = Speeds.read(unframed(line.text[1:].encode("latin-1")))
+            found.add((speeds.left_mrad_s, speeds.right_mrad_s))
+    return found
+
+
+def _is_among(left: float, right: float, told: set[tuple[int, int]]) -> bool:
+    if not (math.isfinite(left) and math.isfinite(right)):
+        return False
+    if (round(1000 * left), round(1000 * right)) in told:
+        return True
+    off = SPEED_EXACT_RAD_S * 1000
+    return any(abs(le - 1000 * left) <= off and abs(ri - 1000 * right) <= off for le, ri in told)
+
+
+def _speed_fault(left: float, right: float, told: set[tuple[int, int]]) -> cable_faults.WrongSpeeds:
+    if _is_among(right, left, told):
+        return cable_faults.SpeedsSwapped(left, right)
+    if _is_among(left / 1000, right / 1000, told):
+        return cable_faults.SpeedsInMilliradians(left, right)
+    return cable_faults.WrongSpeeds(left, right)
+
+
+def _velocities(topic: TopicView) -> list[tuple[float, float]]:
+    pairs = [content.get("velocity") or [] for content in _contents(topic)]
+    if any(len(pair) != 2 for pair in pairs):
+        raise cable_faults.WrongField(topic.name, "velocity", "two numbers", f"{pairs[0]}")
+    return [(_number(left), _number(right)) for left, right in pairs]
+
+
+def _contents(topic: TopicView) -> list[dict[str, Any]]:
+    found = [m.content for m in topic.messages if isinstance(m.content, dict)]
+    if not found:
+        raise faults.NoMessages(topic.name, len(topic.messages), topic.experiment.watching_s)
+    return found
+
+
+def _field(message: Any, path: str) -> Any:
+    for name in path.split("."):
+        message = message.get(name) if isinstance(message, dict) else None
+    return message
+
+
+def _written(value: Any) -> str:
+    return ", ".join(map(str, value)) if isinstance(value, list) else str(value)
+
+
+def _number(value: Any) -> float:
+    """Evidence that was saved holds NaN and Infinity as texts."""
+    return float(value)
+
+
+def _lines_between(experiment: ExperimentView, messages: Iterable[MessageSeen]) -> int:
+    """How many lines of speeds the board told while these messages came."""
+    arrivals = [m.arrival_ns for m in messages]
+    begin, end = min(arrivals), max(arrivals)
+    told = (line for line in _board(experiment).told if line.text.startswith("$W,"))
+    return sum(begin <= line.sent_ns <= end for line in told)
+
+
+def _went_on(experiment: ExperimentView, topic: TopicView, part: str) -> bool:
+    marks = [m for m in _board(experiment).marks if m.part == part]
+    return bool(marks) and any(m.arrival_ns > marks[0].arrival_ns for m in topic.messages)

@@ -1,0 +1,295 @@
+"""Faults of a node that stands between ROS and a board on a serial cable."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from roslings.judge.faults.base import Fault
+
+
+@dataclass(eq=False)
+class WrongField(Fault):
+    """A field that always holds the same holds something else."""
+
+    topic: str
+    field_name: str
+    wanted: str
+    found: str
+    why = "Other nodes look for these names: with others they do not find what belongs together."
+    hint = "Set the field before you call publish(), with exactly the card's word."
+
+    @property
+    def expected(self) -> str:
+        """The field's content."""
+        return f"{self.field_name} of {self.topic} is: {self.wanted}"
+
+    @property
+    def measured(self) -> str:
+        """What it holds."""
+        return f"it is: {self.found or '(empty)'}"
+
+
+@dataclass(eq=False)
+class LinesAndMessagesDiffer(Fault):
+    """Lines of the board have no message, or some have two."""
+
+    topic: str
+    lines: int
+    messages: int
+    why = "A robot that misses lines of its wheels does not know how far it went."
+
+    @property
+    def expected(self) -> str:
+        """One each."""
+        return f"one message on {self.topic} for each line of the board ({self.lines} lines)"
+
+    @property
+    def measured(self) -> str:
+        """How many came."""
+        return f"{self.messages} messages"
+
+    @property
+    def hint(self) -> str:
+        """Too few, or too many."""
+        if self.messages < self.lines:
+            return (
+                "Read all bytes that wait, and handle every whole line in them, not only one."
+                " A line may come in two pieces: keep the first piece."
+            )
+        return "Publish once for each line that begins with W, and for no other line."
+
+
+@dataclass(eq=False)
+class WrongSpeeds(Fault):
+    """The board never told these wheel speeds."""
+
+    left: float
+    right: float
+    why = "Everything that the robot knows of its own way comes from these two numbers."
+    hint = (
+        "In W,SEQ,MS,LEFT,RIGHT the speeds are the last two numbers, in mrad/s."
+        " Divide both by 1000."
+    )
+
+    @property
+    def expected(self) -> str:
+        """What the board told."""
+        return "velocity: [left, right] in rad/s, as the board told them"
+
+    @property
+    def measured(self) -> str:
+        """The first pair that it did not tell."""
+        return f"[{self.left:.3f}, {self.right:.3f}], and the board never told that"
+
+
+@dataclass(eq=False)
+class SpeedsSwapped(WrongSpeeds):
+    """Left and right are the wrong way round."""
+
+    hint = "The board tells the left wheel first. Your velocity has the right wheel first."
+
+
+@dataclass(eq=False)
+class SpeedsInMilliradians(WrongSpeeds):
+    """Not divided by 1000."""
+
+    hint = "The board tells mrad/s; ROS wants rad/s (REP 103). Divide by 1000."
+
+
+@dataclass(eq=False)
+class BadLineUsed(Fault):
+    """A spoilt line became a message."""
+
+    left: float
+    right: float
+    why = "Cables pick up noise. One wrong number sends the robot, on its map, through a wall."
+    hint = (
+        "Compute the checksum of what stands between $ and *, and compare it with the four"
+        " digits after *. Use the line only when both are equal."
+    )
+
+    @property
+    def expected(self) -> str:
+        """Only whole lines."""
+        return "on a noisy cable, only lines with the right checksum are used"
+
+    @property
+    def measured(self) -> str:
+        """What was made of a spoilt one."""
+        return f"wheel speeds [{self.left:.3f}, {self.right:.3f}] that the board never told"
+
+
+@dataclass(eq=False)
+class SilentAfter(Fault):
+    """It lives, and nothing comes any more."""
+
+    what: str
+    of: str
+    why = "Plugs come loose on a robot that drives. Nobody is there to start the node again."
+    hint = (
+        "When a read or a write raises an error, close the port, and try from a timer to open"
+        " it again. Keep no half line from before."
+    )
+
+    @property
+    def expected(self) -> str:
+        """Messages again."""
+        return f"after {self.what}, messages come again"
+
+    @property
+    def measured(self) -> str:
+        """None did."""
+        return f"nothing more came from {self.of}"
+
+
+@dataclass(eq=False)
+class WrongOdometry(Fault):
+    """The odometry and the rover went different ways."""
+
+    part: str
+    really: tuple[float, float, float]
+    told: tuple[float, float, float]
+    why = "Odometry is how the robot knows where it is between two looks at the world."
+
+    @property
+    def expected(self) -> str:
+        """The true way."""
+        return f"in the {self.part}, the rover went {_way(self.really)}"
+
+    @property
+    def measured(self) -> str:
+        """The way that was told."""
+        return f"/odom says {_way(self.told)}"
+
+    @property
+    def hint(self) -> str:
+        """The likeliest cause."""
+        turn = self.really[2]
+        told_x, told_y, told_turn = self.told
+        if abs(told_turn + turn) < 0.2 * abs(turn):
+            return "It turns the wrong way. Turn = (right - left) x radius / separation."
+        if abs(told_turn - turn) > 0.05 * abs(turn) + 3:
+            return "Turn = (right - left) x radius / separation, times the seconds since before."
+        if abs(told_x) + abs(told_y) < 0.02:
+            return "It stays at its start. Add forward x seconds x cos(heading) to x, sin to y."
+        return (
+            "Forward = (left + right) / 2 x radius. Times the seconds from one line to the next,"
+            " by the board's clock (MS), in the direction of the heading."
+        )
+
+
+def _way(way: tuple[float, float, float]) -> str:
+    ahead, left, turn = (round(part, 2) + 0.0 for part in way)
+    return f"{ahead:.2f} m ahead, {left:.2f} m left, turned {turn:.0f} degrees"
+
+
+@dataclass(eq=False)
+class WrongDrive(Fault):
+    """The motors get something else than the command asks for."""
+
+    motion: tuple[float, float]
+    wanted: tuple[int, int]
+    got: tuple[int, int]
+    why = "The robot must do what it is told: this fast, and this way round."
+    hint = (
+        "Left wheel = (forward - turn x separation / 2) / radius, right wheel with +."
+        " PWM = wheel speed / max_wheel_speed x 255, rounded."
+    )
+
+    @property
+    def expected(self) -> str:
+        """The PWM of this motion."""
+        forward, turn = self.motion
+        return (
+            f"for {forward:g} m/s and {turn:g} rad/s, PWM left {self.wanted[0]}"
+            f" and right {self.wanted[1]}"
+        )
+
+    @property
+    def measured(self) -> str:
+        """What reached the motors."""
+        return f"the motors had PWM left {self.got[0]} and right {self.got[1]}"
+
+
+@dataclass(eq=False)
+class DoesNotDrive(WrongDrive):
+    """The motors stand."""
+
+    hint = (
+        "Send $M,SEQ,LEFT,RIGHT*CRC and a new line. Repeat it faster than twice a second:"
+        " without a command the board stops its motors after half a second."
+    )
+
+
+@dataclass(eq=False)
+class WheelsSwapped(WrongDrive):
+    """Left and right are the wrong way round."""
+
+    hint = "A positive angular.z turns left: the right wheel is then the faster one."
+
+
+@dataclass(eq=False)
+class DoesNotStop(Fault):
+    """It goes on with an old command."""
+
+    within_s: float
+    after_s: float | None
+    why = "When the program that steers has crashed, the robot must not drive on."
+    hint = (
+        "Remember when the last command came. In the timer that sends to the board, send zero"
+        " once that is more than half a second ago."
+    )
+
+    @property
+    def expected(self) -> str:
+        """A stop in time."""
+        return f"M,SEQ,0,0 within {self.within_s:g} s of the last command on /cmd_vel"
+
+    @property
+    def measured(self) -> str:
+        """When it came."""
+        if self.after_s is None:
+            return "no such line was sent"
+        return f"it was sent after {self.after_s:.1f} s"
+
+
+@dataclass(eq=False)
+class RejectedLine(Fault):
+    """The board refused a line."""
+
+    line: str
+    reason: str
+    why = "The board obeys only what it can trust: a whole line with the right checksum."
+    hint = (
+        "$BODY*CRC and a new line. CRC is binascii.crc_hqx(BODY, 0) as four capital"
+        " hexadecimal digits: '%04X'. PWM is a whole number from -255 to 255."
+    )
+
+    @property
+    def expected(self) -> str:
+        """Good lines."""
+        return "every line to the board is one that it can use, like $M,1,100,-100*7AC2"
+
+    @property
+    def measured(self) -> str:
+        """The first that is not."""
+        return f"{self.line[:40]!r}: {self.reason}"
+
+
+@dataclass(eq=False)
+class FollowedNonsense(Fault):
+    """A command that is no number moved the motors."""
+
+    got: tuple[int, int]
+    why = "Software has faults: a program divides by zero, and sends its result to your robot."
+    hint = "Look at each number with math.isfinite() before you use it."
+
+    @property
+    def expected(self) -> str:
+        """Nothing happens."""
+        return "after a command with NaN the motors stand, and the node goes on"
+
+    @property
+    def measured(self) -> str:
+        """What happened."""
+        return f"the motors had PWM left {self.got[0]} and right {self.got[1]}"

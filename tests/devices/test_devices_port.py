@@ -1,0 +1,163 @@
+"""The board on its serial port, read by pyserial as a bridge would: faults, and a cable pulled."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from program import environment, run, running
+
+from roslings.devices.board import Board, Drive, LineReader, Mega, Spoiler
+from roslings.devices.rover import Box, Rover, World
+
+serial = pytest.importorskip("serial", reason="needs pyserial: ./roslings check serial-bridge")
+FLOOR = World(room=Box(-50, -50, 50, 50))
+
+
+@pytest.fixture
+def board(tmp_path: Path) -> Iterator[Board]:
+    """A board that lives step by step."""
+    with Board(Mega(Rover(FLOOR)), tmp_path / "ttyTEST") as board:
+        yield board
+
+
+def opened(board: Board) -> serial.Serial:
+    """The port as a student opens it."""
+    return serial.Serial(board.name, 115200, timeout=0, write_timeout=0.2, exclusive=True)
+
+
+def test_lines_arrive_and_commands_are_obeyed(board: Board) -> None:
+    """Both ways through a real pseudo-terminal."""
+    with opened(board) as host:
+        host.write(Drive(5, 100, 50).line())
+        board.step(0.2)
+        bodies = LineReader().feed(host.read(4096))
+    assert bodies[0] == "A,5"
+    assert bodies[1].startswith("W,0,20,")
+    assert (board.chip.truth.left_pwm, board.chip.truth.right_pwm) == (100, 50)
+    assert [chunk.content for chunk in board.heard] == [Drive(5, 100, 50).line()]
+
+
+def test_what_nobody_reads_is_lost_and_the_board_goes_on(board: Board) -> None:
+    """As on a wire; the buffer of the system holds some seconds of it."""
+    with opened(board) as host:
+        for _ in range(60):
+            board.step(1.0)
+        assert board.lost_bytes > 0
+        host.reset_input_buffer()
+        board.step(0.2)
+        assert LineReader().feed(host.read(4096))
+
+
+def test_a_pulled_cable_is_an_error_and_the_same_name_comes_back(board: Board) -> None:
+    """The board lives on meanwhile: its clock shows it."""
+    with opened(board) as host:
+        board.unplug()
+        assert not Path(board.name).exists()
+        with pytest.raises(serial.SerialException):
+            host.read(1)
+    with pytest.raises(serial.SerialException, match="No such file"):
+        opened(board)
+    board.step(5.0)
+    board.plug_in()
+    with opened(board) as again:
+        board.step(0.1)
+        first = LineReader().feed(again.read(4096))[0]
+    assert int(first.split(",")[2]) == 5020
+
+
+def test_a_port_in_use_is_busy(board: Board) -> None:
+    """Where both ask for it alone."""
+    with opened(board), pytest.raises(serial.SerialException, match="exclusively lock"):
+        opened(board)
+
+
+def test_in_real_time_a_reader_is_woken(board: Board) -> None:
+    """Lines come by themselves, in order, while the block runs; no thread is left after it."""
+    with board.running(), opened(board) as host:
+        host.timeout = 30
+        reader, bodies = LineReader(), list[str]()
+        while len(bodies) < 20:
+            bodies += reader.feed(host.read(1))
+    sequence = [int(body.split(",")[1]) for body in bodies if body.startswith("W")]
+    assert sequence == list(range(sequence[0], sequence[0] + len(sequence)))
+    assert "board" not in [thread.name for thread in threading.enumerate()]
+
+
+# --- what can go wrong on the cable ------------------------------------------------------------
+
+LINES = [Drive(i, i % 256, -i % 256).line() for i in range(500)]
+
+
+def through(spoil: Spoiler) -> tuple[list[str], int]:
+    """The good bodies and the number of rejected lines after a bad cable."""
+    reader = LineReader()
+    return [body for line in LINES for body in reader.feed(spoil(line))], reader.rejected
+
+
+@pytest.mark.parametrize(
+    "spoil",
+    [
+        Spoiler(1, noise=0.01),
+        Spoiler(1, half_lines=0.3),
+        Spoiler(1, wrong_checksums=0.3),
+        Spoiler(1, noise=0.01, half_lines=0.2, wrong_checksums=0.2, babble=20),
+    ],
+    ids=["noise", "half lines", "checksums", "all"],
+)
+def test_a_bad_cable_costs_lines_and_never_changes_one(spoil: Spoiler) -> None:
+    """Each body that passes the checksum is one that was sent."""
+    whole = {line[1:-6].decode() for line in LINES}
+    bodies, rejected = through(spoil)
+    assert set(bodies) <= whole
+    assert 50 < len(bodies) < len(LINES) - 50
+    assert rejected > 50
+
+
+def test_a_good_cable_and_a_silent_one() -> None:
+    """The two ends."""
+    assert through(Spoiler()) == ([line[1:-6].decode() for line in LINES], 0)
+    assert through(Spoiler(silent=True)) == ([], 0)
+
+
+def test_the_same_seed_spoils_the_same() -> None:
+    """So that a grading can be repeated."""
+    assert through(Spoiler(3, noise=0.02)) == through(Spoiler(3, noise=0.02))
+    assert through(Spoiler(3, noise=0.02)) != through(Spoiler(4, noise=0.02))
+
+
+# --- ./roslings board --------------------------------------------------------------------------
+
+
+def test_the_board_runs_as_a_command(tmp_path: Path) -> None:
+    """It says where its port is, obeys, and leaves no port behind; a second one is refused."""
+    port = tmp_path / "ttyROVER"
+    surroundings = environment(0, tmp_path)
+    with running(["board", "--port", str(port)], surroundings, tmp_path) as program:
+        program.wait_for(f"The board is on {port}")
+        second = run(["board", "--port", str(port)], surroundings, tmp_path)
+        assert second.returncode == 2
+        assert "runs already" in second.stderr
+        with serial.Serial(str(port), 115200, timeout=30, exclusive=True) as host:
+            while "100" not in "".join(program.lines[2:]):
+                host.write(Drive(1, 100, 100).line())
+                assert host.read(20)
+        assert program.interrupt() == 0
+    assert not port.exists()
+
+
+def test_a_port_that_cannot_be_made_is_told(tmp_path: Path) -> None:
+    """A folder that is not there, a file in its place, a sketch that is not there."""
+    (tmp_path / "file").touch()
+    surroundings = environment(0, tmp_path)
+    for words, says in (
+        (["--port", "no/such/tty"], "No such file"),
+        (["--port", "file"], "a file of this name"),
+        (["--port", "tty", "--sketch", "none.ino"], "no sketch"),
+    ):
+        done = run(["board", *words], surroundings, tmp_path)
+        assert done.returncode == 2
+        assert says in done.stderr
+        assert "Traceback" not in done.stderr
