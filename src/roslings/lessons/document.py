@@ -93,7 +93,7 @@ def _compose(path: Path) -> yaml.Node:
 
 def _values(path: Path, tree: yaml.Node) -> Any:
     try:
-        return yaml.SafeLoader("").construct_document(tree)  # type: ignore[no-untyped-call]
+        return yaml.SafeLoader("").construct_document(tree)
     except yaml.YAMLError as error:
         raise BadLessons([_as_yaml_problem(path, error)]) from error
 
