@@ -74,8 +74,9 @@ def sphinx(builder: str, work: Path, gathered: Gathered) -> int:
         capture_output=True,
         check=False,
     )
-    said = gathered.in_the_authors_words(done.stdout + done.stderr)
-    print(said, end="", file=sys.stderr)
+    if done.returncode or builder != "html":  # else it is the notebooks' kernels that talk
+        said = gathered.in_the_authors_words(done.stdout + done.stderr)
+        print(said, end="", file=sys.stderr)
     return done.returncode
 
 

@@ -6,7 +6,17 @@ from typing import Any
 
 from sphinx.application import Sphinx
 
-from course_site import api, day_box, doctor_page, glossary_page, maths, path_of_days, quizzes, words
+from course_site import (
+    api,
+    day_box,
+    doctor_page,
+    glossary_page,
+    maths,
+    path_of_days,
+    quizzes,
+    tables,
+    words,
+)
 from course_site.course import course_digest
 
 __all__ = ["course_digest", "setup"]
@@ -16,6 +26,8 @@ def setup(app: Sphinx) -> dict[str, Any]:
     """Called by Sphinx."""
     app.add_config_value("course_root", "", "env")
     app.add_config_value("course_digest", "", "env")
-    for part in (maths, words, glossary_page, quizzes, path_of_days, day_box, doctor_page, api):
+    for part in (maths, words, tables, glossary_page, quizzes, path_of_days, day_box):
+        part.setup(app)
+    for part in (doctor_page, api):
         part.setup(app)
     return {"version": "1", "parallel_read_safe": False, "parallel_write_safe": True}

@@ -89,7 +89,9 @@ def _signature(node: Definition) -> str:
     if isinstance(node, ast.ClassDef):
         bases = f"({', '.join(map(ast.unparse, node.bases))})" if node.bases else ""
         fields = [each for each in node.body if isinstance(each, ast.AnnAssign)]
-        lines = [f"    {ast.unparse(each.target)}: {ast.unparse(each.annotation)}" for each in fields]
+        lines = [
+            f"    {ast.unparse(each.target)}: {ast.unparse(each.annotation)}" for each in fields
+        ]
         return "\n".join([f"class {node.name}{bases}", *lines])
     back = f" -> {ast.unparse(node.returns)}" if node.returns else ""
     return f"{node.name}({ast.unparse(node.args)}){back}"

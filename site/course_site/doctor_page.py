@@ -24,6 +24,14 @@ from roslings.doctor.registry import Check, all_checks
 
 WORDS_OF_A_STEP = ("do", "say")
 DEEPEST = 3
+SAID_BETTER = {
+    "PLACEPATH": "FILE", "JOIN": "NAME", "STRIP": "TEXT", "FOLDERpackage": "FOLDER/package",
+    "setup.MACHINE": "setup.bash", "DISTRO": "jazzy", "SCRIPT": "FOLDER/setup.bash",
+    "source PARENT": "source FOLDER/setup.bash", "WHY": "",
+}  # fmt: skip
+"""What the code calls it, and what a reader understands."""
+COMPUTED = "..."
+"""A command that is put together from many parts; only the doctor knows it."""
 
 
 class DoctorChecks(MarkdownDirective):
@@ -41,7 +49,7 @@ def _theme(theme: str, checks: list[Check]) -> str:
 
 
 def _section(check: Check) -> str:
-    steps = dict.fromkeys(steps_of(check.examine))
+    steps = dict.fromkeys(_said_better(step) for step in steps_of(check.examine))
     mend = "\n".join(_item(step) for step in steps) or "1. Follow what the doctor says there."
     return (
         f"(check-{check.id})=\n### {check.title}\n\n"
@@ -52,10 +60,19 @@ def _section(check: Check) -> str:
     )
 
 
+def _said_better(step: Step) -> Step:
+    text, command = step.text, step.command
+    for ours, readers in SAID_BETTER.items():
+        text, command = text.replace(ours, readers), command.replace(ours, readers)
+    return Step(text, command)
+
+
 def _item(step: Step) -> str:
     text = _plain(step.text) or "Type:"
     if not step.command:
         return f"1. {text}\n"
+    if step.command == COMPUTED or step.command.isupper():
+        return f"1. {text} the command that the doctor prints.\n"
     command = textwrap.indent(f"```bash\n{step.command}\n```", "   ")
     return f"1. {text}\n\n{command}\n"
 
@@ -103,6 +120,8 @@ def _names(function: Callable[..., Any]) -> tuple[str, ...]:
 
 def _step(call: ast.Call) -> Step:
     texts = [_text(argument) for argument in call.args]
+    if call.func.id == "do" and isinstance(call.args[0], ast.Call):  # type: ignore[attr-defined]
+        texts[0] = COMPUTED
     named = {each.arg: _text(each.value) for each in call.keywords}
     if call.func.id == "say":  # type: ignore[attr-defined]
         return Step(text=texts[0])

@@ -1,9 +1,9 @@
 """Gathers all pages in one folder, as Sphinx wants them: the course keeps them where they belong.
 
-    site/pages/**            -> the same place
-    days/NN-name/lesson.ipynb -> days/NN-name/index.ipynb, with the pictures beside it
-    days/NN-name/quiz.yaml   -> days/NN-name/quiz.md and answers.md
-    labs/NAME/task.md        -> labs/NAME.md
+site/pages/**            -> the same place
+days/NN-name/lesson.ipynb -> days/NN-name/index.ipynb, with the pictures beside it
+days/NN-name/quiz.yaml   -> days/NN-name/quiz.md and answers.md
+labs/NAME/task.md        -> labs/NAME.md
 """
 
 from __future__ import annotations
@@ -92,7 +92,9 @@ def _quiz_page(day: Day) -> str:
 
 def _answers_page(day: Day) -> str:
     front = "---\norphan: true\nnosearch: true\n---\n"
-    return f"{front}# Answers of day {day.number}: {day.title}\n\n```{{quiz-answers}} {day.id}\n```\n"
+    return (
+        f"{front}# Answers of day {day.number}: {day.title}\n\n```{{quiz-answers}} {day.id}\n```\n"
+    )
 
 
 def _gather_labs(gathered: Gathered, days: dict[str, Day]) -> None:

@@ -88,8 +88,9 @@ def _filters(glossary: Glossary, terms: list[Term]) -> str:
     )
     return (
         '<form class="word-filter" hidden aria-label="Filter the words">'
-        f"<fieldset><legend>Letter</legend>{_option('letter', '', 'All', True)}{by_letter}</fieldset>"
-        f"<fieldset><legend>Category</legend>{_option('category', '', 'All', True)}{by_category}"
+        f"<fieldset><legend>Letter</legend>{_option('letter', '', 'All', True)}{by_letter}"
+        "</fieldset><fieldset><legend>Category</legend>"
+        f"{_option('category', '', 'All', True)}{by_category}"
         '</fieldset><p role="status" class="word-count"></p></form>'
     )
 

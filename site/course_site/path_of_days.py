@@ -54,7 +54,9 @@ def _words(words: tuple[Term, ...]) -> str:
     )
     if not words:
         return ""
-    return f'<details class="path-words"><summary>{len(words)} words</summary><p>{links}</p></details>'
+    return (
+        f'<details class="path-words"><summary>{len(words)} words</summary><p>{links}</p></details>'
+    )
 
 
 def labs_of(day: Day) -> list[Lab]:

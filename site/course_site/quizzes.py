@@ -130,7 +130,9 @@ def _steps(question: Order) -> str:
         '<p class="why" hidden></p></li>'
         for shown, place in enumerate(shuffled(question))
     )
-    return f'<p class="several">Move the steps into the right order.</p><ol class="steps">{items}</ol>'
+    return (
+        f'<p class="several">Move the steps into the right order.</p><ol class="steps">{items}</ol>'
+    )
 
 
 def _answer(question: Question, number: int) -> str:

@@ -42,7 +42,7 @@ OUTPUT = {"cell_input", "cell_output", "unlinked"}
 """Classes of what a notebook's cell shows, and of parts that want no links."""
 
 
-class word(nodes.inline):
+class WordNode(nodes.inline):
     """A word that leads to its entry; `term` is the entry's id."""
 
 
@@ -53,7 +53,7 @@ class WordRole(SphinxRole):
         """Make the link; an unknown id is told where the author wrote it."""
         found = re.fullmatch(r"(.*?)\s*<([^<>]+)>", self.text)
         text, term = found.groups() if found else (self.text, self.text)
-        node = word("", text, term=term)
+        node = WordNode("", text, term=term)
         self.set_source_info(node)
         return [node], []
 
@@ -67,16 +67,16 @@ class LinkedWords(SphinxTransform):
         """Replace the links, and check every id."""
         for link in list(self.document.findall(nodes.reference)):
             if link.get("id_link") and link.get("refuri", "").startswith(PREFIX):
-                node = word("", term=link["refuri"].removeprefix(PREFIX))
+                node = WordNode("", term=link["refuri"].removeprefix(PREFIX))
                 node.source, node.line = link.source, link.line
                 node += link.children
                 link.replace_self(node)
         known = lessons_of(self.config).glossary.by_id
-        for node in list(self.document.findall(word)):
+        for node in list(self.document.findall(WordNode)):
             _check(node, known)
 
 
-def _check(node: word, known: dict[str, Term]) -> None:
+def _check(node: WordNode, known: dict[str, Term]) -> None:
     if node["term"] not in known:
         log.warning("There is no word '%s' in glossary/.", node["term"], location=node)
         node.replace_self(nodes.inline("", node.astext()))
@@ -105,12 +105,12 @@ def link_first_uses(app: Sphinx, document: nodes.document) -> None:
         if id(scope) not in by_scope:
             senses = frozenset(scope.get("senses", page))
             by_scope[id(scope)] = Linker(glossary, senses, scope)
-        if not any(isinstance(each, (*UNTOUCHED, word)) or _shows_output(each) for each in above):
+        if not any(map(_wants_no_links, above)):
             by_scope[id(scope)].link(text)
 
 
-def _shows_output(node: nodes.Element) -> bool:
-    return bool(OUTPUT & set(node.get("classes", ())))
+def _wants_no_links(node: nodes.Element) -> bool:
+    return isinstance(node, (*UNTOUCHED, WordNode)) or bool(OUTPUT & set(node.get("classes", ())))
 
 
 def senses_of_page(env: BuildEnvironment, page: str) -> frozenset[str]:
@@ -135,7 +135,7 @@ class Linker:
             if (term := glossary.meant(spelling, senses))
             for form in _forms(spelling, term)
         }
-        self._seen = {node["term"] for node in scope.findall(word)} | {scope.get("entry")}
+        self._seen = {node["term"] for node in scope.findall(WordNode)} | {scope.get("entry")}
         longest_first = sorted(self._meant, key=len, reverse=True)
         choice = "|".join(re.escape(form) for form in longest_first) or r"(?!)"
         self._pattern = re.compile(rf"(?<![\w/.~$-])(?:{choice})(?![\w-]|[/.:]\w|/)")
@@ -148,7 +148,10 @@ class Linker:
             if term.id in self._seen:
                 continue
             self._seen.add(term.id)
-            parts += [nodes.Text(whole[done : found.start()]), word("", found.group(), term=term.id)]
+            parts += [
+                nodes.Text(whole[done : found.start()]),
+                WordNode("", found.group(), term=term.id),
+            ]
             done = found.end()
         if parts:
             text.parent.replace(text, [*parts, nodes.Text(whole[done:])])
@@ -165,7 +168,7 @@ def _forms(spelling: str, term: Term) -> set[str]:
 
 def add_definitions(app: Sphinx, document: nodes.document, page: str) -> None:
     """Put the definitions of a page's words at its end."""
-    used = list(dict.fromkeys(node["term"] for node in document.findall(word)))
+    used = list(dict.fromkeys(node["term"] for node in document.findall(WordNode)))
     if page == PAGE or not used or app.builder.format != "html":
         return
     glossary = lessons_of(app.config).glossary
@@ -185,7 +188,7 @@ def _definition(term: Term, to: str) -> str:
     )
 
 
-def visit_word(translator: Any, node: word) -> None:
+def visit_word(translator: Any, node: WordNode) -> None:
     """Open the link."""
     builder = translator.builder
     to = builder.get_relative_uri(builder.current_docname, PAGE)
@@ -194,14 +197,14 @@ def visit_word(translator: Any, node: word) -> None:
     )
 
 
-def depart_word(translator: Any, node: word) -> None:
+def depart_word(translator: Any, node: WordNode) -> None:
     """Close the link."""
     translator.body.append("</a>")
 
 
 def setup(app: Sphinx) -> None:
     """Called by Sphinx."""
-    app.add_node(word, html=(visit_word, depart_word))
+    app.add_node(WordNode, html=(visit_word, depart_word))
     app.add_role("word", WordRole())
     app.add_transform(LinkedWords)
     app.connect("doctree-read", link_first_uses, priority=800)  # the page's first lines are read

@@ -7,7 +7,7 @@
   if (!page) return;
   const forms = [...document.querySelectorAll(".review-questions form.question")];
   const status = page.querySelector(".review-status");
-  const answer = page.querySelector(".review-answer");
+  const answer = document.querySelector(".review-answer");
   const keys = roslings.keys || {};
   const answeredHere = new Set(); // they stay, so that the explanation can be read
 
@@ -43,7 +43,7 @@
     answer.textContent = "Saved as roslings-progress.json. Load it on the other computer.";
   });
 
-  page.querySelector('[data-do="import"]').addEventListener("change", async (event) => {
+  document.querySelector('[data-do="import"]').addEventListener("change", async (event) => {
     const file = event.target.files[0];
     event.target.value = "";
     if (!file) return;
@@ -61,13 +61,13 @@
   on("anki-all", () => saveCards(Object.keys(keys), "all"));
 
   on("forget", () => {
-    const sure = page.querySelector(".forget-sure");
+    const sure = document.querySelector(".forget-sure");
     sure.hidden = !sure.hidden;
     if (!sure.hidden) sure.querySelector("button").focus();
   });
   on("forget-now", () => {
     roslings.forget();
-    page.querySelector(".forget-sure").hidden = true;
+    document.querySelector(".forget-sure").hidden = true;
     answer.textContent = "All progress in this browser is deleted.";
   });
 
@@ -87,6 +87,6 @@
   }
 
   function on(name, act) {
-    page.querySelector(`[data-do="${name}"]`).addEventListener("click", act);
+    document.querySelector(`[data-do="${name}"]`).addEventListener("click", act);
   }
 })();

@@ -95,6 +95,7 @@ def parser() -> argparse.ArgumentParser:
     lab_options(add("diff", "what you changed since the starter", "diff"))
     pack_options(add("pack", "make the zip file to hand in", "pack"))
     graph_options(add("graph", "show the running graph, or save a picture of it", "graph"))
+    site_options(add("site", "build the website: lessons, words, quizzes", "site"))
     test_options(add("test", "run the tests of roslings", "test"))
     add("ros2", "the ros2 commands, where the real ones are not installed", None)
     add("wheels", "fetch every package into a folder, for a lab without a network", None)
@@ -167,6 +168,20 @@ def graph_options(word: argparse.ArgumentParser) -> None:
     word.add_argument("--save", metavar="FILE.png", type=Path, help="save a picture of it")
     word.add_argument("--force", action="store_true", help="replace FILE.png if it is there")
     word.add_argument("--all", action="store_true", help="also /rosout and other parts of ROS")
+
+
+def site_options(word: argparse.ArgumentParser) -> None:
+    """What `site` takes."""
+    word.add_argument("--open", action="store_true", help="open it in the browser")
+    word.add_argument("--fresh", action="store_true", help="build all of it anew")
+    links = word.add_mutually_exclusive_group()
+    links.add_argument("--links", action="store_true", help="list the links to other sites")
+    links.add_argument(
+        "--check-links", action="store_true", help="try the links to other sites (needs a network)"
+    )
+    word.add_argument(
+        "--out", metavar="DIR", type=Path, help="where to build (default: build/site)"
+    )
 
 
 def test_options(word: argparse.ArgumentParser) -> None:

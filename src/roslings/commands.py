@@ -20,6 +20,7 @@ from roslings.workspace.student import package_of, workspace_root
 from roslings.workspace.trouble import MachineTrouble, WorkspaceError, shown
 
 SEEDS = 10**9
+SITE_WORDS = ("open", "fresh", "links", "check_links")
 
 
 def exit_code_of(error: Exception) -> int | None:
@@ -242,6 +243,17 @@ def graph(options: argparse.Namespace) -> int:
             return WRONG_USE
         print(f"\nSaved {options.save}")
     return OK if seen.nodes else FAILED
+
+
+# --- the site ----------------------------------------------------------------------------------
+
+
+def site(options: argparse.Namespace) -> int:
+    """Build the site. Sphinx and its settings live beside the pages, not in the engine."""
+    words = [f"--{name.replace('_', '-')}" for name in SITE_WORDS if getattr(options, name)]
+    place = ["--out", str(options.out)] if options.out else []
+    builder = course.root() / "site" / "build.py"
+    return subprocess.run([sys.executable, str(builder), *words, *place], check=False).returncode
 
 
 # --- the tests ---------------------------------------------------------------------------------

@@ -57,6 +57,12 @@ class Document(Generic[Model]):
         """The line, counted from 1, of the deepest part of `location` that is there."""
         return line_of(self.tree, location)
 
+    def line_with(self, text: str) -> int:
+        """The line of the first value that holds `text`; 1 where none does."""
+        return next(
+            (node.start_mark.line + 1 for node in _texts(self.tree) if text in node.value), 1
+        )
+
     def problem(self, what: str, mend: str, *location: int | str) -> Problem:
         """A problem at a place of this file."""
         return Problem(self.path, self.line(*location), what, mend)
@@ -99,12 +105,16 @@ def _values(path: Path, tree: yaml.Node) -> Any:
 
 
 def _as_yaml_problem(path: Path, error: yaml.YAMLError) -> Problem:
-    mark = getattr(error, "problem_mark", None)
     said = getattr(error, "problem", None) or "it cannot be read"
-    mend = (
-        "Look at this line and the one above: indents, colons, and quotes round a text with ': '."
-    )
-    return Problem(path, mark.line + 1 if mark else 1, f"This is not YAML: {said}.", mend)
+    mend = "Look at this line and the one above. A text with ': ' in it needs quotes round it."
+    return Problem(path, _line_of_mark(error), f"This is not YAML: {said}.", mend)
+
+
+def _line_of_mark(error: yaml.YAMLError) -> int:
+    """A quote that is never closed is found at the end of the file; its begin is of more use."""
+    unclosed = "quoted scalar" in (getattr(error, "context", None) or "")
+    mark = getattr(error, "context_mark" if unclosed else "problem_mark", None)
+    return mark.line + 1 if mark else 1
 
 
 def _doubled_keys(path: Path, node: yaml.Node) -> Iterator[Problem]:
@@ -120,6 +130,17 @@ def _doubled_keys(path: Path, node: yaml.Node) -> Iterator[Problem]:
     elif isinstance(node, yaml.SequenceNode):
         for child in node.value:
             yield from _doubled_keys(path, child)
+
+
+def _texts(node: yaml.Node) -> Iterator[yaml.ScalarNode]:
+    if isinstance(node, yaml.ScalarNode):
+        yield node
+    elif isinstance(node, yaml.MappingNode):
+        for _, value in node.value:
+            yield from _texts(value)
+    elif isinstance(node, yaml.SequenceNode):
+        for child in node.value:
+            yield from _texts(child)
 
 
 def _as_problem(path: Path, tree: yaml.Node, error: ErrorDetails) -> Problem:

@@ -153,7 +153,7 @@ def _unknown_in(located: Located, glossary: Glossary, days: set[int]) -> Iterato
     if term.day is not None and term.day not in days:
         mend = f"Use a day from {min(days)} to {max(days)}, or delete the line."
         yield document.problem(f"There is no day {term.day}.", mend, "terms", index, "day")
-    if len(glossary.senses_of[term.name.lower()]) > 1 and not term.sense:
+    if len(glossary.senses_of.get(term.name.lower(), ())) > 1 and not term.sense:
         what = f"'{term.name}' has several senses, and '{term.id}' does not say which it is."
         yield document.problem(what, "Add a line 'sense: ...'.", "terms", index)
 
