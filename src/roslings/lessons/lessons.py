@@ -149,7 +149,7 @@ def _unknown_in(located: Located, glossary: Glossary, days: set[int]) -> Iterato
     for field in ("definition", "note", "example"):
         for _, other in LINK.findall(getattr(term, field)):
             if other not in glossary.by_id:
-                yield _unknown_term(document, other, glossary, "terms", index, field)
+                yield _unknown_link(document, other, glossary)
     if term.day is not None and term.day not in days:
         mend = f"Use a day from {min(days)} to {max(days)}, or delete the line."
         yield document.problem(f"There is no day {term.day}.", mend, "terms", index, "day")
@@ -168,6 +168,14 @@ def _unknown_term(
     return document.problem(f"There is no term '{wanted}'.", mend, *place)
 
 
+def _unknown_link(
+    document: Document[Category] | Document[QuizFile], wanted: str, glossary: Glossary
+) -> Problem:
+    mend = nearest(wanted, list(glossary.by_id), "term")
+    line = document.line_with(f"#word-{wanted})")
+    return Problem(document.path, line, f"There is no term '{wanted}'.", mend)
+
+
 # --- the quizzes -------------------------------------------------------------------------------
 
 
@@ -175,20 +183,20 @@ def _quizzes(
     root: File, days: tuple[Day, ...], glossary: Glossary, problems: list[Problem]
 ) -> tuple[Quiz, ...]:
     known: dict[str, Question] = {}
-    quizzes: list[Quiz] = []
+    documents: list[tuple[Day, Document[QuizFile]]] = []
     for day in sorted(days, key=lambda day: day.number):
         path = root / "days" / day.id / "quiz.yaml"
-        if not path.is_file():
-            continue
         try:
-            document = read(path, QuizFile)
+            documents += [(day, read(path, QuizFile))] if path.is_file() else []
         except BadLessons as error:
             problems += error.problems
-            continue
-        questions = _questions(document, day, known, problems)
+    if problems:  # else the questions of a file that cannot be read would be unknown
+        return ()
+    for _, document in documents:
         problems += _unknown_in_quiz(document, glossary)
-        quizzes.append(Quiz(day.id, questions))
-    return tuple(quizzes)
+    return tuple(
+        Quiz(day.id, _questions(document, day, known, problems)) for day, document in documents
+    )
 
 
 def _questions(
@@ -199,25 +207,33 @@ def _questions(
     asked = dict[str, Question]()
     for index, entry in enumerate(document.content.questions):
         key = entry.again if isinstance(entry, Again) else entry.id
-        place = ("questions", index)
-        if key in asked or (key in earlier and not isinstance(entry, Again)):
-            mend = "Choose another id, or write '- again: ID' for a question of an earlier day."
-            problems.append(document.problem(f"The id '{key}' is there twice.", mend, *place))
-        elif not isinstance(entry, Again):
-            asked[key] = known[key] = entry.model_copy(update={"day": day.id})
-        elif key in earlier:
+        wrong = _wrong_id(entry, key, asked, earlier)
+        if wrong:
+            problems.append(document.problem(*wrong, "questions", index))
+        elif isinstance(entry, Again):
             asked[key] = earlier[key]
         else:
-            mend = nearest(key, list(earlier), "question of an earlier day")
-            what = f"No earlier day has the question '{key}'."
-            problems.append(document.problem(what, mend, *place))
+            asked[key] = known[key] = entry.model_copy(update={"day": day.id})
     return tuple(asked.values())
 
 
+def _wrong_id(
+    entry: Question | Again, key: str, asked: dict[str, Question], earlier: dict[str, Question]
+) -> tuple[str, str] | None:
+    """What is wrong with a question's id, and the mend."""
+    if isinstance(entry, Again) and key not in earlier:
+        mend = nearest(key, list(earlier), "question of an earlier day")
+        return f"No earlier day has the question '{key}'.", mend
+    if key in asked or (key in earlier and not isinstance(entry, Again)):
+        mend = "Choose another id, or write '- again: ID' for a question of an earlier day."
+        return f"The id '{key}' is there twice.", mend
+    return None
+
+
 def _unknown_in_quiz(document: Document[QuizFile], glossary: Glossary) -> Iterator[Problem]:
-    for index, entry in enumerate(document.content.questions):
+    for entry in document.content.questions:
         texts = () if isinstance(entry, Again) else entry.texts()
         for text in texts:
             for _, wanted in LINK.findall(text):
                 if wanted not in glossary.by_id:
-                    yield _unknown_term(document, wanted, glossary, "questions", index)
+                    yield _unknown_link(document, wanted, glossary)
