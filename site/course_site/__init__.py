@@ -12,6 +12,7 @@ from course_site import (
     doctor_page,
     glossary_page,
     maths,
+    navigation,
     path_of_days,
     quizzes,
     tables,
@@ -28,6 +29,6 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_config_value("course_digest", "", "env")
     for part in (maths, words, tables, glossary_page, quizzes, path_of_days, day_box):
         part.setup(app)
-    for part in (doctor_page, api):
+    for part in (doctor_page, api, navigation):
         part.setup(app)
     return {"version": "1", "parallel_read_safe": False, "parallel_write_safe": True}

@@ -37,8 +37,8 @@
     }
     form.classList.add(right ? "right" : "wrong");
     say(form, right ? "✓ Right." : "✗ Not yet. Read why, and try again.");
+    form.dispatchEvent(new CustomEvent("roslings:answered", { bubbles: true }));
     roslings.answer(form.dataset.question, right);
-    form.dispatchEvent(new CustomEvent("roslings:answered", { bubbles: true, detail: { right } }));
   }
 
   function say(form, text) {

@@ -52,10 +52,10 @@ def course(tmp_path: Path) -> Path:
 
 
 @pytest.fixture(scope="session")
-def site(tmp_path_factory: pytest.TempPathFactory, worker_id: str) -> Path:
+def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The built site of the two days; workers of one run share it."""
     base = tmp_path_factory.getbasetemp()
-    shared = (base if worker_id == "master" else base.parent) / "two-days"
+    shared = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "two-days"
     with (shared.parent / "two-days.lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         if not shared.is_dir():
