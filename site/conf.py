@@ -40,6 +40,7 @@ html_js_files = [
     (name, {"defer": "defer"})
     for name in ("progress.js", "words.js", "page.js", "quiz.js", "day.js", "review.js")
 ]
+html_use_index = False
 html_copy_source = False
 html_show_sourcelink = False
 html_show_sphinx = False
