@@ -49,7 +49,6 @@ class MarkdownDirective(SphinxDirective):
 
     def run(self) -> list[nodes.Node]:
         """Parse the Markdown in this place, headings included."""
-        self.env.note_dependency(__file__)
         lines = StringList(self.markdown().splitlines(), source=self.get_source_info()[0])
         holder = nodes.container()
         holder.document = self.state.document

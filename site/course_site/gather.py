@@ -8,7 +8,6 @@ labs/NAME/task.md        -> labs/NAME.md
 
 from __future__ import annotations
 
-import shutil
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -102,8 +101,3 @@ def _gather_labs(gathered: Gathered, days: dict[str, Day]) -> None:
         senses = days[lab.card.day].senses if lab.card.day in days else ()
         front = f"---\nsenses: [{', '.join(senses)}]\n---\n"
         gathered.write(f"labs/{lab.name}.md", front + lab.task.read_text("utf-8"), lab.task)
-
-
-def remove(folder: Path) -> None:
-    """Remove all that was gathered."""
-    shutil.rmtree(folder, ignore_errors=True)
