@@ -21,6 +21,7 @@ ROOMS_BELOW = {
     "rates": {"evidence"},
     "near": {"evidence"},
     "course": set[str](),
+    "lessons": set[str](),
     "arena": {"evidence"},
     "probe": {"evidence", "near", "rates", "arena"},
     "workspace": {"evidence", "verdict", "course", "arena"},

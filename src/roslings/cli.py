@@ -96,6 +96,7 @@ def parser() -> argparse.ArgumentParser:
     lab_options(add("diff", "what you changed since the starter", "diff"))
     pack_options(add("pack", "make the zip file to hand in", "pack"))
     graph_options(add("graph", "show the running graph, or save a picture of it", "graph"))
+    site_options(add("site", "build the website: lessons, words, quizzes", "site"))
     test_options(add("test", "run the tests of roslings", "test"))
     rover_options(add("rover", "a small robot to drive by ROS, and its map", "rover"))
     board_options(add("board", "the rover's Arduino board on a serial port", "board"))
@@ -219,6 +220,20 @@ def board_options(word: argparse.ArgumentParser) -> None:
         metavar="FILE.ino",
         type=Path,
         help="run this sketch, in an emulated Mega",
+    )
+
+
+def site_options(word: argparse.ArgumentParser) -> None:
+    """What `site` takes."""
+    word.add_argument("--open", action="store_true", help="open it in the browser")
+    word.add_argument("--fresh", action="store_true", help="build all of it anew")
+    links = word.add_mutually_exclusive_group()
+    links.add_argument("--links", action="store_true", help="list the links to other sites")
+    links.add_argument(
+        "--check-links", action="store_true", help="try the links to other sites (needs a network)"
+    )
+    word.add_argument(
+        "--out", metavar="DIR", type=Path, help="where to build (default: build/site)"
     )
 
 

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from roslings.saving import Graded
 
 SEEDS = 10**9
+SITE_WORDS = ("open", "fresh", "links", "check_links")
 
 
 def exit_code_of(error: Exception) -> int | None:
@@ -327,6 +328,17 @@ def board(options: argparse.Namespace) -> int:
 
     run(options.port or usual_port(), options.sketch)
     return OK
+
+
+# --- the site ----------------------------------------------------------------------------------
+
+
+def site(options: argparse.Namespace) -> int:
+    """Build the site. Sphinx and its settings live beside the pages, not in the engine."""
+    words = [f"--{name.replace('_', '-')}" for name in SITE_WORDS if getattr(options, name)]
+    place = ["--out", str(options.out)] if options.out else []
+    builder = course.root() / "site" / "build.py"
+    return subprocess.run([sys.executable, str(builder), *words, *place], check=False).returncode
 
 
 # --- the tests ---------------------------------------------------------------------------------

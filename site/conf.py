@@ -1,0 +1,85 @@
+"""Sphinx's settings for the course's site. `./roslings site` builds with them."""
+
+import os
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).parent
+sys.path[:0] = [str(HERE), str(HERE.parent / "src")]
+
+from course_site import course_digest  # noqa: E402  found by the line above
+
+project = "roslings"
+author = "the roslings authors"
+copyright = "the roslings authors, CC BY 4.0"
+language = "en"
+
+extensions = ["myst_nb", "course_site"]
+course_root = os.environ["ROSLINGS_COURSE"]
+course_digest = course_digest(Path(course_root))
+
+# Notebooks are run by the build, so that what the page shows is what really happens.
+nb_execution_mode = "cache"
+nb_execution_raise_on_error = True
+nb_execution_timeout = 60
+nb_execution_show_tb = True
+nb_merge_streams = True
+nb_ipywidgets_js = {}  # these come from another host
+myst_enable_extensions = ["colon_fence", "deflist", "fieldlist", "attrs_inline"]
+myst_heading_anchors = 4
+suppress_warnings = ["myst.strikethrough"]
+
+html_theme = "furo"
+html_title = "roslings"
+html_static_path = ["static"]
+templates_path = ["templates"]
+html_favicon = "static/roslings.svg"
+html_css_files = ["course.css"]
+# Plain scripts in this order: module scripts do not load from file://.
+html_js_files = [
+    (name, {"defer": "defer"})
+    for name in ("progress.js", "words.js", "page.js", "quiz.js", "day.js", "review.js")
+]
+html_use_index = False
+html_copy_source = False
+html_show_sourcelink = False
+html_show_sphinx = False
+html_show_search_summary = False  # it fetches pages, which file:// forbids
+html_math_renderer = "none"  # the usual one loads from another host
+html_permalinks_icon = "#"
+pygments_style = "a11y-high-contrast-light"
+pygments_dark_style = "a11y-high-contrast-dark"
+
+_MONO = "ui-monospace, 'DejaVu Sans Mono', 'Cascadia Mono', Menlo, Consolas, monospace"
+_SANS = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Noto Sans', 'DejaVu Sans', sans-serif"
+html_theme_options = {
+    "navigation_with_keys": False,  # arrow keys belong to the quizzes
+    "light_css_variables": {
+        "font-stack": _SANS,
+        "font-stack--monospace": _MONO,
+        "color-brand-primary": "#0a5a55",
+        "color-brand-content": "#0a5a55",
+        "color-brand-visited": "#4d3a86",
+        "color-foreground-secondary": "#4c555e",
+        "color-foreground-muted": "#59626b",
+        "course-right": "#1d6b2c",
+        "course-wrong": "#a3261b",
+        "course-soft": "#eef6f5",
+        "course-line": "#c3d5d3",
+        "course-button": "#0a5a55",
+        "course-on-button": "#ffffff",
+    },
+    "dark_css_variables": {
+        "color-brand-primary": "#6fd3c9",
+        "color-brand-content": "#6fd3c9",
+        "color-brand-visited": "#c3b1f5",
+        "color-foreground-secondary": "#b4bdc6",
+        "color-foreground-muted": "#a3adb7",
+        "course-right": "#7ddb8f",
+        "course-wrong": "#ff9d92",
+        "course-soft": "#17262a",
+        "course-line": "#35504f",
+        "course-button": "#6fd3c9",
+        "course-on-button": "#06201e",
+    },
+}

@@ -1,0 +1,34 @@
+"""The site's one local extension: words, quizzes, the path of days, and pages from the engine."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from sphinx.application import Sphinx
+
+from course_site import (
+    api,
+    day_box,
+    doctor_page,
+    glossary_page,
+    maths,
+    navigation,
+    path_of_days,
+    quizzes,
+    tables,
+    words,
+)
+from course_site.course import course_digest
+
+__all__ = ["course_digest", "setup"]
+
+
+def setup(app: Sphinx) -> dict[str, Any]:
+    """Called by Sphinx."""
+    app.add_config_value("course_root", "", "env")
+    app.add_config_value("course_digest", "", "env")
+    for part in (maths, words, tables, glossary_page, quizzes, path_of_days, day_box):
+        part.setup(app)
+    for part in (doctor_page, api, navigation):
+        part.setup(app)
+    return {"version": "1", "parallel_read_safe": False, "parallel_write_safe": True}

@@ -1,0 +1,134 @@
+"""Home's path of days, and the labs' cards. Both work before the first lesson is written."""
+
+from __future__ import annotations
+
+from html import escape
+
+from docutils import nodes
+from sphinx.application import Sphinx
+from sphinx.config import Config
+from sphinx.util.docutils import SphinxDirective
+
+from course_site.course import MarkdownDirective, html, lessons_of
+from roslings.course import Lab, all_labs
+from roslings.lessons import Day, Quiz, Term
+
+
+class PathOfDays(SphinxDirective):
+    """`{path-of-days}`: a list of all days, what each brings, and what of it is there."""
+
+    def run(self) -> list[nodes.Node]:
+        """One list item a day."""
+        items = "".join(self._item(day) for day in lessons_of(self.config).days)
+        return [html(f'<ol class="path">{items}</ol>')]
+
+    def _item(self, day: Day) -> str:
+        lesson = f"days/{day.id}/index"
+        there = lesson in self.env.found_docs
+        title = escape(day.title)
+        name = f'<a href="{lesson}.html">{title}</a>' if there else title
+        return (
+            f'<li class="path-day" {day_attributes(day, self.env.config)}>'
+            f'<p class="path-title"><span class="path-number">Day {day.number}</span> {name}</p>'
+            f"<p>{escape(day.can)}</p>{self._links(day, there)}"
+            '<p class="path-state"></p></li>'
+        )
+
+    def _links(self, day: Day, there: bool) -> str:
+        lessons = lessons_of(self.config)
+        parts = [f'<a href="labs/{lab.name}.html">Lab: {escape(lab.card.title)}</a>' for lab in
+                 labs_of(day)]  # fmt: skip
+        if lessons.quiz(day.id):
+            parts.append(f'<a href="days/{day.id}/quiz.html">Quiz</a>')
+        if not there:
+            parts.append('<span class="path-open">The lesson is not written yet</span>')
+        hours = f"<span>About {day.hours:g} hours</span>"
+        items = "".join(f"<li>{part}</li>" for part in [hours, *parts])
+        return f'<ul class="path-links">{items}</ul>{_words(lessons.words_of(day))}'
+
+
+def _words(words: tuple[Term, ...]) -> str:
+    """The words of a day, folded away: they are many."""
+    links = " ".join(
+        f'<a href="glossary.html#{word.anchor}">{escape(word.name)}</a>' for word in words
+    )
+    if not words:
+        return ""
+    return (
+        f'<details class="path-words"><summary>{len(words)} words</summary><p>{links}</p></details>'
+    )
+
+
+def labs_of(day: Day) -> list[Lab]:
+    """The labs of a day."""
+    return [lab for lab in all_labs() if lab.card.day == day.id]
+
+
+def day_attributes(day: Day, config: Config) -> str:
+    """What the script needs to know of a day: its labs, and the ids of its questions."""
+    quiz: Quiz | None = lessons_of(config).quiz(day.id)
+    questions = " ".join(question.id for question in quiz.questions) if quiz else ""
+    labs = " ".join(lab.name for lab in labs_of(day))
+    return f'data-day="{day.id}" data-labs="{labs}" data-questions="{questions}"'
+
+
+class DaysTree(MarkdownDirective):
+    """`{days-tree}`: the lessons and quizzes in the side bar; nothing where none is written."""
+
+    def markdown(self) -> str:
+        """A hidden table of contents."""
+        pages = [
+            (f"Day {day.number}: {title}", page)
+            for day in lessons_of(self.config).days
+            for title, page in (
+                (day.title, f"days/{day.id}/index"), ("quiz", f"days/{day.id}/quiz"),
+            )
+            if page in self.env.found_docs
+        ]  # fmt: skip
+        if not pages:
+            return ""
+        lines = "\n".join(f"{title} <{page}>" for title, page in pages)
+        return f"```{{toctree}}\n:hidden:\n:caption: The days\n\n{lines}\n```"
+
+
+class LabCards(MarkdownDirective):
+    """`{labs}`: a card a lab, drawn from its card.yaml."""
+
+    def markdown(self) -> str:
+        """A section a lab, and the tree of their tasks."""
+        labs = all_labs()
+        tree = "\n".join(lab.name for lab in labs)
+        cards = "\n".join(_lab_card(lab, self._day(lab)) for lab in labs)
+        return f"{cards}\n```{{toctree}}\n:hidden:\n\n{tree}\n```"
+
+    def _day(self, lab: Lab) -> str:
+        days = {day.id: day.name for day in lessons_of(self.config).days}
+        return days.get(lab.card.day, lab.card.day)
+
+
+def _lab_card(lab: Lab, day: str) -> str:
+    card = lab.card
+    nodes_ = "".join(
+        f"| node | `{node.node}`, started by `{node.executable}` |\n"
+        + "".join(f"| publishes | {_topic(t.topic, t.type, t.rate)} |\n" for t in node.publishes)
+        + "".join(f"| subscribes to | {_topic(t.topic, t.type)} |\n" for t in node.subscribes)
+        for node in card.nodes
+    )
+    return (
+        f"## {card.title}\n\n| {day} | |\n| --- | --- |\n| package | `{card.package}` |\n{nodes_}"
+        f"| checks | {len(card.points)}, 100 points together |\n"
+        f"| begin | `./roslings start {lab.name}` |\n| check | `./roslings check {lab.name}` |\n\n"
+        f"[Read the task]({lab.name}.md)\n"
+    )
+
+
+def _topic(topic: str, type_: str, rate: object = None) -> str:
+    often = f" at {rate.hz:g} Hz" if rate is not None and hasattr(rate, "hz") else ""
+    return f"`{topic}` (`{type_}`){often}"
+
+
+def setup(app: Sphinx) -> None:
+    """Called by Sphinx."""
+    app.add_directive("path-of-days", PathOfDays)
+    app.add_directive("days-tree", DaysTree)
+    app.add_directive("labs", LabCards)

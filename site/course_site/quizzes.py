@@ -1,0 +1,223 @@
+"""Quizzes as real forms. What is right is not in the page: `static/quiz/DAY.js` brings it.
+
+A reader without JavaScript finds the answers, with all explanations, on a page of their own.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+import random
+from html import escape
+from pathlib import Path
+from typing import Any
+
+from docutils import nodes
+from sphinx.application import Sphinx
+from sphinx.util.docutils import SphinxDirective
+
+from course_site.course import html, inline_html, lessons_of
+from roslings.lessons import Lessons, One, Order, Prints, Question, Quiz, Several
+
+Values = dict[str, Any]
+
+
+class QuizDirective(SphinxDirective):
+    """`{quiz} 03-topics`: the questions of a day."""
+
+    required_arguments = 1
+
+    def run(self) -> list[nodes.Node]:
+        """One form a question."""
+        quiz = lessons_of(self.config).quiz(self.arguments[0])
+        assert quiz is not None, self.arguments[0]  # the page is made from the quiz
+        highlight = self.env.app.builder.highlighter.highlight_block  # type: ignore[attr-defined]
+        forms = [_form(each, index, highlight) for index, each in enumerate(quiz.questions, 1)]
+        count = f"{len(forms)} question{'' if len(forms) == 1 else 's'}"
+        return [html(_no_script("answers.html")), html(_intro(count)), *map(html, forms)]
+
+
+class ReviewDirective(SphinxDirective):
+    """`{review}`: every question of the course; the script shows those that are due."""
+
+    def run(self) -> list[nodes.Node]:
+        """One form a question, each once."""
+        highlight = self.env.app.builder.highlighter.highlight_block  # type: ignore[attr-defined]
+        questions = all_questions(lessons_of(self.config))
+        forms = [_form(each, index, highlight) for index, each in enumerate(questions, 1)]
+        return [html(f'<div class="review-questions">{"".join(forms)}</div>')]
+
+
+class AnswersDirective(SphinxDirective):
+    """`{quiz-answers} 03-topics`: for readers without JavaScript, and for print."""
+
+    required_arguments = 1
+
+    def run(self) -> list[nodes.Node]:
+        """One section a question."""
+        quiz = lessons_of(self.config).quiz(self.arguments[0])
+        assert quiz is not None, self.arguments[0]
+        return [html("".join(_answer(each, n) for n, each in enumerate(quiz.questions, 1)))]
+
+
+def all_questions(lessons: Lessons) -> list[Question]:
+    """Every question once, in the order of the days."""
+    return list({each.id: each for quiz in lessons.quizzes for each in quiz.questions}.values())
+
+
+def _intro(count: str) -> str:
+    return (
+        f'<p class="quiz-intro">{count}. Choose, then press <b>Check</b>. A wrong answer is no'
+        ' harm: it comes back on the <a href="../../review.html">review page</a>.</p>'
+    )
+
+
+def _no_script(answers: str) -> str:
+    return (
+        '<noscript><p class="note-box">Your browser runs no JavaScript here. Answer on paper, then'
+        f' read the <a href="{answers}">answers with explanations</a>.</p></noscript>'
+    )
+
+
+# --- one question ------------------------------------------------------------------------------
+
+
+def _form(question: Question, number: int, highlight: Any) -> str:
+    code = highlight(question.code, question.language) if question.code else ""
+    return (
+        f'<form class="question" id="q-{question.id}" data-question="{question.id}"'
+        f' data-kind="{question.kind}" novalidate>'
+        f'<fieldset><legend><span class="question-number">Question {number}</span> '
+        f"{inline_html(question.ask)}</legend>{code}{_answers_to(question)}</fieldset>"
+        '<p class="question-buttons"><button type="submit" class="button">Check</button></p>'
+        '<div class="outcome" role="status"></div></form>'
+    )
+
+
+def _answers_to(question: Question) -> str:
+    if isinstance(question, Order):
+        return _steps(question)
+    if isinstance(question, Prints):
+        return (
+            f'<p class="typed"><label for="a-{question.id}">It prints:</label> <input type="text"'
+            f' id="a-{question.id}" name="answer" autocomplete="off" autocapitalize="off"'
+            ' spellcheck="false"></p><p class="why" hidden></p>'
+        )
+    several = isinstance(question, Several)
+    note = '<p class="several">One or more are right.</p>' if several else ""
+    items = "".join(
+        f'<li><label><input type="{"checkbox" if several else "radio"}" name="answer"'
+        f' value="{index}"><span>{inline_html(choice.text)}</span></label>'
+        '<p class="why" hidden></p></li>'
+        for index, choice in enumerate(question.choices)
+    )
+    return f'{note}<ul class="choices">{items}</ul>'
+
+
+def shuffled(question: Order) -> list[int]:
+    """The steps' places, in an order that is always the same and never the right one."""
+    places = list(range(len(question.steps)))
+    while places == sorted(places):
+        random.Random(question.id + str(len(places))).shuffle(places)
+        if places == sorted(places):
+            places.reverse()
+    return places
+
+
+def _steps(question: Order) -> str:
+    items = "".join(
+        f'<li data-step="{shown}"><span>{inline_html(question.steps[place].text)}</span>'
+        '<p class="why" hidden></p></li>'
+        for shown, place in enumerate(shuffled(question))
+    )
+    return (
+        f'<p class="several">Move the steps into the right order.</p><ol class="steps">{items}</ol>'
+    )
+
+
+def _answer(question: Question, number: int) -> str:
+    head = f"<h2>Question {number}</h2><p>{inline_html(question.ask)}</p>"
+    code = f"<pre>{escape(question.code)}</pre>" if question.code else ""
+    return f"<section>{head}{code}{_explained(question)}</section>"
+
+
+def _explained(question: Question) -> str:
+    if isinstance(question, Order):
+        lines = [f"{inline_html(s.text)} <em>{inline_html(s.why)}</em>" for s in question.steps]
+        return f"<ol>{''.join(f'<li>{line}</li>' for line in lines)}</ol>"
+    if isinstance(question, Prints):
+        printed = f"<pre>{escape(question.prints)}</pre>"
+        return f"<p>It prints:</p>{printed}<p><em>{inline_html(question.why)}</em></p>"
+    lines = [
+        f"<strong>{'Right' if each.right else 'Not right'}:</strong> {inline_html(each.text)}"
+        f" <em>{inline_html(each.why)}</em>"
+        for each in question.choices
+    ]
+    return f"<ul>{''.join(f'<li>{line}</li>' for line in lines)}</ul>"
+
+
+# --- what is right, for the script -------------------------------------------------------------
+
+
+def _key(question: Question) -> Values:
+    shared: Values = {"kind": question.kind, "day": question.day}
+    if isinstance(question, Order):
+        places = shuffled(question)
+        order = [places.index(place) for place in range(len(places))]
+        whys = [inline_html(question.steps[place].why) for place in places]
+        return {**shared, "right": order, "why": whys}
+    if isinstance(question, Prints):
+        mistakes = [[each.text, inline_html(each.why)] for each in question.mistakes]
+        prints = {"prints": question.prints, "why": inline_html(question.why)}
+        return {**shared, **prints, "mistakes": mistakes}
+    right = [index for index, choice in enumerate(question.choices) if choice.right]
+    return {**shared, "right": right, "why": [inline_html(each.why) for each in question.choices]}
+
+
+def _card(question: Question) -> Values:
+    """A question as an Anki card: front and back in HTML."""
+    code = f"<pre>{escape(question.code)}</pre>" if question.code else ""
+    front = inline_html(question.ask) + code
+    if isinstance(question, One | Several):
+        options = "".join(f"<li>{inline_html(each.text)}</li>" for each in question.choices)
+        front += f"<ul>{options}</ul>"
+    return {"front": front, "back": _explained(question)}
+
+
+def write_keys(app: Sphinx, error: Exception | None) -> None:
+    """Write a script a quiz, and one with the cards; packed, so that a glance shows no answer."""
+    if error or app.builder.format != "html":
+        return
+    lessons = lessons_of(app.config)
+    folder = Path(app.outdir) / "_static" / "quiz"
+    folder.mkdir(parents=True, exist_ok=True)
+    for quiz in lessons.quizzes:
+        _write_script(folder / f"{quiz.day}.js", _keys_of(quiz))
+    everything = {each.id: {**_key(each), **_card(each)} for each in all_questions(lessons)}
+    _write_script(folder / "all.js", everything)
+
+
+def _keys_of(quiz: Quiz) -> Values:
+    return {each.id: _key(each) for each in quiz.questions}
+
+
+def _write_script(path: Path, keys: Values) -> None:
+    packed = base64.b64encode(json.dumps(keys).encode()).decode()
+    path.write_text(f'window.roslingsKeys = "{packed}";\n', "utf-8")
+
+
+def load_keys(app: Sphinx, page: str, template: str, context: Values, doctree: Any) -> None:
+    """Have a page with questions load the script that knows what is right."""
+    if page == "review":
+        app.add_js_file("quiz/all.js", priority=100)
+    elif page.startswith("days/") and page.endswith("/quiz"):
+        app.add_js_file(f"quiz/{page.split('/')[1]}.js", priority=100)
+
+
+def setup(app: Sphinx) -> None:
+    """Called by Sphinx."""
+    app.add_directive("quiz", QuizDirective)
+    app.add_directive("quiz-answers", AnswersDirective)
+    app.add_directive("review", ReviewDirective)
+    app.connect("html-page-context", load_keys)
+    app.connect("build-finished", write_keys)

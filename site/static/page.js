@@ -1,0 +1,88 @@
+// Small things that every page needs: wide parts that scroll can be reached by the keyboard, the
+// path of days shows how far the student is, and the glossary can be filtered.
+(function () {
+  "use strict";
+
+  // --- wide code and tables ---------------------------------------------------------------------
+
+  const WIDE = "article pre, .table-wrapper, .sidebar-scroll, .toc-scroll";
+
+  function reachWideParts() {
+    for (const part of document.querySelectorAll(WIDE)) {
+      const scrolls = part.scrollWidth > part.clientWidth || part.scrollHeight > part.clientHeight;
+      if (!scrolls) {
+        part.removeAttribute("tabindex");
+      } else if (!part.hasAttribute("tabindex")) {
+        part.tabIndex = 0;
+      }
+    }
+  }
+
+  addEventListener("load", reachWideParts);
+  addEventListener("resize", reachWideParts);
+  document.addEventListener("toggle", reachWideParts, true);
+  reachWideParts();
+
+  // --- the path of days -------------------------------------------------------------------------
+
+  function showPath() {
+    for (const element of document.querySelectorAll(".path-day")) {
+      const day = roslings.dayOf(element);
+      const missing = roslings.missing(day);
+      const answered = day.questions.length - missing.questions.length;
+      const state = element.querySelector(".path-state");
+      element.classList.toggle("done", missing.done);
+      if (missing.done) state.textContent = "✓ Done";
+      else if (answered) state.textContent = `${answered} of ${day.questions.length} questions answered`;
+      else state.textContent = "";
+    }
+    showDueReviews();
+  }
+
+  function showDueReviews() {
+    const place = document.querySelector(".review-due");
+    if (!place) return;
+    const due = roslings.review().due.length;
+    place.hidden = due === 0;
+    place.querySelector("span").textContent =
+      due === 1 ? "One missed question is due today." : `${due} missed questions are due today.`;
+  }
+
+  document.addEventListener("roslings:progress", showPath);
+  showPath();
+
+  // --- the filter of the glossary ---------------------------------------------------------------
+
+  const filter = document.querySelector(".word-filter");
+  if (filter) {
+    filter.hidden = false;
+    filter.addEventListener("change", applyFilter);
+    filter.addEventListener("submit", (event) => event.preventDefault());
+    addEventListener("hashchange", showTarget);
+    applyFilter();
+    showTarget();
+  }
+
+  function applyFilter() {
+    const chosen = new FormData(filter);
+    const wanted = ["letter", "category"]
+      .filter((name) => chosen.get(name))
+      .map((name) => `${name}-${chosen.get(name)}`);
+    let shown = 0;
+    for (const entry of document.querySelectorAll("section.entry")) {
+      entry.hidden = !wanted.every((name) => entry.classList.contains(name));
+      shown += entry.hidden ? 0 : 1;
+    }
+    filter.querySelector(".word-count").textContent =
+      shown === 1 ? "1 word" : shown ? `${shown} words` : "No word fits both. Choose All in one row.";
+  }
+
+  // A link to an entry that the filter hides: show all.
+  function showTarget() {
+    const entry = document.getElementById(decodeURIComponent(location.hash.slice(1)));
+    if (!entry || !entry.matches("section.entry[hidden]")) return;
+    filter.reset();
+    applyFilter();
+    entry.scrollIntoView();
+  }
+})();

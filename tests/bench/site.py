@@ -1,0 +1,94 @@
+"""Prints the site's figures: time to build, weight of a page, other hosts asked, axe's findings.
+
+    python tests/bench/site.py
+
+It builds the course with the two small days of the tests, and asserts nothing. It needs Chromium
+(`sudo apt install chromium`). Measure on an idle machine.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+from typing import Any
+
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import sync_playwright
+
+ROOT = Path(__file__).resolve().parents[2]
+LESSON = "days/01-install/index.html"
+LOADED = re.compile(r'(?:src|href)="([^"?]+\.(?:js|css))')
+
+
+def write_course(folder: Path) -> None:
+    """The course's words and labs, with the days of the tests where none is written."""
+    for name in ("glossary", "labs", "graders", "days"):
+        shutil.copytree(ROOT / name, folder / name)
+    shutil.copytree(ROOT / "tests" / "site" / "two_days", folder / "days", dirs_exist_ok=True)
+
+
+def build(course: Path) -> float:
+    """Seconds that one build takes."""
+    start = time.monotonic()
+    subprocess.run(
+        [sys.executable, str(ROOT / "site" / "build.py"), "--out", str(course / "out")],
+        env={**os.environ, "ROSLINGS_COURSE": str(course)},
+        check=True,
+        stdout=subprocess.DEVNULL,
+    )
+    return time.monotonic() - start
+
+
+def weight(page: Path) -> int:
+    """Bytes of a page with all scripts and styles, without pictures and compression."""
+    names = LOADED.findall(page.read_text("utf-8"))
+    files = {page, *((page.parent / name).resolve() for name in names)}
+    return sum(file.stat().st_size for file in files)
+
+
+def visit(browser: Any, site: Path, width: int, scheme: str) -> None:
+    """Print what one way of looking at all pages finds."""
+    context = browser.new_context(viewport={"width": width, "height": 900}, color_scheme=scheme)
+    asked = list[str]()
+    context.on("request", lambda request: asked.append(request.url))
+    page, violations, pages = context.new_page(), 0, 0
+    for file in sorted(site.rglob("*.html")):
+        if "_static" not in file.parts:
+            page.goto(file.as_uri())
+            violations += Axe().run(page).violations_count
+            pages += 1
+    context.close()
+    others = [url for url in asked if not url.startswith(("file:", "blob:", "data:"))]
+    print(
+        f"{pages} pages, {width:4} px, {scheme:5}: {violations} axe violations,"
+        f" {len(others)} of {len(asked)} requests to other hosts"
+    )
+
+
+def main() -> None:
+    """Print all figures."""
+    with tempfile.TemporaryDirectory() as name:
+        course = Path(name)
+        write_course(course)
+        print(f"build, cold    {build(course):6.1f} s")
+        print(f"build, cached  {build(course):6.1f} s")
+        site = course / "out" / "html"
+        print(f"a lesson weighs {weight(site / LESSON) / 1000:.0f} KB without pictures")
+        with sync_playwright() as driver:
+            browser = driver.chromium.launch(
+                executable_path=shutil.which("chromium"), args=["--no-sandbox"]
+            )
+            for width in (1280, 390):
+                for scheme in ("light", "dark"):
+                    visit(browser, site, width, scheme)
+            browser.close()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,104 @@
+"""The builder: strict, quick to say what is wrong, and no answer lies open in a page."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+from conftest import build
+
+from roslings.course import root
+
+PAGE = "days/01-install/lesson.ipynb"
+
+
+def change_lesson(course: Path, source: str, cell: int = 0) -> None:
+    """Write another text into a cell of day 1."""
+    path = course / PAGE
+    notebook = json.loads(path.read_text("utf-8"))
+    notebook["cells"][cell]["source"] = source
+    path.write_text(json.dumps(notebook), "utf-8")
+
+
+def test_the_course_as_it_is_builds_with_no_day_written(tmp_path: Path) -> None:
+    """Home is there and useful before the first lesson."""
+    command = [sys.executable, "-m", "roslings", "site", "--out", str(tmp_path)]
+    environment = {**os.environ, "ROSLINGS_COURSE": str(root())}
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    home = tmp_path / "html" / "index.html"
+    assert str(home) in done.stdout
+    text = home.read_text("utf-8")
+    assert all(f"Day {number}" in text for number in range(1, 8))
+
+
+WRONG = {
+    "A [robot](#word-robto).": "There is no word 'robto'",
+    "## A [node](#word-node)": "A heading is no place",
+    "[There](../no-such-page.md).": "no-such-page",
+    "[There](#no-such-place).": "no-such-place",
+    "{wrod}`node`": "wrod",
+    "```{math}\na = b\n```": "shows no formulas",
+}
+
+
+def test_each_wrong_thing_on_a_page_ends_the_build(course: Path) -> None:
+    """All are told at once, with the name of the file that the author knows."""
+    change_lesson(course, "# Day 1\n\n" + "\n\n".join(WRONG))
+    done = build(course)
+    assert done.returncode == 1
+    assert [told for told in WRONG.values() if told not in done.stderr] == []
+    assert str(course / PAGE) in done.stderr
+    assert str(course / "out" / "source") not in done.stderr
+
+
+def test_a_failing_notebook_ends_the_build(course: Path) -> None:
+    """What the page shows must have happened."""
+    change_lesson(course, "print(1 / 0)", cell=2)
+    done = build(course)
+    assert done.returncode == 1
+    assert "ZeroDivisionError" in done.stderr
+
+
+def test_a_wrong_quiz_ends_the_build_before_sphinx(course: Path) -> None:
+    """File, line and mend, nothing else."""
+    quiz = course / "days/03-topics/quiz.yaml"
+    quiz.write_text(quiz.read_text("utf-8").replace("#word", "#w").replace("right: true", ""))
+    done = build(course)
+    assert done.returncode == 1
+    assert re.search(r"quiz\.yaml:\d+: .*no right answer", done.stderr)
+    assert "Mend: Add 'right: true'" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_links_to_other_sites_are_listed(course: Path) -> None:
+    """On request, with the pages that name them."""
+    done = build(course, "--links")
+    assert done.returncode == 0
+    assert "https://docs.ros.org/en/jazzy/  (days/03-topics/index.ipynb" in done.stdout
+
+
+def test_no_answer_lies_open_in_a_page(site: Path) -> None:
+    """Neither as an attribute nor as text; the page of answers is not in the search."""
+    page = (site / "days/01-install/quiz.html").read_text("utf-8")
+    assert "Sourcing changes the variables" not in page
+    choices = re.findall(r'<input type="(?:radio|checkbox)"[^>]*>', page)
+    assert (
+        len({re.sub(r'value="\d"', "", choice) for choice in choices}) == 4
+    )  # two are the theme's
+    assert "Sourcing changes" not in (site / "searchindex.js").read_text("utf-8")
+    answers = (site / "days/01-install/answers.html").read_text("utf-8")
+    assert "Sourcing changes the variables" in answers
+
+
+def test_a_page_with_a_notebook_weighs_at_most_200_kb(site: Path) -> None:
+    """Without pictures; all that the page loads, before compression."""
+    page = site / "days/01-install/index.html"
+    loaded = re.findall(r'(?:src|href)="([^"?]+\.(?:js|css))', page.read_text("utf-8"))
+    assert len(loaded) > 5
+    files = {page, *((page.parent / name).resolve() for name in loaded)}
+    assert sum(file.stat().st_size for file in files) <= 200_000

@@ -1,0 +1,152 @@
+"""Every page at two widths, light and dark: accessible, inside the screen; search and print."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+from conftest import Visit
+
+Axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe
+
+MUST_BE_THERE = {
+    "index", "glossary", "review", "search", "labs/index", "labs/topics", "reference/commands",
+    "reference/doctor", "reference/messages", "reference/lifecycle", "reference/tf-and-scan",
+    "reference/micro-ros", "reference/distributions", "reference/ros1", "reference/faq",
+    "teachers/index", "teachers/api", "days/01-install/index", "days/01-install/quiz",
+    "days/01-install/answers", "days/03-topics/index", "days/03-topics/quiz",
+}  # fmt: skip
+
+
+def pages_of(site: Path) -> list[str]:
+    """Every page that was built."""
+    files = (page.relative_to(site).with_suffix("") for page in site.rglob("*.html"))
+    return sorted(str(page) for page in files if page.parts[0] != "_static")
+
+
+def test_no_page_is_missing(site: Path) -> None:
+    """The issue's list of pages, and those of the two days."""
+    assert set(pages_of(site)) >= MUST_BE_THERE
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("width", [1280, 390])
+def test_no_page_breaks_a_rule_of_accessibility(
+    browser: Any, site: Path, width: int, scheme: str
+) -> None:
+    """axe-core's rules, best practices included; nothing wider than the screen; no other host."""
+    context = browser.new_context(viewport={"width": width, "height": 900}, color_scheme=scheme)
+    visit = Visit(context, site.as_uri())
+    # Colours are all that darkness changes; asking for them alone keeps the suite short.
+    options = (
+        {"runOnly": ["color-contrast"]} if scheme == "dark" else {"resultTypes": ["violations"]}
+    )
+    axe, broken = Axe(), list[str]()
+    for name in pages_of(site):
+        page = visit.go(f"{name}.html")
+        if name.endswith("quiz"):
+            page.locator("button.button").first.click()
+        found = axe.run(page, options=options)
+        broken += [f"{name}: {line}" for line in found.generate_snapshot().splitlines()]
+        if page.evaluate("document.documentElement.scrollWidth") > width:
+            broken.append(f"{name} is wider than the screen")
+    context.close()
+    assert broken == []
+    assert visit.errors == []
+    assert [url for url in visit.requests if not url.startswith(visit.base)] == []
+
+
+def test_an_open_popover_and_a_checked_quiz_are_accessible(browser: Any, site: Path) -> None:
+    """What appears later keeps the rules too."""
+    context = browser.new_context(viewport={"width": 390, "height": 900}, color_scheme="dark")
+    visit = Visit(context, site.as_uri())
+    page = visit.go("days/01-install/index.html")
+    page.locator("button.word").first.focus()
+    assert Axe().run(page).generate_snapshot() == ""
+    page = visit.go("days/01-install/quiz.html")
+    for form in page.locator("form.question").all():
+        if form.locator("input").count():
+            form.locator("input").nth(1).check()
+        form.get_by_role("button", name="Check", exact=True).click()
+    assert page.locator(".why:visible").count() >= 3
+    assert Axe().run(page).generate_snapshot() == ""
+    context.close()
+
+
+def test_axe_sees_what_is_wrong(browser: Any, site: Path) -> None:
+    """Else its silence would mean nothing."""
+    page = browser.new_page()
+    page.goto((site / "index.html").as_uri())
+    page.evaluate("document.querySelector('article').innerHTML += '<img src=\"x.png\">'")
+    assert "image-alt" in Axe().run(page).generate_snapshot()
+    page.close()
+
+
+def test_search_finds_words_and_pages(visit: Visit) -> None:
+    """From a file too, where a page may not fetch."""
+    page = visit.go("index.html")
+    page.get_by_placeholder("Search").first.fill("deadlock")
+    page.keyboard.press("Enter")
+    result = page.locator("#search-results li a", has_text="deadlock").first
+    result.wait_for()
+    result.click()
+    page.locator("#word-deadlock").wait_for(state="visible")
+
+
+def test_dark_mode_is_a_choice_that_stays(visit: Visit) -> None:
+    """The button goes round, and the next page remembers."""
+    page = visit.go("index.html")
+    colour = "getComputedStyle(document.body).backgroundColor"
+    first = page.evaluate(colour)
+    button = page.locator("button.theme-toggle:visible").first
+    seen = []
+    for _ in range(3):
+        button.click()
+        seen.append((page.evaluate("document.body.dataset.theme"), page.evaluate(colour)))
+        if seen[-1][0] == "dark":
+            break
+    assert seen[-1][0] == "dark"
+    assert seen[-1][1] != first
+    assert visit.go("glossary.html").evaluate("document.body.dataset.theme") == "dark"
+
+
+def test_print_shows_the_lesson_and_not_the_menus(visit: Visit) -> None:
+    """The words of the page stay, as a list."""
+    page = visit.go("days/01-install/index.html")
+    page.emulate_media(media="print")
+    assert page.locator("article h1").is_visible()
+    assert page.locator(".page-words").is_visible()
+    for hidden in (".sidebar-drawer", ".toc-drawer", ".related-pages", ".drop"):
+        assert not page.locator(hidden).first.is_visible()
+
+
+def test_every_link_inside_the_site_leads_somewhere(visit: Visit, site: Path) -> None:
+    """Pages and places on pages."""
+    broken = []
+    for name in pages_of(site):
+        page = visit.go(f"{name}.html")
+        links = page.evaluate("[...document.querySelectorAll('article a[href]')].map(a => a.href)")
+        for link in links:
+            target, _, place = link.removeprefix(visit.base + "/").partition("#")
+            if link.startswith(visit.base) and not _is_there(site / target, place):
+                broken.append(f"{name}: {link}")
+    assert broken == []
+
+
+def _is_there(file: Path, place: str) -> bool:
+    return file.is_file() and (not place or f'id="{place}"' in file.read_text("utf-8"))
+
+
+def test_a_wide_part_can_be_scrolled_by_keyboard(browser: Any, site: Path) -> None:
+    """On a phone, long code is wider than the screen."""
+    context = browser.new_context(viewport={"width": 390, "height": 900})
+    page = context.new_page()
+    page.goto((site / "reference/messages.html").as_uri())
+    wide = page.evaluate(
+        "[...document.querySelectorAll('pre')].filter(p => p.scrollWidth > p.clientWidth)"
+        ".map(p => p.tabIndex)"
+    )
+    assert wide
+    assert set(wide) == {0}
+    context.close()
