@@ -19,7 +19,6 @@ from roslings.judge import (
     come_up,
     end_within,
     exit_cleanly,
-    have_rate,
     install,
     list_what_it_imports,
 )
@@ -36,6 +35,7 @@ from roslings.judge.services import (
     show_each,
     tell_the_answer,
 )
+from roslings.judge.steady import keep_rate
 
 CARD = lab("services").card
 SERVER, CLIENT = CARD.node("motor_controller"), CARD.node("motor_client")
@@ -117,7 +117,7 @@ def test_server_name(serving: ExperimentView) -> None:
 def test_state_topic(serving: ExperimentView) -> None:
     """It publishes {STATE.type} on {STATE.topic}, {STATE.rate.hz:g} Hz."""
     serving.publisher(SERVER, STATE).must(be_there, carry_its_type)
-    before_the_calls(serving, STATE).must(have_rate(STATE))
+    before_the_calls(serving, STATE).must(keep_rate(STATE))
 
 
 @check(needs=["server_runs"])

@@ -6,7 +6,7 @@ import difflib
 from collections.abc import Sequence
 
 from roslings.course import NodeContract, ParameterContract, RateContract, TopicContract
-from roslings.judge.demands import have_rate, require_steady, written
+from roslings.judge.demands import written
 from roslings.judge.faults import NothingToJudge
 from roslings.judge.faults.starting import (
     NameStays,
@@ -15,6 +15,7 @@ from roslings.judge.faults.starting import (
     ParameterMisread,
     TopicStays,
 )
+from roslings.judge.steady import keep_rate, require_undisturbed
 from roslings.judge.views import Demand, ExperimentView, TopicView
 from roslings.near import nearest_endpoint, own_endpoints
 from roslings.rates import Rate
@@ -49,11 +50,11 @@ def follow_its_parameter(
     def demand(topic: TopicView) -> None:
         rate = topic.rate
         if rate is None or not (_within(rate, wanted) or _within(rate, before)):
-            require_steady(topic.stall_s)
+            require_undisturbed(topic, asked)
             raise ParameterMisread(parameter.name, value, goal, _heard(topic), parameter.about)
         if not _within(rate, wanted):
             raise ParameterIgnored(parameter.name, value, goal, _heard(topic))
-        topic.must(have_rate(asked))
+        topic.must(keep_rate(asked))
 
     return demand
 
