@@ -268,7 +268,7 @@ def test_odd_distances(hearing: ExperimentView) -> None:
 
 @check(needs=["sensor_runs", "subscriber_runs"])
 def test_launch(together: ExperimentView, sensing: ExperimentView, hearing: ExperimentView) -> None:
-    """`ros2 launch {CARD.package} {LAUNCH.name}` starts both nodes."""
+    """`ros2 launch` with {LAUNCH.name} starts both nodes."""
     names = [sensing.node(SENSOR).near.found, hearing.node(SUBSCRIBER).near.found]
     together.must(start_all(names))
 

@@ -13,7 +13,7 @@ from roslings.near import nearest_endpoint
 
 TURNS_WITHIN_S = 3.0
 SHOWS_WITHIN_S = 1.5
-BY_A_TIMER = 2
+BY_A_TIMER = 3
 """Messages to wait for: the first one may have been under way before the value was heard."""
 
 
@@ -37,14 +37,16 @@ class Teller:
         """
         before = self._count()
         spoken = self._say(fields)
-        if spoken and not self._shows(before + 1) and self._turns():
-            spoken.settled = self._shows(before + 1)
+        if spoken and not self._shows(before + 1):
+            turned = self._turns()
+            spoken.settled = self._shows(before + 1) or turned
 
     def tell_and_await_timer(self, fields: Mapping[str, Any]) -> None:
         """Say one message, and wait until a timer of the node has published after it."""
         spoken = self._say(fields)
-        if spoken and self._turns():
-            spoken.settled = self._shows(self._count() + BY_A_TIMER)
+        if spoken:
+            turned = self._turns()
+            spoken.settled = self._shows(self._count() + BY_A_TIMER) and turned
 
     def _say(self, fields: Mapping[str, Any]) -> Spoken | None:
         """Say it; None where nobody is there to hear it."""
@@ -54,11 +56,11 @@ class Teller:
         return self._scene.probe.say(ear, nested(fields), FIRST_MESSAGE_WITHIN_S)
 
     def _turns(self) -> bool:
-        """Wait until the node's callbacks have run; False where it has ended."""
+        """Wait until the node's callbacks have run. Whether they did."""
         ear = self._ear()
-        if ear:
-            self._scene.probe.turned(ear.node, TURNS_WITHIN_S)
-        return self._process.alive
+        return bool(
+            ear and self._process.alive and self._scene.probe.turned(ear.node, TURNS_WITHIN_S)
+        )
 
     def _shows(self, count: int) -> bool:
         return self._scene.until(lambda: self._count() >= count, SHOWS_WITHIN_S)

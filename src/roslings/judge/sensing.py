@@ -9,14 +9,15 @@ from typing import Any
 
 from roslings.course import NodeContract, TopicContract
 from roslings.evidence import MessageSeen, Spoken
-from roslings.judge.demands import most_similar, require_steady, written
-from roslings.judge.faults import NothingToJudge, NotLogged
+from roslings.judge.demands import most_similar, written
+from roslings.judge.faults import Inconclusive, NothingToJudge, NotLogged
 from roslings.judge.faults import sensing as faults
 from roslings.judge.views import Demand, ExperimentView, ProcessView, TopicView
 from roslings.near import nearest_endpoint
 
 NS_PER_S = 1e9
 FRESH_S = 1.0
+LONGEST_PAUSE_S = 0.1
 CLOSE = 1e-3
 """A thousandth, or a millimetre: 32 bits hold no more of some numbers."""
 
@@ -125,12 +126,25 @@ def _judge(process: ProcessView, turn: Turn, place: Shown, wanted: Any) -> None:
     words = (place.topic.topic, place.name, heard, shown(wanted))
     if process.seen.ended_by_itself and turn.message is None:
         raise faults.EndedWhileHearing(*words, None, log=process.last_lines())
-    if not turn.settled:  # a message on its way at a standstill is taken for the next value's
-        require_steady(process.experiment.stall_s)
+    if not turn.settled:
+        _require_calm(process.experiment.stall_s)
     if turn.message is None:
         raise faults.DoesNotReact(*words, None)
     kind = faults.NotInfinite if _should_be_infinite(found, wanted) else faults.WrongReaction
     raise kind(*words, shown(found), _remark(found, wanted))
+
+
+def _require_calm(stall_s: float) -> None:
+    """Where an effect did not come in time, a pause may be why. Raises Inconclusive.
+
+    A message that was under way meanwhile is taken for the next value's, so that even a wrong
+    value then says nothing.
+    """
+    if stall_s > LONGEST_PAUSE_S:
+        raise Inconclusive(
+            f"this computer stood still for {stall_s:.1f} s while your nodes ran;"
+            " close other programs and check again"
+        )
 
 
 def turns(experiment: ExperimentView, topic: TopicContract) -> Iterator[Turn]:
