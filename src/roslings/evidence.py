@@ -124,6 +124,9 @@ class Spoken(Record):
     sent_ns: int
     matched: bool = Field(description="A subscription was matched when it was sent")
     offered: Qos
+    settled: bool = Field(
+        default=True, description="False where its effect was waited for and did not come in time"
+    )
 
 
 class Tick(Record):

@@ -16,6 +16,7 @@ from roslings.course import (
     TopicContract,
 )
 from roslings.evidence import CallSeen, ProcessSeen, ServiceEnd
+from roslings.experiment.asking import ANSWER_WITHIN_S, MOST_LATE
 from roslings.judge.demands import log_each, require_steady, written
 from roslings.judge.faults import DidNotComeUp, Inconclusive, NothingToJudge, NotLogged
 from roslings.judge.faults import services as faults
@@ -24,8 +25,6 @@ from roslings.judge.words import describe_status
 from roslings.near import nearest, nearest_endpoint
 
 NS_PER_S = 1e9
-MOST_LATE = 0.05
-"""One answer in twenty may be late: a computer does other things, too."""
 
 
 # --- who serves what ---------------------------------------------------------------------------
@@ -130,7 +129,7 @@ def _require_answer(experiment: ExperimentView, node: NodeContract, call: CallSe
     if call.response is not None:
         return
     process = experiment.process(node)
-    asked, waited_s = _asked(call), 5.0
+    asked, waited_s = _asked(call), ANSWER_WITHIN_S
     if process.seen.ended_by_itself:
         raise faults.EndedInsteadOfAnswering(
             call.service, asked, waited_s, log=process.last_lines()

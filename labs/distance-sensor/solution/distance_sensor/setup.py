@@ -1,0 +1,27 @@
+from setuptools import find_packages, setup
+
+package_name = 'distance_sensor'
+
+setup(
+    name=package_name,
+    version='0.1.0',
+    packages=find_packages(exclude=['test']),
+    data_files=[
+        ('share/ament_index/resource_index/packages', ['resource/' + package_name]),
+        ('share/' + package_name, ['package.xml']),
+        ('share/' + package_name + '/launch', ['launch/distance.launch.xml']),
+    ],
+    install_requires=['setuptools'],
+    extras_require={'test': ['pytest']},
+    zip_safe=True,
+    maintainer='A learner',
+    maintainer_email='learner@example.com',
+    description='A distance sensor, and a node that warns of obstacles.',
+    license='Apache-2.0',
+    entry_points={
+        'console_scripts': [
+            'distance_sensor = distance_sensor.distance_sensor:main',
+            'distance_subscriber = distance_sensor.distance_subscriber:main',
+        ],
+    },
+)

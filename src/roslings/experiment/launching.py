@@ -1,0 +1,30 @@
+"""Experiments with a launch file: start it with our own `ros2 launch`, as the student would."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from roslings.arena import Process
+from roslings.course import LaunchContract
+from roslings.experiment.scene import COMES_UP_WITHIN_S, Scene
+
+ROS2 = Path(__file__).parents[1] / "ros2" / "start.py"
+LABEL = "ros2 launch"
+CREW_ENDS_WITHIN_S = 8.0
+"""The launch waits 5 s for its nodes before it becomes stern with them."""
+
+
+@contextmanager
+def launched(scene: Scene, package: str, contract: LaunchContract) -> Iterator[Process]:
+    """Launch the file, wait for its nodes; press Ctrl-C when the block ends."""
+    words = [str(ROS2), "ros2", "launch", package, contract.name]
+    with scene.arena.run(sys.executable, words) as process:
+        process.seen.executable = f"{LABEL} {package} {contract.name}"
+        scene.seen.processes[LABEL] = process.seen
+        count = len(contract.starts)
+        scene.until(lambda: len(scene.seen.graph.nodes) >= count, COMES_UP_WITHIN_S)
+        yield process
+        process.interrupt(CREW_ENDS_WITHIN_S)

@@ -1,0 +1,93 @@
+"""Experiments with values: tell a node something, and let it show what it makes of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from roslings.arena import Process
+from roslings.course import TopicContract
+from roslings.evidence import Endpoint, Spoken
+from roslings.experiment.scene import FIRST_MESSAGE_WITHIN_S, Scene
+from roslings.near import nearest_endpoint
+
+TURNS_WITHIN_S = 3.0
+SHOWS_WITHIN_S = 1.5
+BY_A_TIMER = 3
+"""Messages to wait for: the first one may have been under way before the value was heard."""
+
+
+class Teller:
+    """Tells a node values on the topic that it hears, and watches the one that it publishes.
+
+    Where the node uses names that are near to the card's, those are used.
+    """
+
+    def __init__(
+        self, scene: Scene, process: Process, heard: TopicContract, shown: TopicContract
+    ) -> None:
+        self._scene, self._process = scene, process
+        self._heard, self._shown = heard, shown
+        scene.until(lambda: self._ear() is not None, FIRST_MESSAGE_WITHIN_S)
+
+    def tell(self, fields: Mapping[str, Any]) -> None:
+        """Say one message, and wait for the one that the node publishes when it hears it.
+
+        Where none comes, wait until the node had its chance: its callbacks ran.
+        """
+        before = self._count()
+        spoken = self._say(fields)
+        if spoken and not self._shows(before + 1):
+            turned = self._turns()
+            spoken.settled = self._shows(before + 1) or turned
+
+    def tell_and_await_timer(self, fields: Mapping[str, Any]) -> None:
+        """Say one message, and wait until a timer of the node has published after it."""
+        spoken = self._say(fields)
+        if spoken:
+            turned = self._turns()
+            spoken.settled = self._shows(self._count() + BY_A_TIMER) and turned
+
+    def _say(self, fields: Mapping[str, Any]) -> Spoken | None:
+        """Say it; None where nobody is there to hear it."""
+        ear = self._ear()
+        if ear is None or not self._process.alive:
+            return None
+        return self._scene.probe.say(ear, nested(fields), FIRST_MESSAGE_WITHIN_S)
+
+    def _turns(self) -> bool:
+        """Wait until the node's callbacks have run. Whether they did."""
+        ear = self._ear()
+        return bool(
+            ear and self._process.alive and self._scene.probe.turned(ear.node, TURNS_WITHIN_S)
+        )
+
+    def _shows(self, count: int) -> bool:
+        return self._scene.until(lambda: self._count() >= count, SHOWS_WITHIN_S)
+
+    def _ear(self) -> Endpoint | None:
+        return nearest_endpoint(
+            self._scene.seen.graph, "subscription", self._heard.topic, self._heard.type
+        )
+
+    def _count(self) -> int:
+        publisher = nearest_endpoint(
+            self._scene.seen.graph, "publisher", self._shown.topic, self._shown.type
+        )
+        return self._scene.probe.count(publisher.topic) if publisher else 0
+
+
+def nested(fields: Mapping[str, Any]) -> dict[str, Any]:
+    """Fields with dots in their names as fields in fields.
+
+    >>> nested({"header.frame_id": "sonar", "range": 1.0})
+    {'header': {'frame_id': 'sonar'}, 'range': 1.0}
+    """
+    tree: dict[str, Any] = {}
+    for name, value in fields.items():
+        *way, last = name.split(".")
+        place = tree
+        for step in way:
+            place = place.setdefault(step, {})
+        place[last] = value
+    return tree

@@ -1,0 +1,57 @@
+"""Faults of a launch file."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from roslings.judge.faults.base import Fault
+
+
+@dataclass(eq=False)
+class LaunchFailed(Fault):
+    """The launch itself ended with an error."""
+
+    command: str
+    how: str
+    why = "A launch file starts the whole robot with one command."
+
+    @property
+    def expected(self) -> str:
+        """Running nodes."""
+        return f"`{self.command}` starts its nodes, and goes on until Ctrl-C"
+
+    @property
+    def measured(self) -> str:
+        """How it ended."""
+        return f"it ended by itself ({self.how})"
+
+    @property
+    def hint(self) -> str:
+        """What to read."""
+        return "Read the last lines below, mend what they name, build again, and launch again."
+
+
+@dataclass(eq=False)
+class LaunchMissesNode(LaunchFailed):
+    """Not every node is there."""
+
+    missing: str
+    found: tuple[str, ...]
+
+    @property
+    def expected(self) -> str:
+        """The node."""
+        return f"`{self.command}` starts {self.missing}"
+
+    @property
+    def measured(self) -> str:
+        """The nodes that are there."""
+        return f"the nodes are: {', '.join(self.found) or 'none'}"
+
+    @property
+    def hint(self) -> str:
+        """What to compare."""
+        return (
+            "Each node needs a line <node pkg=... exec=.../> of its own. exec is the executable of"
+            " setup.py. Without name=..., a node keeps the name of its code."
+        )

@@ -1,0 +1,137 @@
+"""Faults in what a node makes of the values that it hears, and in what its messages hold."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from roslings.judge.faults.base import Fault
+
+
+@dataclass(eq=False)
+class WrongField(Fault):
+    """A field of the messages is not what the card says."""
+
+    topic: str
+    name: str
+    wanted: str
+    found: str
+    why = "Who uses a sensor's messages knows the sensor only by these fields."
+
+    @property
+    def expected(self) -> str:
+        """The value."""
+        return f"on {self.topic}, the field {self.name} is {self.wanted}"
+
+    @property
+    def measured(self) -> str:
+        """The value that came."""
+        return f"it is {self.found}"
+
+    @property
+    def hint(self) -> str:
+        """Where it is filled."""
+        return (
+            f"Fill it before you publish: MESSAGE.{self.name} = ... A field that nobody fills is 0"
+            " or empty."
+        )
+
+
+@dataclass(eq=False)
+class NoStamp(Fault):
+    """The messages do not say when they were made."""
+
+    topic: str
+    why = "A distance without its time is of no use to a robot that moves."
+    hint = "Fill it in each message: MESSAGE.header.stamp = self.get_clock().now().to_msg()"
+
+    @property
+    def expected(self) -> str:
+        """A stamp."""
+        return f"on {self.topic}, header.stamp is the time at which the message is made"
+
+    @property
+    def measured(self) -> str:
+        """That it is empty."""
+        return "header.stamp is 0: nobody filled it"
+
+
+@dataclass(eq=False)
+class OldStamp(NoStamp):
+    """The stamp is not the time of the message."""
+
+    behind_s: float
+    hint = (
+        "Take the time in the function that publishes, not in __init__:"
+        " self.get_clock().now().to_msg()"
+    )
+
+    @property
+    def measured(self) -> str:
+        """How far it is off."""
+        return f"header.stamp is {abs(self.behind_s):.1f} s away from the time of sending"
+
+
+@dataclass(eq=False)
+class WrongReaction(Fault):
+    """The node was told a value, and shows another one than it should."""
+
+    topic: str
+    field_name: str
+    heard: str
+    wanted: str
+    found: str | None
+    remark: str = ""
+    why = "A robot acts on this value. A wrong one sends it against the wall."
+    hint = (
+        "Take this one case, with the numbers of the card, and go through your code with it by"
+        " hand, line by line."
+    )
+
+    @property
+    def expected(self) -> str:
+        """The value."""
+        return f"after {self.heard}: {self.field_name} {self.wanted} on {self.topic}"
+
+    @property
+    def measured(self) -> str:
+        """The value that came, and what it looks like."""
+        shown = f"{self.field_name} {self.found}" if self.found is not None else "no message"
+        return f"{shown}{self.remark}"
+
+
+@dataclass(eq=False)
+class NotInfinite(WrongReaction):
+    """A value out of range is published as if it were a distance."""
+
+    why = (
+        "ROS has a rule for this, REP 117: too near is -infinity, too far is +infinity. A number"
+        " means: it was really measured."
+    )
+    hint = (
+        "Compare with min_range and max_range before you publish, and put in -math.inf or"
+        " math.inf. NaN stays NaN."
+    )
+
+
+@dataclass(eq=False)
+class DoesNotReact(WrongReaction):
+    """Nothing was published after the value."""
+
+    why = "Who hears nothing does not know whether all is well or the node is dead."
+    hint = "Is the function reached (log a line in it), and does it call publish() each time?"
+
+
+@dataclass(eq=False)
+class EndedWhileHearing(WrongReaction):
+    """The node ended when it heard the value."""
+
+    why = "Real sensors send NaN and infinities. A node that ends at one of them stops the robot."
+    hint = (
+        "Read the last lines below. Python cannot make an int of NaN or of an infinity: ask"
+        " math.isfinite(VALUE) first."
+    )
+
+    @property
+    def measured(self) -> str:
+        """That it ended."""
+        return "the node ended with an error"

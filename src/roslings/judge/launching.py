@@ -1,0 +1,34 @@
+"""Demands on a launch file."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from roslings.experiment.launching import LABEL
+from roslings.judge.faults import NothingToJudge
+from roslings.judge.faults.launching import LaunchFailed, LaunchMissesNode
+from roslings.judge.views import Demand, ExperimentView, ProcessView
+from roslings.judge.words import describe_status
+
+
+def launch_of(experiment: ExperimentView) -> ProcessView:
+    """The process of the launch. Raises NothingToJudge where there was none."""
+    if LABEL not in experiment.seen.processes:
+        raise NothingToJudge("nothing was launched")
+    return ProcessView(experiment.seen.processes[LABEL], experiment.seen)
+
+
+def start_all(names: Sequence[str]) -> Demand[ExperimentView]:
+    """The launch runs on, and these nodes are in the graph."""
+
+    def demand(experiment: ExperimentView) -> None:
+        process = launch_of(experiment)
+        command, there = process.seen.executable, tuple(experiment.seen.graph.nodes)
+        how, log = describe_status(process.seen.status), process.last_lines()
+        if process.seen.ended_by_itself and not there:
+            raise LaunchFailed(command, how, log=log)
+        for name in names:
+            if name not in there:
+                raise LaunchMissesNode(command, how, name, there, log=log)
+
+    return demand
