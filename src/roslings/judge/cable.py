@@ -18,7 +18,7 @@ from roslings.judge.views import Demand, ExperimentView, TopicView
 
 MOST_LINES_LOST = 0.15
 """Part of the board's lines that may be without a message: those that a busy node still works on
-when the watch ends. A node that leaves lines out leaves out more, one that doubles them has more."""
+when the watch ends. A node that leaves lines out, or doubles them, is off by more."""
 
 SPEED_EXACT_RAD_S = 0.002
 PLACE_WITHIN_M = 0.05
