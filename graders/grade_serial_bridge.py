@@ -53,8 +53,7 @@ STRAIGHT, TURN, ARC = (0.3, 0.0), (0.0, 1.2), (0.25, -0.8)
 def driving(scene: Scene) -> None:
     """A drive: straight on, a turn on the spot, an arc."""
     with board_beside(scene) as cable, scene.run(BRIDGE, start=cable.start()):
-        cable.await_messages(ODOM, 10)
-        cable.mark("start")
+        cable.begin(ODOM)
         for part, motion in (("straight", STRAIGHT), ("turn", TURN), ("arc", ARC)):
             cable.drive(f"{part}, driving", CMD_VEL, *motion)
             cable.rest(part, ODOM)
@@ -102,8 +101,7 @@ def nonsense(scene: Scene) -> None:
     with board_beside(scene) as cable, scene.run(BRIDGE, start=cable.start()):
         cable.await_messages(WHEELS, 10)
         cable.say_nonsense(CMD_VEL)
-        cable.live(for_s=0.4)
-        cable.mark("nonsense")
+        cable.await_messages(WHEELS, 25)
 
 
 # --- the package -------------------------------------------------------------------------------
@@ -208,13 +206,13 @@ def test_frames(driving: ExperimentView) -> None:
     driving.topic(ODOM).must(hold_its_fields(ODOM))
 
 
-@check(needs=["odom_topic"])
+@check(needs=["odom_topic", "every_line"])
 def test_straight(driving: ExperimentView) -> None:
     """Straight on: {ODOM.topic} says how far the rover went."""
     driving.topic(ODOM).must(know_the_way(driving, "start", "straight"))
 
 
-@check(needs=["odom_topic"])
+@check(needs=["odom_topic", "every_line"])
 def test_turn(driving: ExperimentView) -> None:
     """A turn on the spot: {ODOM.topic} says how far the rover turned."""
     driving.topic(ODOM).must(know_the_way(driving, "straight", "turn"))
@@ -248,7 +246,7 @@ def test_reconnects(unplugged: ExperimentView) -> None:
 def test_not_a_number(nonsense: ExperimentView) -> None:
     """A command that is no number (NaN) moves nothing."""
     nonsense.process(BRIDGE).must(stay_up)
-    nonsense.must(keep_still("nonsense"))
+    nonsense.must(keep_still)
 
 
 @check(needs=["runs"])

@@ -217,6 +217,7 @@ class BoardSeen(Record):
     motors: list[MotorsSeen] = Field(default_factory=list)
     marks: list[BoardMark] = Field(default_factory=list)
     rejected: int = Field(default=0, description="Lines of the node that the board refused")
+    lost_bytes: int = Field(default=0, description="Sent by the board, and read too late")
 
 
 class ExperimentSeen(Record):

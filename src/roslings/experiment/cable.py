@@ -54,6 +54,8 @@ class Cable:
         self.board = board
         self._scene, self._mega, self._parameter = scene, mega, parameter
         self.seen = BoardSeen()
+        self._never_heard = 0
+        """Lines that the board told before the node was there."""
         scene.seen.board = self.seen
 
     def start(self) -> Start:
@@ -87,8 +89,15 @@ class Cable:
     def rest(self, part: str, counted: TopicContract) -> None:
         """Say nothing until the wheels stand and the node has told so; marks where the rover is."""
         self._scene.until(self._stands, STANDS_WITHIN_S)
-        self.await_messages(counted, SETTLES_LINES, STANDS_WITHIN_S)
+        behind = self._lines() - self._heard(counted) - self._never_heard
+        self.await_messages(counted, max(0, behind) + SETTLES_LINES, STANDS_WITHIN_S)
         self.mark(part)
+
+    def begin(self, counted: TopicContract) -> None:
+        """Wait until the node tells what the board says; marks the start."""
+        self.await_messages(counted, SETTLES_LINES)
+        self._never_heard = self._lines() - self._heard(counted)
+        self.mark("start")
 
     def await_messages(
         self, topic: TopicContract, count: int, within_s: float = COMES_BACK_WITHIN_S
@@ -135,6 +144,7 @@ class Cable:
         self.seen.told = lines_of(self.board.told)
         self.seen.heard = lines_of(self.board.heard)
         self.seen.rejected = self._mega.counts.rejected
+        self.seen.lost_bytes = self.board.lost_bytes
         self.seen.motors = [
             MotorsSeen(board_s=a.time_s, left_pwm=a.left_pwm, right_pwm=a.right_pwm)
             for a in self._mega.applied
@@ -151,6 +161,9 @@ class Cable:
         truth = self._mega.truth
         speeds = (abs(truth.left_rad_s), abs(truth.right_rad_s))
         return max(speeds) < STANDS_RAD_S and truth.left_pwm == truth.right_pwm == 0
+
+    def _lines(self) -> int:
+        return sum(chunk.content.count(b"$W,") for chunk in self.board.told)
 
     def _heard(self, topic: TopicContract) -> int:
         found = nearest_endpoint(self._scene.seen.graph, "publisher", topic.topic, topic.type)
