@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from roslings.arena import Process
@@ -28,13 +28,27 @@ class Teller:
     ) -> None:
         self._scene, self._process = scene, process
         self._heard, self._shown = heard, shown
+        self._is_heard = False
         scene.until(lambda: self._ear() is not None, FIRST_MESSAGE_WITHIN_S)
+
+    def _make_heard(self, fields: Mapping[str, Any], way: Callable[..., None]) -> None:
+        """Tell the first value once before it counts.
+
+        We see that we are joined with the node a little before the node sees it: what is said in
+        between is lost.
+        """
+        if not self._is_heard:
+            self._is_heard = True
+            told = len(self._scene.seen.spoken)
+            way(fields)
+            del self._scene.seen.spoken[told:]
 
     def tell(self, fields: Mapping[str, Any]) -> None:
         """Say one message, and wait for the one that the node publishes when it hears it.
 
         Where none comes, wait until the node had its chance: its callbacks ran.
         """
+        self._make_heard(fields, self.tell)
         before = self._count()
         spoken = self._say(fields)
         if spoken and not self._shows(before + 1):
@@ -43,6 +57,7 @@ class Teller:
 
     def tell_and_await_timer(self, fields: Mapping[str, Any]) -> None:
         """Say one message, and wait until a timer of the node has published after it."""
+        self._make_heard(fields, self.tell_and_await_timer)
         spoken = self._say(fields)
         if spoken:
             turned = self._turns()
