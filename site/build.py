@@ -36,6 +36,10 @@ def main(arguments: Sequence[str]) -> int:
         shutil.rmtree(work, ignore_errors=True)
     try:
         gathered = gather(root(), HERE / "pages", work / "source")
+    except OSError as error:
+        print(f"roslings: {work} cannot be written: {error.strerror}.", file=sys.stderr)
+        print("Next: give another folder, with --out DIR.", file=sys.stderr)
+        return FAILED
     except (BadLessons, CourseError) as error:
         print(f"roslings: the site was not built.\n{error}", file=sys.stderr)
         return FAILED

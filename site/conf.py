@@ -36,10 +36,7 @@ templates_path = ["templates"]
 html_favicon = "static/roslings.svg"
 html_css_files = ["course.css"]
 # Plain scripts in this order: module scripts do not load from file://.
-html_js_files = [
-    (name, {"defer": "defer"})
-    for name in ("progress.js", "words.js", "page.js", "quiz.js", "day.js", "review.js")
-]
+html_js_files = [(name, {"defer": "defer"}) for name in ("progress.js", "words.js", "page.js")]
 html_use_index = False
 html_copy_source = False
 html_show_sourcelink = False

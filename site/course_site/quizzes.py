@@ -206,12 +206,21 @@ def _write_script(path: Path, keys: Values) -> None:
     path.write_text(f'window.roslingsKeys = "{packed}";\n', "utf-8")
 
 
-def load_keys(app: Sphinx, page: str, template: str, context: Values, doctree: Any) -> None:
-    """Have a page with questions load the script that knows what is right."""
+def load_scripts(app: Sphinx, page: str, template: str, context: Values, doctree: Any) -> None:
+    """Have a page load the scripts that it needs, and a page with questions what is right."""
+    parts = page.split("/")
     if page == "review":
-        app.add_js_file("quiz/all.js", priority=100)
-    elif page.startswith("days/") and page.endswith("/quiz"):
-        app.add_js_file(f"quiz/{page.split('/')[1]}.js", priority=100)
+        _load(app, "all", "quiz.js", "review.js")
+    elif len(parts) == 3 and parts[0] == "days":
+        is_quiz = parts[2] == "quiz"
+        _load(app, parts[1] if is_quiz else "", *(["quiz.js"] if is_quiz else []), "day.js")
+
+
+def _load(app: Sphinx, keys: str, *scripts: str) -> None:
+    if keys:
+        app.add_js_file(f"quiz/{keys}.js", priority=100)
+    for script in scripts:
+        app.add_js_file(script, priority=900, defer="defer")  # after progress.js, which they use
 
 
 def setup(app: Sphinx) -> None:
@@ -219,5 +228,5 @@ def setup(app: Sphinx) -> None:
     app.add_directive("quiz", QuizDirective)
     app.add_directive("quiz-answers", AnswersDirective)
     app.add_directive("review", ReviewDirective)
-    app.connect("html-page-context", load_keys)
+    app.connect("html-page-context", load_scripts)
     app.connect("build-finished", write_keys)
