@@ -36,8 +36,15 @@ def main(arguments: Sequence[str]) -> int:
         from roslings.ros2.rqt_graph import main as rqt_graph
 
         return rqt_graph(list(arguments[1:]))
-    options = parser().parse_args(arguments)
+    options = parser().parse_args(
+        ["test", "--", *arguments[1:]] if for_pytest(arguments) else arguments
+    )
     return run(options.command, options)
+
+
+def for_pytest(arguments: Sequence[str]) -> bool:
+    """What follows `test` is pytest's, options too; only the help is ours."""
+    return arguments[:1] == ["test"] and not {"-h", "--help"} & set(arguments)
 
 
 def run(command: Command, options: argparse.Namespace) -> int:

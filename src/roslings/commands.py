@@ -346,7 +346,7 @@ def site(options: argparse.Namespace) -> int:
 
 def test(options: argparse.Namespace) -> int:
     """Run the tests of roslings; what follows `test` goes to pytest."""
-    return run_pytest(options.rest)
+    return run_pytest([word for word in options.rest if word != "--"])
 
 
 def run_pytest(rest: Sequence[str]) -> int:

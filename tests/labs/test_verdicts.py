@@ -14,7 +14,6 @@ import pytest
 from roslings.course import Lab, Mutant, all_labs
 from roslings.judge.sheet import dependants
 
-
 MOST_TRIES = 3
 EXAMPLE = "topics"
 
