@@ -161,12 +161,14 @@ class Probe:
         """
         publisher = self._publisher_for(ear)
         matched = self.until(lambda: publisher.get_subscription_count() > 0, within_s)
-        publisher.publish(from_plain(ear.type, content))
+        message = from_plain(ear.type, content)
+        sent_ns = time.monotonic_ns()  # before it is sent: an answer can be back at once
+        publisher.publish(message)
         spoken = Spoken(
             topic=ear.topic,
             type=ear.type,
             content=content,
-            sent_ns=time.monotonic_ns(),
+            sent_ns=sent_ns,
             matched=matched,
             offered=ear.qos,
         )
