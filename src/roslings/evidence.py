@@ -284,7 +284,7 @@ class PictureSeen(Record):
     format: str | None = Field(description="e.g. `PNG`; None where it is no image")
     width: int = 0
     height: int = 0
-    colours: int = Field(default=0, description="Different colours, counted up to 256")
+    colours: int = Field(default=0, description="Different colours, counted up to 2")
 
 
 class PackageSeen(Record):

@@ -96,12 +96,17 @@ class _Pinning:
 
 
 def _needing(line: str, needed: dict[str, list[str]]) -> str:
-    """The groups that need a package; a marker may differ where fewer groups are asked about."""
-    pin = line.partition(";")[0].strip()
-    pins = {
-        name: {each.partition(";")[0].strip() for each in lines} for name, lines in needed.items()
-    }
-    return " ".join(name for name in needed if pin in pins[name])
+    """The groups that need a package.
+
+    By its name: asked about alone, a group may be content with another version or marker than
+    all groups together.
+    """
+    package = _package(line)
+    return " ".join(name for name in needed if package in map(_package, needed[name]))
+
+
+def _package(line: str) -> str:
+    return line.partition("==")[0].strip()
 
 
 def _pythons() -> Iterator[tuple[str, str]]:
