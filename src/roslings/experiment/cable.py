@@ -21,7 +21,7 @@ STANDS_RAD_S = 0.02
 SETTLES_LINES = 10
 """So many messages after the wheels stand, what was said before has been worked through."""
 
-COMES_BACK_WITHIN_S = 15.0
+COMES_BACK_WITHIN_S = 40.0
 LONGEST_LINE = 200
 FLOOR = World(room=Box(-100.0, -100.0, 100.0, 100.0))
 
