@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import shutil
 import subprocess
-import sys
 import sysconfig
 from collections.abc import Callable, Iterator
 from importlib.metadata import PackageNotFoundError, version
@@ -13,21 +12,10 @@ from pathlib import Path
 import pytest
 from course_copy import CourseCopy, plain_environment
 from package_index import PackageIndex
+from pythons_here import BASE
 from tiny_wheels import make_wheel, wheel_of_installed
 
 TOOLS = ("pip", "setuptools")
-BASE = getattr(sys, "_base_executable", "") or sys.executable
-
-
-def find_python(minor: int) -> str:
-    """The path of a Python 3.`minor` that runs; skips the test where there is none."""
-    from roslings.bootstrap.seeds import other_pythons
-
-    for python in [BASE, *other_pythons(f"python3.{minor}")]:
-        ask = [python, "-c", f"import sys; sys.exit(sys.version_info[:2] != (3, {minor}))"]
-        if subprocess.run(ask, capture_output=True, check=False).returncode == 0:
-            return python
-    pytest.skip(f"this machine has no Python 3.{minor}")
 
 
 @pytest.fixture(scope="session")

@@ -8,8 +8,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from conftest import find_python
 from course_copy import CourseCopy
+from pythons_here import find_python
 
 
 @pytest.mark.parametrize("minor", [10, 11, 12, 13])

@@ -9,8 +9,8 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from conftest import BASE
 from course_copy import CourseCopy
+from pythons_here import BASE
 
 from roslings.bootstrap.machine import Machine, require_wheels, this_machine
 from roslings.bootstrap.place import require_usable

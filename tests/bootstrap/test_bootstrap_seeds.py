@@ -9,9 +9,9 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from conftest import BASE
 from course_copy import CourseCopy
 from package_index import PackageIndex
+from pythons_here import BASE
 
 from roslings.bootstrap import seeds
 from roslings.bootstrap.trouble import Trouble

@@ -6,8 +6,6 @@ import fcntl
 import http.server
 import os
 import shutil
-import subprocess
-import sys
 import threading
 from collections.abc import Iterator
 from functools import partial
@@ -15,32 +13,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-
-from roslings.course import root
+from two_days_site import Visit, build, write_course
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 NO_CHROMIUM = "no Chromium here; next: sudo apt install chromium"
-BUILDER = root() / "site" / "build.py"
-TWO_DAYS = Path(__file__).parent / "two_days"
-
-
-def write_course(folder: Path) -> Path:
-    """The real words, path and one lab, with the two days of the tests."""
-    shutil.copytree(root() / "glossary", folder / "glossary")
-    shutil.copytree(root() / "labs" / "topics", folder / "labs" / "topics")
-    (folder / "days").mkdir()
-    shutil.copy(root() / "days" / "path.yaml", folder / "days")
-    shutil.copytree(TWO_DAYS, folder / "days", dirs_exist_ok=True)
-    return folder
-
-
-def build(course: Path, *words: str) -> subprocess.CompletedProcess[str]:
-    """Run the builder on a course."""
-    return subprocess.run(
-        [sys.executable, str(BUILDER), "--out", str(course / "out"), *words],
-        env={**os.environ, "ROSLINGS_COURSE": str(course)},
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
 
 
 @pytest.fixture
@@ -87,21 +63,6 @@ def browser() -> Iterator[Any]:
         chromium = driver.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
         yield chromium
         chromium.close()
-
-
-class Visit:
-    """A page of the site in a fresh browser profile, that keeps what went wrong and where to."""
-
-    def __init__(self, context: Any, base: str) -> None:
-        self.base, self.requests, self.errors = base, list[str](), list[str]()
-        context.on("request", lambda request: self.requests.append(request.url))
-        self.page = context.new_page()
-        self.page.on("pageerror", lambda error: self.errors.append(str(error)))
-
-    def go(self, name: str) -> Any:
-        """Open a page: `go("glossary.html")`."""
-        self.page.goto(f"{self.base}/{name}")
-        return self.page
 
 
 @pytest.fixture(params=["file", "http"])

@@ -9,7 +9,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from conftest import build
+from two_days_site import build
 
 from roslings.course import root
 

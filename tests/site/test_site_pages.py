@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from conftest import Visit
+from two_days_site import Visit
 
 Axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from conftest import Visit
+from two_days_site import Visit
 
 QUIZ_1, QUIZ_3 = "days/01-install/quiz.html", "days/03-topics/quiz.html"
 DAYS_UNTIL_LEARNT = (1, 3, 7, 14, 30)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from conftest import Visit
+from two_days_site import Visit
 
 DAY_1, DAY_3 = "days/01-install/index.html", "days/03-topics/index.html"
 

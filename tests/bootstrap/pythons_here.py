@@ -1,0 +1,21 @@
+"""The Pythons that this machine has."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+
+BASE = getattr(sys, "_base_executable", "") or sys.executable
+
+
+def find_python(minor: int) -> str:
+    """The path of a Python 3.`minor` that runs; skips the test where there is none."""
+    from roslings.bootstrap.seeds import other_pythons
+
+    for python in [BASE, *other_pythons(f"python3.{minor}")]:
+        ask = [python, "-c", f"import sys; sys.exit(sys.version_info[:2] != (3, {minor}))"]
+        if subprocess.run(ask, capture_output=True, check=False).returncode == 0:
+            return python
+    pytest.skip(f"this machine has no Python 3.{minor}")
