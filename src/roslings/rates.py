@@ -7,6 +7,7 @@ do the same sum.
 from __future__ import annotations
 
 import statistics
+from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -21,6 +22,12 @@ STANDARD_ERRORS = 3.0
 CLOCKS_DIFFER = 0.01
 CLOCKS_DIFFER_S = 0.005
 """Stamps are not believed where they and the arrivals differ by more: this part, and this time."""
+
+MOST_UNEVEN = 0.25
+"""A quarter of the periods may be odd: a busy machine delays single messages, not every one."""
+
+LONGEST_STALL_S = 0.5
+"""For which this computer may not even run the observer, before a time is held against a node."""
 
 MOSTLY = 0.5
 ANCHORED = 0.8
@@ -139,11 +146,13 @@ def place_on_ticks(messages: Sequence[MessageSeen], ticks: Sequence[Tick]) -> No
 
     By the publisher's stamp, which is taken when it is sent; by the arrival where there is none.
     """
+    walls_ns, monotonic_ns = [t.wall_ns for t in ticks], [t.at_ns for t in ticks]
     for message in messages:
-        stamped = message.source_ns is not None
-        at_ns = message.source_ns if message.source_ns is not None else message.arrival_ns
-        before = [t.sim_ns for t in ticks if (t.wall_ns if stamped else t.at_ns) <= at_ns]
-        message.sim_ns = before[-1] if before else None
+        if message.source_ns is not None:
+            passed = bisect_right(walls_ns, message.source_ns)
+        else:
+            passed = bisect_right(monotonic_ns, message.arrival_ns)
+        message.sim_ns = ticks[passed - 1].sim_ns if passed else None
 
 
 def in_segment(

@@ -9,7 +9,8 @@ from contextlib import ExitStack, contextmanager
 from roslings.arena import Process
 from roslings.course import AnswerContract, NodeContract, ServiceContract, TopicContract
 from roslings.evidence import ServiceEnd
-from roslings.experiment.scene import FIRST_MESSAGE_WITHIN_S, Scene
+from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
+from roslings.experiment.scene import Scene
 from roslings.near import nearest, nearest_endpoint
 from roslings.probe.calling import Call, Caller, Server
 from roslings.probe.services import read_services

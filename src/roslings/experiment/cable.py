@@ -11,7 +11,8 @@ from roslings.course import TopicContract
 from roslings.devices.board import Board, Chunk, Mega
 from roslings.devices.rover import Body, Box, Rover, World
 from roslings.evidence import BoardMark, BoardSeen, CableLine, Endpoint, MotorsSeen
-from roslings.experiment.scene import FIRST_MESSAGE_WITHIN_S, Scene
+from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
+from roslings.experiment.scene import Scene
 from roslings.experiment.start import Start
 from roslings.near import nearest_endpoint
 

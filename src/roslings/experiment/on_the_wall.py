@@ -13,7 +13,7 @@ from roslings.arena import Arena
 from roslings.course import RateContract
 from roslings.evidence import CanarySeen, Endpoint, ExperimentSeen
 from roslings.probe import Probe
-from roslings.rates import NS_PER_S, Rate, measure_rate
+from roslings.rates import LONGEST_STALL_S, MOST_UNEVEN, NS_PER_S, Rate, measure_rate
 
 FIRST_MESSAGE_WITHIN_S = 10.0
 CANARY_WITHIN_S = 20.0
@@ -21,10 +21,6 @@ SHORTEST_PERIODS = 10
 LONGEST_PERIODS = 40
 CANARY_MISSES = 0.5
 """Part of the tolerance by which the canary may miss its rate before nothing is believed."""
-
-MOST_UNEVEN = 0.25
-LONGEST_STALL_S = 0.5
-"""For which this computer may not even run the observer, before a fault is held against a node."""
 
 
 @contextmanager
@@ -50,6 +46,8 @@ class WallWatch:
     arena: Arena
     limit: RateContract
     publisher: Callable[[], Endpoint | None]
+    until: Callable[[Callable[[], bool], float], bool]
+    """Waits for a condition, as long as every process lives."""
     _began: list[dict[str, int]] = field(default_factory=list)
     _judged: int = -1
     _sure: bool = False
@@ -59,8 +57,8 @@ class WallWatch:
         seen = self.probe.seen
         with singing(self.limit.hz, self.arena.domain_id):
             self.probe.listen_to_canary(self.limit.hz)
-            self._until(lambda: bool(self._count()), FIRST_MESSAGE_WITHIN_S)
-            self._until(self._canary_sings, CANARY_WITHIN_S)
+            self.until(lambda: bool(self._count()), FIRST_MESSAGE_WITHIN_S)
+            self.until(self._canary_sings, CANARY_WITHIN_S)
             if self._count():
                 self._watch_rate()
         seen.machine_fault = trouble(seen, self._rate(), self.limit)
@@ -68,8 +66,8 @@ class WallWatch:
     def _watch_rate(self) -> None:
         self._began = [process.waits_ns() for process in self.arena.processes]
         period_s = 1 / self.limit.hz
-        self._until(lambda: False, SHORTEST_PERIODS * period_s)
-        self._until(self._is_sure, (LONGEST_PERIODS - SHORTEST_PERIODS) * period_s)
+        self.until(lambda: False, SHORTEST_PERIODS * period_s)
+        self.until(self._is_sure, (LONGEST_PERIODS - SHORTEST_PERIODS) * period_s)
         if not self._sure and self.arena.all_alive():
             self.probe.note_longest_watch(self._topic())
         self._note_waits()
@@ -104,11 +102,6 @@ class WallWatch:
     def _canary_sings(self) -> bool:
         canary = self.probe.seen.canary
         return canary is not None and len(canary.messages) > 0
-
-    def _until(self, condition: Callable[[], bool], within_s: float) -> bool:
-        """Wait for the condition, as long as every process lives."""
-        self.probe.until(lambda: condition() or not self.arena.all_alive(), within_s)
-        return condition()
 
 
 def longest_wait_s(before_ns: dict[str, int], now_ns: dict[str, int]) -> float:

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from roslings.arena import Arena, Process
 from roslings.course import NodeContract, TopicContract
 from roslings.evidence import Endpoint, ExperimentSeen
-from roslings.experiment.on_the_wall import WallWatch
+from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S, WallWatch
 from roslings.experiment.simulated import (
     IgnoresTheClock,
     NotBelieved,
@@ -24,7 +24,6 @@ from roslings.near import Near, nearest, nearest_endpoint
 from roslings.probe import Probe
 
 COMES_UP_WITHIN_S = 20.0
-FIRST_MESSAGE_WITHIN_S = 10.0
 HEARD_WITHIN_S = 10.0
 AFTER_THE_TURN_S = 1.0
 INTERRUPT_SLACK_S = 1.0
@@ -100,7 +99,7 @@ class Scene:
     def _watch_on_the_wall(self, contract: TopicContract) -> None:
         if contract.rate:
             find = functools.partial(self._publisher, contract)
-            WallWatch(self._probe, self._arena, contract.rate, find).watch()
+            WallWatch(self._probe, self._arena, contract.rate, find, self._until_alive).watch()
         else:
             self._until_alive(lambda: self._heard(contract) > 0, FIRST_MESSAGE_WITHIN_S)
 

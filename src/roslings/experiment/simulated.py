@@ -102,10 +102,8 @@ class SimulatedWatch:
         self.probe.note_longest_watch(self.topic)
 
     def _is_sure(self) -> bool:
-        seen, limit = self.probe.seen, self.limit
-        messages = self.probe.messages(self.topic)
-        place_on_ticks(messages, self.clock.ticks)
-        rate = measure_simulated_rate(messages, self.clock.ticks, seen.segments)
+        limit, segments = self.limit, self.probe.seen.segments
+        rate = measure_simulated_rate(self._placed(), self.clock.ticks, segments)
         limits_hz = (limit.low_hz, limit.high_hz) if limit else ()
         return rate is None or rate.in_groups or rate.clear_of(limits_hz)
 
@@ -199,9 +197,12 @@ class SimulatedWatch:
         return len(self._in(segment))
 
     def _in(self, segment: Segment) -> list[MessageSeen]:
-        messages, ticks = self.probe.messages(self.topic), self.clock.ticks
-        place_on_ticks(messages, ticks)
-        return in_segment(messages, ticks, segment)
+        return in_segment(self._placed(), self.clock.ticks, segment)
+
+    def _placed(self) -> list[MessageSeen]:
+        messages = self.probe.messages(self.topic)
+        place_on_ticks(messages, self.clock.ticks)
+        return messages
 
     def _count(self) -> int:
         return self.probe.count(self.topic)

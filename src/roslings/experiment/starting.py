@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from roslings.course import NodeContract
-from roslings.experiment.scene import FIRST_MESSAGE_WITHIN_S, Scene
+from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
+from roslings.experiment.scene import Scene
 from roslings.near import nearest, own_endpoints
 from roslings.probe.calling import parameters_of
 

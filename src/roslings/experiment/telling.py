@@ -8,7 +8,8 @@ from typing import Any
 from roslings.arena import Process
 from roslings.course import TopicContract
 from roslings.evidence import Endpoint, Spoken
-from roslings.experiment.scene import FIRST_MESSAGE_WITHIN_S, Scene
+from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
+from roslings.experiment.scene import Scene
 from roslings.near import nearest_endpoint
 
 TURNS_WITHIN_S = 3.0

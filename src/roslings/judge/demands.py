@@ -23,11 +23,10 @@ from roslings.judge.views import (
 )
 from roslings.judge.words import describe_status
 from roslings.near import own_endpoints
-from roslings.rates import Rate
+from roslings.rates import LONGEST_STALL_S, Rate
 
 FEWEST_MESSAGES = 5
 SIMILAR_LINE = 0.5
-LONGEST_STALL_S = 0.5
 Asked = TypeVar("Asked")
 
 

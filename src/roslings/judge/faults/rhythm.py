@@ -6,10 +6,7 @@ import statistics
 from dataclasses import dataclass
 
 from roslings.judge.faults.base import Fault
-from roslings.rates import Rate
-
-MOST_UNEVEN = 0.25
-"""A quarter of the periods may be odd: a busy machine delays single messages, not every one."""
+from roslings.rates import MOST_UNEVEN, Rate
 
 STALL = 1.5
 """A period that is longer than the usual one by this factor holds a stall."""
