@@ -31,6 +31,7 @@ from roslings.judge.cable import (
     hold_its_fields,
     keep_still,
     know_the_way,
+    outlast_silence,
     send_good_lines,
     stop_by_itself,
     tell_every_line,
@@ -44,6 +45,7 @@ WHEELS, ODOM = BRIDGE.publishes
 CMD_VEL = BRIDGE.subscribes[0]
 STRAIGHT, TURN, ARC = (0.3, 0.0), (0.0, 1.2), (0.25, -0.8)
 """The motions of the test drive: metres a second forward, radians a second to the left."""
+SILENCE_S = 30.0
 
 
 # --- experiments: run the node beside a board --------------------------------------------------
@@ -63,17 +65,26 @@ def driving(scene: Scene) -> None:
 
 @experiment
 def noisy(scene: Scene) -> None:
-    """A bad cable: noise, half lines, wrong checksums, then silence."""
+    """A bad cable: noise, half lines, wrong checksums."""
     with board_beside(scene) as cable, scene.run(BRIDGE, start=cable.start()):
         cable.await_messages(WHEELS, 10)
         spoiler = cable.board.to_host
         spoiler.noise, spoiler.half_lines, spoiler.wrong_checksums = 0.01, 0.2, 0.2
         cable.drive("noise", CMD_VEL, *ARC, for_s=3.0)
         spoiler.noise = spoiler.half_lines = spoiler.wrong_checksums = 0.0
-        spoiler.silent = True
-        cable.live(for_s=1.0)
-        spoiler.silent = False
         cable.mark("good again")
+        cable.await_messages(WHEELS, 20)
+
+
+@experiment(alongside=True)
+def silent(scene: Scene) -> None:
+    """Half a minute in which the board says nothing."""
+    with board_beside(scene) as cable, scene.run(BRIDGE, start=cable.start()):
+        cable.await_messages(WHEELS, 10)
+        cable.board.to_host.silent = True
+        cable.live(for_s=SILENCE_S)
+        cable.board.to_host.silent = False
+        cable.mark("speaks again")
         cable.await_messages(WHEELS, 20)
 
 
@@ -232,6 +243,13 @@ def test_bad_lines(noisy: ExperimentView) -> None:
     """On a noisy cable, no wrong line becomes a message."""
     noisy.process(BRIDGE).must(stay_up)
     noisy.topic(WHEELS).must(tell_nothing_else(noisy))
+
+
+@check(needs=["wheel_topic"])
+def test_silence(silent: ExperimentView) -> None:
+    """When the board was silent for {SILENCE_S:g} s, the node goes on with its next line."""
+    silent.process(BRIDGE).must(come_up, stay_up)
+    silent.topic(WHEELS).must(outlast_silence(silent, "speaks again", SILENCE_S))
 
 
 @check(needs=["wheel_topic"])

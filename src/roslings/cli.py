@@ -161,6 +161,10 @@ def check_options(word: argparse.ArgumentParser) -> None:
         "--seed", metavar="N", type=int, help="repeat the random choices of a verdict"
     )
     word.add_argument(
+        "--port", metavar="DEVICE", type=Path,
+        help="use the real board on this serial port, for example /dev/ttyACM0",
+    )  # fmt: skip
+    word.add_argument(
         "--hint", metavar="STEP", type=int, choices=(1, 2, 3), nargs="?", const=1,
         help="a hint for what your last check found: 1 where, 2 which idea, 3 other code",
     )  # fmt: skip
@@ -192,7 +196,7 @@ def watch_options(word: argparse.ArgumentParser) -> None:
     package_options(word)
     word.set_defaults(
         solution=False, json=None, html=None, evidence=None, only=None, seed=None, hint=None,
-        clock="auto",
+        clock="auto", port=None,
     )  # fmt: skip
 
 

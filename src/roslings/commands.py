@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING
 from roslings import course
 from roslings.cli import EXIT_OF_OUTCOME, FAILED, INCONCLUSIVE, OK, WRONG_USE
 from roslings.course import CourseError, Lab
-from roslings.experiment.declare import Clock
 from roslings.report import (
     BadEvidence,
     BadVerdictFile,
@@ -28,6 +27,7 @@ from roslings.workspace.student import package_of, workspace_root
 from roslings.workspace.trouble import MachineTrouble, WorkspaceError, shown
 
 if TYPE_CHECKING:
+    from roslings.experiment import Choices
     from roslings.saving import Graded
 
 SEEDS = 10**9
@@ -60,6 +60,7 @@ def exit_code_of(error: Exception) -> int | None:
 
 def check(options: argparse.Namespace) -> int:
     """Run what the student built, and say what to do next."""
+    from roslings.experiment import Choices
     from roslings.saving import NothingToSave, place_for_bags
 
     lab = course.lab(options.lab)
@@ -69,8 +70,11 @@ def check(options: argparse.Namespace) -> int:
         return _show(_read(_kept(lab)), options)
     package = lab.solution if options.solution else package_of(lab, options.path)
     quiet = _is_stdout(options.json)
+    _try_port(lab, options.port)
     with place_for_bags(options.evidence, package) as bags:
-        graded = grade(lab, package, options.seed, options.clock, quiet, bags)
+        seed = random.SystemRandom().randrange(SEEDS) if options.seed is None else options.seed
+        choices = Choices(seed, options.clock, bags, options.port)
+        graded = grade(lab, package, choices, quiet)
         if not options.solution:
             _keep(lab, graded.verdict)
         code = _show(graded.verdict, options)
@@ -78,15 +82,20 @@ def check(options: argparse.Namespace) -> int:
     return code
 
 
-def grade(
-    lab: Lab,
-    package: Path,
-    seed: int | None = None,
-    clock: Clock = "auto",
-    quiet: bool = False,
-    bags: Path | None = None,
-) -> Graded:
-    """Measure a package and judge what was seen; what was said goes to the new folder `bags`."""
+def _try_port(lab: Lab, port: Path | None) -> None:
+    """A real board is tried before anything is built."""
+    if port is None:
+        return
+    from roslings.devices.board.attached import LabHasNoBoard, try_port
+
+    if not lab.card.board:
+        raise LabHasNoBoard(lab.name)
+    try_port(port)
+    print("The wheels will turn: put the rover on a stand, wheels in the air.", file=sys.stderr)
+
+
+def grade(lab: Lab, package: Path, choices: Choices, quiet: bool = False) -> Graded:
+    """Measure a package and judge what was seen."""
     from roslings.experiment import measure
     from roslings.judge import judge
     from roslings.report import Progress
@@ -97,8 +106,7 @@ def grade(
     with Progress(quiet=quiet) as progress:
         progress.step(f"Reading {shown(package)}")
         files = inspect_package(package, lab.card)
-        chosen = random.SystemRandom().randrange(SEEDS) if seed is None else seed
-        evidence = measure(lab.name, package, files, chosen, progress.step, clock, bags)
+        evidence = measure(lab.name, package, files, choices, progress.step)
         progress.step("Judging what was seen")
         return Graded(lab, judge(lab, evidence, time.monotonic() - began_s), evidence)
 

@@ -10,7 +10,7 @@ import pytest
 from roslings import course
 from roslings.course import Lab, lab
 from roslings.evidence import Evidence
-from roslings.experiment import measure
+from roslings.experiment import Choices, measure
 from roslings.judge import BadGrader, judge
 from roslings.verdict import Verdict
 from roslings.workspace.inspect import inspect_package
@@ -21,7 +21,7 @@ def evidence() -> Evidence:
     """What was seen of a real run of the solution."""
     topics = lab("topics")
     files = inspect_package(topics.solution, topics.card)
-    return measure("topics", topics.solution, files, 1, lambda step: None)
+    return measure("topics", topics.solution, files, Choices(seed=1), lambda step: None)
 
 
 @pytest.fixture

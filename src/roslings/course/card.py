@@ -182,6 +182,7 @@ class Card(Contract):
     launch: LaunchContract | None = None
     ends_within_s: float = Field(default=2.0, gt=0, description="After Ctrl-C")
     pictures: tuple[PictureContract, ...] = ()
+    board: bool = Field(default=False, description="A node talks to a board on a serial port")
     points: dict[str, float] = Field(description="Check's name to its points")
     not_judged: tuple[str, ...] = Field(default=(), description="What the student is free in")
 

@@ -5,10 +5,11 @@ behind the wall that the machine allows, so that no fault in there reaches the c
 """
 
 from roslings.experiment.declare import Experiment, experiment, experiments_of
-from roslings.experiment.measure import MeasuringFailed, measure
+from roslings.experiment.measure import Choices, MeasuringFailed, measure
 from roslings.experiment.scene import Scene, mending
 
 __all__ = [
+    "Choices",
     "Experiment",
     "MeasuringFailed",
     "Scene",

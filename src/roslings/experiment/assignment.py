@@ -22,6 +22,8 @@ class Assignment(BaseModel):
     """The run's own folder: the staged source, the build, the nodes' home, the evidence."""
     package: PackageSeen
     keeps_bags: bool = False
+    port: Path | None = None
+    """Where a real board is, when it is to take the place of the one in Python."""
 
     @property
     def file(self) -> Path:

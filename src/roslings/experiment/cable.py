@@ -6,9 +6,11 @@ import math
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 
 from roslings.course import TopicContract
 from roslings.devices.board import Board, Chunk, Mega
+from roslings.devices.board.attached import AttachedBoard
 from roslings.devices.rover import Body, Box, Rover, World
 from roslings.evidence import BoardMark, BoardSeen, CableLine, Endpoint, MotorsSeen
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
@@ -33,27 +35,42 @@ def board_beside(
 ) -> Iterator[Cable]:
     """A rover's board in real time, on an empty floor; the node finds it by a parameter.
 
+    Where the scene has the port of a real board, that one takes its place.
+    Raises DeviceTrouble when a board ends that should have lived.
+
     >>> with board_beside(scene) as cable, scene.run(BRIDGE, start=cable.start()):
     ...     cable.drive("straight", CMD_VEL, forward_m_s=0.3, for_s=1.5)
     """
-    mega = Mega(Rover(FLOOR, body=body or Body()))
-    with Board(mega) as board:
+    with _chip(scene.port, body or Body()) as chip, Board(chip) as board:
         if not plugged_in:
             board.unplug()
         with board.running():
-            cable = Cable(scene, board, mega, parameter)
+            cable = Cable(scene, board, chip, parameter)
             try:
                 yield cable
             finally:
                 cable.write_down()
+        if board.trouble:
+            raise board.trouble
+
+
+@contextmanager
+def _chip(port: Path | None, body: Body) -> Iterator[Mega | AttachedBoard]:
+    if port is None:
+        yield Mega(Rover(FLOOR, body=body))
+    else:
+        with AttachedBoard(port, body) as attached:
+            yield attached
 
 
 class Cable:
     """The board, its cable, and the voice that tells the node where to drive."""
 
-    def __init__(self, scene: Scene, board: Board, mega: Mega, parameter: str) -> None:
+    def __init__(
+        self, scene: Scene, board: Board, chip: Mega | AttachedBoard, parameter: str
+    ) -> None:
         self.board = board
-        self._scene, self._mega, self._parameter = scene, mega, parameter
+        self._scene, self._chip, self._parameter = scene, chip, parameter
         self.seen = BoardSeen()
         self._never_heard = 0
         """Lines that the board told before the node was there."""
@@ -114,7 +131,7 @@ class Cable:
 
     def mark(self, part: str) -> None:
         """Write down how things really are now."""
-        truth = self._mega.truth
+        truth = self._chip.truth
         self.seen.marks.append(
             BoardMark(
                 part=part,
@@ -144,22 +161,24 @@ class Cable:
         """Put what the board and its cable saw into the evidence."""
         self.seen.told = lines_of(self.board.told)
         self.seen.heard = lines_of(self.board.heard)
-        self.seen.rejected = self._mega.counts.rejected
+        self.seen.rejected = self._chip.counts.rejected
         self.seen.lost_bytes = self.board.lost_bytes
         self.seen.motors = [
             MotorsSeen(board_s=a.time_s, left_pwm=a.left_pwm, right_pwm=a.right_pwm)
-            for a in self._mega.applied
+            for a in self._chip.applied
         ]
 
     @property
     def _now_s(self) -> float:
-        return self._mega.truth.time_s
+        return self._chip.truth.time_s
 
     def _lives(self) -> bool:
-        return all(seen.ended_ns is None for seen in self._scene.seen.processes.values())
+        return self.board.trouble is None and all(
+            seen.ended_ns is None for seen in self._scene.seen.processes.values()
+        )
 
     def _stands(self) -> bool:
-        truth = self._mega.truth
+        truth = self._chip.truth
         speeds = (abs(truth.left_rad_s), abs(truth.right_rad_s))
         return max(speeds) < STANDS_RAD_S and truth.left_pwm == truth.right_pwm == 0
 

@@ -24,6 +24,8 @@ class Experiment:
     function: Callable[..., None]
     clock: Literal["auto", "wall"] = "wall"
     """`auto` where it makes sense in simulated time as well; most experiments do not."""
+    alongside: bool = False
+    """It mostly waits, so it runs beside the others, in an arena of its own."""
 
     @property
     def about(self) -> str:
@@ -41,10 +43,13 @@ class Experiment:
 def experiment(function: Callable[..., None]) -> Experiment: ...
 @overload
 def experiment(
-    *, clock: Literal["auto", "wall"]
+    *, clock: Literal["auto", "wall"] = "wall", alongside: bool = False
 ) -> Callable[[Callable[..., None]], Experiment]: ...
 def experiment(
-    function: Callable[..., None] | None = None, *, clock: Literal["auto", "wall"] = "wall"
+    function: Callable[..., None] | None = None,
+    *,
+    clock: Literal["auto", "wall"] = "wall",
+    alongside: bool = False,
 ) -> Experiment | Callable[[Callable[..., None]], Experiment]:
     """Make a function of a grader's file an experiment.
 
@@ -55,7 +60,7 @@ def experiment(
     """
 
     def declare(function: Callable[..., None]) -> Experiment:
-        return Experiment(function.__name__, function, clock)
+        return Experiment(function.__name__, function, clock, alongside)
 
     return declare(function) if function else declare
 

@@ -7,6 +7,7 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 
 from roslings.arena import choose_isolation
@@ -30,25 +31,31 @@ class MeasuringFailed(Exception):
         super().__init__(f"The measurement broke off (status {status}).\n{last_words}".rstrip())
 
 
+@dataclass(frozen=True)
+class Choices:
+    """How to measure."""
+
+    seed: int
+    """Of all that a student cannot know before: sentences, distances, goals."""
+    clock: Clock = "auto"
+    bags: Path | None = None
+    """A new folder for what was said, one bag an experiment."""
+    port: Path | None = None
+    """The serial port of a real board, in place of the one in Python."""
+
+
 def measure(
-    lab: str,
-    package: Path,
-    seen: PackageSeen,
-    seed: int,
-    on_step: Callable[[str], None],
-    clock: Clock = "auto",
-    bags: Path | None = None,
+    lab: str, package: Path, seen: PackageSeen, choices: Choices, on_step: Callable[[str], None]
 ) -> Evidence:
     """Build and run the package at `package`; `on_step` is told what happens.
 
-    `bags` is a new folder for what was said, one bag an experiment.
     Raises MeasuringFailed, and whatever staging a copy of the package raises.
     """
     with run_folder() as folder:
         wall = choose_isolation()
         assignment = Assignment(
-            lab=lab, seed=seed, wall=wall.wall, clock=clock, folder=folder, package=seen,
-            keeps_bags=bags is not None,
+            lab=lab, seed=choices.seed, wall=wall.wall, clock=choices.clock, folder=folder,
+            package=seen, keeps_bags=choices.bags is not None, port=choices.port,
         )  # fmt: skip
         assignment.home.mkdir()
         stage(package, folder / "src" / seen.name)
@@ -56,8 +63,8 @@ def measure(
         module = [sys.executable, "-m", "roslings.experiment.measuring", str(assignment.file)]
         _follow(wall.command(module), folder, on_step)
         evidence = Evidence.model_validate_json(assignment.evidence.read_text("utf-8"))
-        if bags is not None and assignment.bags.is_dir():
-            shutil.copytree(assignment.bags, bags)
+        if choices.bags is not None and assignment.bags.is_dir():
+            shutil.copytree(assignment.bags, choices.bags)
     if wall.because:
         evidence.advice.append(f"Measured without a network of its own: {wall.because}.")
     return evidence

@@ -11,14 +11,17 @@ import os
 import signal
 import sys
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from contextlib import contextmanager
+from dataclasses import dataclass, field
 from pathlib import Path
 from types import FrameType
 from typing import Literal
 
 from roslings.arena import Installed, kernel, opened, ros_environment
 from roslings.course import lab
+from roslings.devices.trouble import DeviceTrouble
 from roslings.evidence import BuildSeen, Evidence, ExperimentSeen
+from roslings.experiment.alongside import Alongside
 from roslings.experiment.assignment import Assignment
 from roslings.experiment.declare import Experiment, experiments_of, load_grader
 from roslings.experiment.machine import look_at_machine
@@ -43,7 +46,10 @@ def main(path: Path) -> None:
     assignment = Assignment.model_validate_json(path.read_text("utf-8"))
     os.environ.update(ros_environment(assignment.wall))
     os.environ["ROS_LOG_DIR"] = str(assignment.home / "log")  # not in the student's ~/.ros
-    evidence = measure_here(assignment)
+    try:
+        evidence = measure_here(assignment)
+    except DeviceTrouble as trouble:
+        sys.exit(str(trouble))
     assignment.evidence.write_text(evidence.model_dump_json(by_alias=True), "utf-8")
 
 
@@ -65,14 +71,29 @@ def measure_here(assignment: Assignment) -> Evidence:
     )
     if installed:
         stage = Stage(installed, assignment, task.card.ends_within_s)
-        for number, each in enumerate(experiments_of(load_grader(task.grader))):
-            say(f"Watching: {each.about}")
-            earlier = [evidence.experiments[name] for name in each.needs]
-            *attempts, last = stage.runs_of(each, number, earlier)
-            evidence.experiments[each.name] = last
-            evidence.attempts.extend(attempts)
+        _run_all(stage, experiments_of(load_grader(task.grader)), evidence)
     evidence.advice.extend(advice_on_clocks(evidence))
     return evidence
+
+
+def _run_all(stage: Stage, declared: Sequence[Experiment], evidence: Evidence) -> None:
+    """Run the experiments in their order, beside those that mostly wait."""
+    with Alongside(stage.run_alone, stage.call_off) as alongside:
+        for number, each in enumerate(declared):
+            if stage.runs_alongside(each):
+                say(f"Watching meanwhile: {each.about}")
+                alongside.begin(each, number)
+        for number, each in enumerate(declared):
+            runs = alongside.runs_of(each)
+            if runs is None:
+                say(f"Watching: {each.about}")
+                runs = list(stage.runs_of(each, number, _asked_for(each, evidence)))
+            *attempts, evidence.experiments[each.name] = runs
+            evidence.attempts.extend(attempts)
+
+
+def _asked_for(each: Experiment, evidence: Evidence) -> list[ExperimentSeen]:
+    return [evidence.experiments[name] for name in each.needs]
 
 
 def advice_on_clocks(evidence: Evidence) -> list[str]:
@@ -105,6 +126,21 @@ class Stage:
     installed: Installed
     assignment: Assignment
     ends_within_s: float
+    probes: set[Probe] = field(default_factory=set)
+    """Those that watch now."""
+
+    def runs_alongside(self, each: Experiment) -> bool:
+        """Whether it runs beside others: a real board is there for one at a time."""
+        return each.alongside and self.assignment.port is None
+
+    def run_alone(self, each: Experiment, number: int) -> list[ExperimentSeen]:
+        """Run an experiment that asks for no other's evidence."""
+        return list(self.runs_of(each, number, ()))
+
+    def call_off(self) -> None:
+        """Make all that watch end soon."""
+        for probe in set(self.probes):
+            probe.call_off()
 
     def runs_of(
         self, each: Experiment, number: int, earlier: Sequence[ExperimentSeen]
@@ -135,12 +171,22 @@ class Stage:
         with (
             opened(self.installed, wall, self.assignment.home) as arena,
             Probe(arena.domain_id, seen, large_bytes=large_bytes) as probe,
+            self._watching(probe),
         ):
-            scene = Scene(arena, probe, self.assignment.seed + number, self.ends_within_s)
+            seed, port = self.assignment.seed + number, self.assignment.port
+            scene = Scene(arena, probe, seed, self.ends_within_s, port)
             each.function(scene, *earlier)
         if self.assignment.keeps_bags:
             write_bag(fresh_folder(self.assignment.bags / each.name), seen, probe.recorders)
         return seen
+
+    @contextmanager
+    def _watching(self, probe: Probe) -> Iterator[None]:
+        self.probes.add(probe)
+        try:
+            yield
+        finally:
+            self.probes.discard(probe)
 
 
 def say(step: str) -> None:

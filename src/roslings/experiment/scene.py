@@ -8,6 +8,7 @@ import time
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 
 from roslings.arena import Arena, Process
 from roslings.course import NodeContract, TopicContract
@@ -32,8 +33,16 @@ INTERRUPT_SLACK_S = 1.0
 class Scene:
     """One experiment: an arena where nodes run, and a probe that watches them."""
 
-    def __init__(self, arena: Arena, probe: Probe, seed: int, ends_within_s: float) -> None:
-        """The clock is the one that `probe.seen` names."""
+    def __init__(
+        self,
+        arena: Arena,
+        probe: Probe,
+        seed: int,
+        ends_within_s: float,
+        port: Path | None = None,
+    ) -> None:
+        """The clock is the one that `probe.seen` names; `port` leads to a real board."""
+        self.port = port
         self._simulated = probe.seen.clock == "sim"
         self._arena = arena
         self._probe = probe

@@ -88,6 +88,16 @@ def tell_nothing_else(experiment: ExperimentView) -> Demand[TopicView]:
     return demand
 
 
+def outlast_silence(experiment: ExperimentView, part: str, silence_s: float) -> Demand[TopicView]:
+    """Messages come after the mark `part`, at which a silence of the board was over."""
+
+    def demand(topic: TopicView) -> None:
+        if not _went_on(experiment, topic, part):
+            raise cable_faults.GaveUpInSilence(f"{silence_s:g} s of silence", topic.name)
+
+    return demand
+
+
 def come_back(part: str, after: str) -> Demand[ExperimentView]:
     """Messages come again; `part` is the mark that was set when they did."""
 

@@ -33,6 +33,10 @@ MOST_LOG_LINES = 2000
 Condition = Callable[[], bool]
 
 
+class CalledOff(BaseException):
+    """Nobody wants to know any more: leave every block, and end what was started."""
+
+
 class Probe:
     """Watches one ROS domain and writes what it sees into an `ExperimentSeen`.
 
@@ -54,6 +58,7 @@ class Probe:
         self._publishers: dict[str, Any] = {}
         self._changed = threading.Condition()
         self._closing = threading.Event()
+        self._called_off = False
 
     def __enter__(self) -> Probe:
         import rclpy
@@ -108,9 +113,12 @@ class Probe:
         """Watch until `condition()` is true, at most `within_s`. Whether it became true.
 
         The graph is read at every look, and each new topic is recorded from then on.
+        Raises CalledOff when another thread has called this watch off.
         """
         deadline_s = time.monotonic() + within_s
         while True:
+            if self._called_off:
+                raise CalledOff
             self.look()
             if condition():
                 return True
@@ -119,6 +127,11 @@ class Probe:
                 return False
             with self._changed:
                 self._changed.wait(min(LOOK_EVERY_S, left_s))
+
+    def call_off(self) -> None:
+        """End the watch of another thread: it raises CalledOff there."""
+        self._called_off = True
+        self.notify()
 
     def look(self) -> GraphSeen:
         """Read the graph once, and start to record what is new in it.

@@ -143,6 +143,14 @@ class SilentAfter(Fault):
 
 
 @dataclass(eq=False)
+class GaveUpInSilence(SilentAfter):
+    """The board was silent for long, and the node stopped to listen."""
+
+    why = "A board that starts anew, or works for long, says nothing. Its next line counts again."
+    hint = "An empty read is no error: go on reading. Close the port only when read() raises one."
+
+
+@dataclass(eq=False)
 class WrongOdometry(Fault):
     """The odometry and the rover went different ways."""
 
