@@ -48,3 +48,35 @@ def test_a_race_inside_rclpy_is_nobodys_fault() -> None:
     """try_shutdown() is the right call; what happens inside it is not the student's."""
     trace = ("Traceback (most recent call last):", "context.py, line 139, in try_shutdown", ALREADY)
     exit_cleanly(ended(1, *trace))
+
+
+EXECUTOR = '  File "/opt/ros/jazzy/lib/python3/rclpy/executors.py", line 834, in _spin_once_impl'
+INVALID = (
+    "rclpy._rclpy_pybind11.RCLError: Failed to publish: publisher's context is invalid,"
+    " at ./src/rcl/publisher.c:423"
+)
+NO_WAIT_SET = (
+    "rclpy._rclpy_pybind11.RCLError: failed to initialize wait set: the given context is not valid,"
+    " either rcl_init() was not called or rcl_shutdown() was called., at ./src/rcl/wait.c:130"
+)
+
+
+@pytest.mark.parametrize("error", [INVALID, NO_WAIT_SET])
+def test_a_context_that_ends_while_the_node_spins_is_nobodys_fault(error: str) -> None:
+    """Both were seen of the code that every tutorial shows, with a quick timer."""
+    exit_cleanly(ended(1, "Traceback (most recent call last):", EXECUTOR, error))
+
+
+def test_publishing_after_ctrl_c_is_the_students_fault() -> None:
+    """A last command in `except KeyboardInterrupt:` fails each time: the context is gone."""
+    after = ("Traceback (most recent call last):", '  File "drive.py", line 9, in main', INVALID)
+    with pytest.raises(UncleanExit):
+        exit_cleanly(ended(1, *after))
+
+
+def test_publishing_while_another_error_is_handled_is_the_students_fault() -> None:
+    """Two tracebacks: the first is Ctrl-C in the executor, the second the student's own."""
+    first = ("Traceback (most recent call last):", EXECUTOR, "KeyboardInterrupt")
+    second = ("Traceback (most recent call last):", '  File "drive.py", line 9, in main', INVALID)
+    with pytest.raises(UncleanExit):
+        exit_cleanly(ended(1, *first, *second))
