@@ -98,10 +98,9 @@ def _asked_for(each: Experiment, evidence: Evidence) -> list[ExperimentSeen]:
 
 def advice_on_clocks(evidence: Evidence) -> list[str]:
     """What a student learns from a run in simulated time that was not believed."""
-    found = []
+    found: list[str] = []
     for seen in evidence.attempts:
-        spoke = any(topic.messages for topic in evidence.experiments[seen.name].topics.values())
-        if seen.ignores_clock and spoke:
+        if seen.ignores_clock and _would_have_spoken(evidence.experiments[seen.name]):
             names = ", ".join(sorted(set(seen.graph.nodes)))
             found.append(
                 f"{names} does not follow simulated time (/clock), so it was watched in real"
@@ -111,7 +110,13 @@ def advice_on_clocks(evidence: Evidence) -> list[str]:
             f"{node} publishes on /clock. That is for a simulator: it sets the time of all nodes."
             for node in clock_publishers(seen)
         ]
-    return found
+    return list(dict.fromkeys(found))
+
+
+def _would_have_spoken(seen: ExperimentSeen) -> bool:
+    """It has something to say, and no error of its own kept it from saying it."""
+    spoke = any(topic.messages for topic in seen.topics.values())
+    return spoke and not any(process.ended_by_itself for process in seen.processes.values())
 
 
 def _build(assignment: Assignment, package: str) -> tuple[BuildSeen, Installed | None]:

@@ -61,7 +61,8 @@ class WallWatch:
             self.until(self._canary_sings, CANARY_WITHIN_S)
             if self._count():
                 self._watch_rate()
-        seen.machine_fault = trouble(seen, self._rate(), self.limit)
+        if self.arena.all_alive() or self._canary_sings():
+            seen.machine_fault = trouble(seen, self._rate(), self.limit)
 
     def _watch_rate(self) -> None:
         self._began = [process.waits_ns() for process in self.arena.processes]

@@ -13,7 +13,8 @@ def list_parameters(scene: Scene, node: NodeContract) -> None:
     """Ask the node, or the one nearest to it, which parameters it has."""
     near = nearest(node.node, scene.seen.graph.nodes)
     if near:
-        names = parameters_of(scene.probe, near.found, FIRST_MESSAGE_WITHIN_S)
+        lives = scene.arena.all_alive
+        names = parameters_of(scene.probe, near.found, FIRST_MESSAGE_WITHIN_S, lives)
         scene.seen.parameters[near.found] = names
 
 

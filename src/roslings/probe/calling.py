@@ -127,14 +127,17 @@ class Server:
         return _filled(response, said)
 
 
-def parameters_of(probe: Probe, node: str, within_s: float) -> list[str]:
+def parameters_of(
+    probe: Probe, node: str, within_s: float, while_true: Callable[[], bool] = lambda: True
+) -> list[str]:
     """The names of a node's parameters, as the node itself lists them; empty without an answer."""
     service, type_ = f"{node}/list_parameters", "rcl_interfaces/srv/ListParameters"
     with Caller(probe, service, type_) as caller:
-        if not probe.until(lambda: caller.ready, within_s):
+        probe.until(lambda: caller.ready or not while_true(), within_s)
+        if not caller.ready:
             return []
         call = caller.send({})
-        call.wait(within_s)
+        call.wait(within_s, while_true)
     return list(call.seen.response["result"]["names"]) if call.seen.response else []
 
 
