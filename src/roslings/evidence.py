@@ -180,6 +180,71 @@ class CallSeen(Record):
     )
 
 
+class ActionEnd(Record):
+    """One side of an action: who performs it, or who may give goals to it."""
+
+    kind: Literal["server", "client"]
+    node: str = Field(description="Full name of the node")
+    action: str
+    type: str = Field(description="e.g. `test_msgs/action/Fibonacci`")
+
+
+class GoalSeen(Record):
+    """One goal of an action: what was asked, what came of it, and when."""
+
+    action: str
+    type: str
+    goal: Any
+    part: str = Field(default="", description="The part of the experiment that it belongs to")
+    id: list[int] = Field(description="The goal's number of 16 bytes; its feedback carries it")
+    sent_ns: int
+    answered_ns: int | None = Field(default=None, description="None where nobody answered")
+    accepted: bool | None = None
+    cancel_sent_ns: int | None = Field(default=None, description="None where it was not cancelled")
+    cancel_answered_ns: int | None = None
+    cancel_accepted: bool | None = None
+    ended_ns: int | None = Field(default=None, description="None where no result came")
+    status: str | None = Field(default=None, description="ROS's word, e.g. `succeeded`")
+    result: Any = None
+    watched_until_ns: int | None = Field(
+        default=None, description="How long the robot was watched after it"
+    )
+    cpu_wait_s: float = Field(
+        default=0.0,
+        description="From the request to cancel on: how long the node was ready to run and the"
+        " processor was not free",
+    )
+
+    @property
+    def feedback_topic(self) -> str:
+        """Where ROS hides the feedback of the action."""
+        return f"{self.action}/_action/feedback"
+
+
+class PoseSeen(Record):
+    """Where a robot really was at a moment."""
+
+    arrival_ns: int = Field(description="Observer's monotonic clock")
+    x_m: float
+    y_m: float
+    heading_rad: float
+
+
+class CommandSeen(Record):
+    """One command that reached a robot."""
+
+    arrival_ns: int
+    forward_m_s: float
+    turn_rad_s: float
+
+
+class DriveSeen(Record):
+    """A drive: how a robot moved, and what it was told."""
+
+    path: list[PoseSeen] = Field(default_factory=list)
+    commands: list[CommandSeen] = Field(default_factory=list)
+
+
 class CableLine(Record):
     """One whole line on a serial cable, without the end of line, as it was sent."""
 
@@ -220,6 +285,98 @@ class BoardSeen(Record):
     lost_bytes: int = Field(default=0, description="Sent by the board, and read too late")
 
 
+class ParameterSet(Record):
+    """One try to set a node's parameter while it ran."""
+
+    node: str
+    name: str
+    value: bool | int | float | str
+    asked_ns: int = Field(description="Observer's monotonic clock")
+    answered_ns: int | None = Field(default=None, description="None where no answer came")
+    accepted: bool = False
+    reason: str = Field(default="", description="Why it was refused, in the node's words")
+
+
+class PixelsSeen(Record):
+    """What the bytes of one picture held; the bytes themselves are not kept."""
+
+    bytes: int
+    level: float | None = Field(
+        default=None, description="Mean of all values, 0 to 255; None where they cannot be read"
+    )
+    shows: int | None = Field(default=None, description="Which known picture is most like it")
+    off: float | None = Field(default=None, description="Mean distance from that one, in levels")
+    swapped_off: float | None = Field(
+        default=None, description="The same, with red and blue exchanged"
+    )
+    round_off: float | None = Field(
+        default=None,
+        description="Its distance where values beyond 0 and 255 came out at the other end, or with"
+        " the other sign; looked at where `off` is large",
+    )
+    lighter: float = Field(default=0.0, description="Levels added to the known picture before")
+    marked: float | None = Field(
+        default=None, description="Part of the pixels around the ball that were drawn over"
+    )
+    spoiled: float | None = Field(
+        default=None, description="Part of all other pixels that were changed"
+    )
+
+
+class DiscShown(Record):
+    """A ball in a picture, from the upper left corner."""
+
+    x_px: float
+    y_px: float
+    radius_px: float
+    hue: int
+
+
+class PictureShown(Record):
+    """One picture that the grader showed to a node, without its pixels."""
+
+    part: str
+    topic: str
+    width: int
+    height: int
+    encoding: str
+    step: int
+    bytes: int
+    stamp_ns: int
+    frame_id: str
+    ball: DiscShown | None = None
+    decoy: DiscShown | None = Field(default=None, description="A ball of another colour")
+    sent_ns: int = Field(default=0, description="Observer's monotonic clock, at the first try")
+    until_ns: int = Field(default=0, description="How long its answer was waited for")
+    tries: int = Field(default=0, description="How often it was sent: some are lost on the way")
+    answered: bool = Field(default=False, description="The node published something after it")
+    turned: bool = Field(default=False, description="The node's callbacks ran after it")
+
+
+class StageMark(Record):
+    """The moment at which a part of an experiment began."""
+
+    part: str
+    at_ns: int = Field(description="Observer's monotonic clock")
+
+
+class PictureKept(Record):
+    """A picture for the reader of the report; bounded, so that evidence stays small."""
+
+    title: str
+    caption: str = Field(description="What it shows, in words")
+    png: str = Field(description="A PNG, in base64", pattern=r"^[A-Za-z0-9+/=]+$")
+    width: int
+    height: int
+
+
+class WaySeen(Record):
+    """Where something went, on the floor."""
+
+    name: str
+    points_m: list[tuple[float, float]] = Field(description="x and y, metres")
+
+
 class ExperimentSeen(Record):
     """One experiment: the processes it ran, and all that was seen while they ran."""
 
@@ -238,10 +395,19 @@ class ExperimentSeen(Record):
     services: list[ServiceEnd] = Field(default_factory=list)
     calls: list[CallSeen] = Field(default_factory=list, description="Made by the grader")
     served: list[CallSeen] = Field(default_factory=list, description="Answered by the grader")
+    actions: list[ActionEnd] = Field(default_factory=list)
+    goals: list[GoalSeen] = Field(default_factory=list, description="Given by the grader")
+    orders: list[GoalSeen] = Field(default_factory=list, description="Given to the grader")
+    drive: DriveSeen | None = Field(default=None, description="The robot, where there was one")
     board: BoardSeen | None = Field(default=None, description="The board, where there was one")
     parameters: dict[str, list[str]] = Field(
         default_factory=dict, description="Node to the names of its parameters"
     )
+    parameter_sets: list[ParameterSet] = Field(default_factory=list)
+    shown: list[PictureShown] = Field(default_factory=list, description="By the grader")
+    stages: list[StageMark] = Field(default_factory=list)
+    pictures: list[PictureKept] = Field(default_factory=list)
+    ways: list[WaySeen] = Field(default_factory=list)
     stuck: list[str] = Field(
         default_factory=list, description="Nodes that ran, and whose callbacks ran no more"
     )

@@ -151,3 +151,15 @@ def test_settings_for_pip_that_lead_astray_do_not(ready: CourseCopy, tmp_path: P
     astray = {"PIP_TARGET": str(tmp_path / "astray"), "PIP_USER": "1", "PYTHONPATH": os.devnull}
     assert "draw_x" in ready.run("graph", **astray).seen["has"]
     assert not (tmp_path / "astray").exists()
+
+
+def test_a_lab_may_need_more_groups_than_its_command(ready: CourseCopy) -> None:
+    """Its card says so; the check of another lab installs no more than before."""
+    for lab, line in {"arm": "groups: [graph, ros2]  # both", "leg": "title: groups"}.items():
+        (ready.root / "labs" / lab).mkdir(parents=True)
+        (ready.root / "labs" / lab / "card.yaml").write_text(f"id: {lab}\n{line}\n")
+    assert ready.run("check", "leg", "--only", "x").seen["has"] == ["ros_x", "col_x", "check_x"]
+    assert ready.run("regrade", "arm", "kept").seen["has"] == ["ros_x", "col_x", "check_x"]
+    more = ready.run("check", "--solution", "arm")
+    assert more.seen["has"] == ["ros_x", "col_x", "check_x", "draw_x", "bag_x"]
+    assert ready.run("watch", "arm", "graph").err == ""

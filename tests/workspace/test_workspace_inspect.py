@@ -165,6 +165,16 @@ def test_imports_are_found_where_they_stand(package: Path, card: Card) -> None:
     assert seen.imported["sensor_msgs"] == "chatter/deep/more.py:4"
 
 
+def test_libraries_that_no_ros_package_brings_have_names_of_their_own(
+    package: Path, card: Card
+) -> None:
+    """OpenCV and pyserial, as rosdep calls them."""
+    (package / "chatter" / "more.py").write_text("import cv2\nfrom serial import Serial\n")
+    seen = look(package, card)
+    assert seen.imported["python3-opencv"] == "chatter/more.py:1"
+    assert seen.imported["python3-serial"] == "chatter/more.py:2"
+
+
 def test_nothing_of_the_package_is_run(package: Path, card: Card, tmp_path: Path) -> None:
     """Not setup.py, not a module, not at import."""
     trap = f"open({str(tmp_path / 'trap')!r}, 'w')\n"

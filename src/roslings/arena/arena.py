@@ -53,6 +53,11 @@ class Arena:
             self.processes.append(process)
             yield process
 
+    @property
+    def home(self) -> Path:
+        """The processes' home folder, gone when the run ends."""
+        return self._home
+
     def all_alive(self) -> bool:
         """Every process that was started still runs."""
         return all(process.alive for process in self.processes)

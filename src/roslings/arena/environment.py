@@ -85,7 +85,8 @@ def _prefixes(inherited: str, hidden_package: str | None) -> str:
 
 
 def _python_path() -> dict[str, str]:
-    """An apt installation reaches Python through PYTHONPATH; keep only ROS's part of it."""
-    parts = os.environ.get("PYTHONPATH", "").split(os.pathsep)
-    ours = [part for part in parts if part and (Path(part) / "rclpy").is_dir()]
+    """An apt installation reaches Python through PYTHONPATH; keep only ROS's part and ours."""
+    parts = [Path(part) for part in os.environ.get("PYTHONPATH", "").split(os.pathsep) if part]
+    kept = [p for p in parts if (p / "rclpy").is_dir() or p.is_relative_to(sys.prefix)]
+    ours = [str(part) for part in kept]
     return {"PYTHONPATH": os.pathsep.join(ours)} if ours else {}

@@ -32,18 +32,27 @@ class NoFreeDomain(Exception):
 @contextmanager
 def leased_domain() -> Iterator[int]:
     """A domain id of one's own, until the block ends. Raises NoFreeDomain."""
-    busy = _domains_in_use() | _own_domain()
+    busy = domains_in_use() | _own_domain()
     candidates = [domain for domain in SAFE_DOMAINS if domain not in busy]
     random.SystemRandom().shuffle(candidates)
     for domain in candidates:
-        with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as lease:
-            try:
-                lease.bind(("127.0.0.1", LEASE_PORT_BASE + domain))
-            except OSError:
-                continue
-            yield domain
+        held = lease(domain)
+        if held is not None:
+            with held:
+                yield domain
             return
     raise NoFreeDomain
+
+
+def lease(domain: int) -> socket.socket | None:
+    """This domain, for as long as the socket is open; None where somebody else has it."""
+    held = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+    try:
+        held.bind(("127.0.0.1", LEASE_PORT_BASE + domain))
+    except OSError:
+        held.close()
+        return None
+    return held
 
 
 def _own_domain() -> set[int]:
@@ -52,7 +61,7 @@ def _own_domain() -> set[int]:
     return {int(text)} if text.isdecimal() else set()
 
 
-def _domains_in_use() -> set[int]:
+def domains_in_use() -> set[int]:
     """Domains of nodes that run here: DDS listens on UDP port 7400 + 250 * domain and above."""
     try:
         lines = Path("/proc/net/udp").read_text("ascii").splitlines()[1:]

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from roslings.bootstrap import sizes
 from roslings.bootstrap.installing import TOOLS, Installer
+from roslings.bootstrap.interfaces import GROUP, Interfaces
 from roslings.bootstrap.lock import locked
 from roslings.bootstrap.machine import require_wheels, this_machine
 from roslings.bootstrap.packages import forget_damaged
@@ -94,20 +95,25 @@ class _Work:
         self.virtual.moved_from(old / self.place.name)
         self.virtual.see(self.place.root)
         if self.virtual.runs() and not forget_damaged(self.virtual.site):
+            if GROUP in groups:
+                self._interfaces().name_headers()
             self.record.write(groups, self._installer().libraries())
 
     def _make(self) -> None:
         started_s = time.monotonic()
+        if GROUP in self.wish.groups:
+            self._interfaces().require_compiler()
         if not self.virtual.runs():
             self._start_anew()
         elif not self.record.complete:
             say("The last set-up was interrupted. Mending it.")
             forget_damaged(self.virtual.site)
         self.virtual.see(self.place.root)
+        groups = {*self.record.groups, *self.wish.groups}
         self._install(self._to_install())
-        self.record.write(
-            {TOOLS, *self.record.groups, *self.wish.groups}, self._installer().libraries()
-        )
+        if GROUP in groups:
+            self._interfaces().build()
+        self.record.write({TOOLS, *groups}, self._installer().libraries())
         say(f"The environment is ready, after {time.monotonic() - started_s:.0f} s.\n")
 
     def _start_anew(self) -> None:
@@ -124,7 +130,7 @@ class _Work:
     def _from_ros(self) -> set[str]:
         if not self.ros:
             return set()
-        return {"ros", "colcon"} if shutil.which("colcon") else {"ros"}
+        return {"ros", GROUP, "colcon"} if shutil.which("colcon") else {"ros", GROUP}
 
     def _install(self, groups: Sequence[str]) -> None:
         installer = self._installer()
@@ -153,6 +159,9 @@ class _Work:
         total_mb = sizes.megabytes(sys.version_info[:2], groups)
         self._installer().fetch(packages, self.place.wheels, total_mb)
         return self.place.wheels
+
+    def _interfaces(self) -> Interfaces:
+        return Interfaces(self.place, self.virtual, sourced=self.ros is not None)
 
     def _installer(self) -> Installer:
         return Installer(self.place, self.virtual, self.wheels, sees_path=self.ros is not None)

@@ -4,6 +4,7 @@
     constraints.txt   the pins it was installed from, and pyproject.toml its groups
     groups/NAME       an empty file for each group that is installed
     libraries         what LD_LIBRARY_PATH needs for the ROS wheels; empty without them
+    interfaces/       the sources of the labs' own message types, as they were built
 
 The script `./roslings` reads the same files. A record is there only while all of it is true: it
 is put aside before the first change and comes back, in one step, after the last.
@@ -16,6 +17,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
+from roslings.bootstrap.interfaces import GROUP, files_of
 from roslings.bootstrap.place import Place
 
 
@@ -58,11 +60,15 @@ class Record:
             self.complete
             and self.groups >= set(groups)
             and all(self._same(file) for file in (self.place.constraints, self.place.pyproject))
+            and (GROUP not in groups or self._types_stand())
         )
 
+    def _types_stand(self) -> bool:
+        kept = self._folder / GROUP
+        return all(_alike(file, kept / name) for name, file in files_of(self.place.root))
+
     def _same(self, file: Path) -> bool:
-        copy = self._folder / file.name
-        return copy.is_file() and filecmp.cmp(file, copy, shallow=False)
+        return _alike(file, self._folder / file.name)
 
     def put_aside(self) -> None:
         """From here to `write`, the environment counts as unfinished."""
@@ -75,13 +81,25 @@ class Record:
         new = self.place.environment / "roslings.new"
         shutil.rmtree(new, ignore_errors=True)
         (new / "groups").mkdir(parents=True)
+        groups = set(groups)
         for group in groups:
             (new / "groups" / group).touch()
         for file in (self.place.constraints, self.place.pyproject):
             shutil.copyfile(file, new / file.name)
+        if GROUP in groups:
+            self._keep_types(new / GROUP)
         (new / "home").write_text(f"{self.place.root}\n")
         (new / "libraries").write_text(":".join(map(str, libraries)) + "\n")
         os.sync()  # after a power cut, a record must not outlive the files it speaks of
         self.put_aside()
         new.rename(self._folder)
         shutil.rmtree(self._aside, ignore_errors=True)
+
+    def _keep_types(self, folder: Path) -> None:
+        for name, file in files_of(self.place.root):
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(file, folder / name)
+
+
+def _alike(file: Path, copy: Path) -> bool:
+    return copy.is_file() and filecmp.cmp(file, copy, shallow=False)

@@ -4,6 +4,7 @@ The only room that reads them; each mistake in them is told with file and line.
 """
 
 from roslings.course.card import (
+    ActionContract,
     AnswerContract,
     Card,
     ConstantContract,
@@ -11,6 +12,7 @@ from roslings.course.card import (
     Hint,
     LaunchContract,
     NodeContract,
+    OutcomeContract,
     ParameterContract,
     PictureContract,
     QosContract,
@@ -23,6 +25,7 @@ from roslings.course.labs import Lab, all_labs, lab, root
 from roslings.course.mutants import Edit, Mutant
 
 __all__ = [
+    "ActionContract",
     "AnswerContract",
     "Card",
     "ConstantContract",
@@ -35,6 +38,7 @@ __all__ = [
     "Mutant",
     "NoSuchLab",
     "NodeContract",
+    "OutcomeContract",
     "ParameterContract",
     "PictureContract",
     "QosContract",

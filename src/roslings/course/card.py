@@ -7,7 +7,7 @@ and the lesson read it from here.
 from __future__ import annotations
 
 import string
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
@@ -16,6 +16,7 @@ DEFAULT_WITHIN = 0.1
 
 
 Plain = bool | int | float | str
+GroupName = Annotated[str, Field(pattern=r"^[a-z][a-z0-9-]*$")]
 
 
 class Contract(BaseModel):
@@ -46,6 +47,7 @@ class QosContract(Contract):
 
     reliability: Literal["reliable", "best_effort"] = "reliable"
     durability: Literal["volatile", "transient_local"] = "volatile"
+    exact: bool = Field(default=False, description="Ours must be just this, not only match it")
 
 
 class TopicContract(Contract):
@@ -68,13 +70,16 @@ class TopicContract(Contract):
 
 
 class ParameterContract(Contract):
-    """A setting of a node that is chosen when it starts."""
+    """A setting of a node that is chosen when it starts; a live one also while it runs."""
 
     name: str = Field(pattern=r"^[a-z][a-z0-9_]*$")
     type: Literal["bool", "integer", "double", "string"]
     about: str = Field(description="What it sets, with its unit, e.g. `seconds between messages`")
     default: bool | int | float | str
     tried: bool | int | float | str = Field(description="The other value that the check gives it")
+    least: float | None = Field(default=None, description="What is below is refused")
+    most: float | None = Field(default=None, description="What is above is refused")
+    live: bool = Field(default=False, description="A change acts at once, while the node runs")
 
 
 class ConstantContract(Contract):
@@ -105,6 +110,30 @@ class ServiceContract(Contract):
     answers: tuple[AnswerContract, ...] = ()
 
 
+class ActionContract(Contract):
+    """One action that a node performs, or that it gives goals to."""
+
+    action: str = Field(pattern=r"^/[A-Za-z_][A-Za-z0-9_/]*$")
+    type: str = Field(pattern=r"^[a-z][a-z0-9_]*/action/[A-Z][A-Za-z0-9]*$")
+    goal: dict[str, float] = Field(default_factory=dict, description="One goal, as an example")
+    feedback: RateContract | None = None
+    cancels_within_s: float | None = Field(
+        default=None, gt=0, description="From the request to cancel until all stands still"
+    )
+    rules: dict[str, str] = Field(
+        default_factory=dict, description="What happens when: two columns of the task's table"
+    )
+
+
+class OutcomeContract(Contract):
+    """One way in which a program that has a single task can come to its end."""
+
+    when: str
+    log: str = Field(description="A line it writes; `{text}` is something of the answer")
+    log_about: str = Field(default="", description="What `{text}` stands for")
+    exit_code: int
+
+
 class GiveUpContract(Contract):
     """What a client does that finds no server."""
 
@@ -124,6 +153,11 @@ class NodeContract(Contract):
     constants: tuple[ConstantContract, ...] = ()
     serves: tuple[ServiceContract, ...] = ()
     calls: tuple[ServiceContract, ...] = ()
+    performs: tuple[ActionContract, ...] = ()
+    orders: tuple[ActionContract, ...] = ()
+    outcomes: dict[str, OutcomeContract] = Field(
+        default_factory=dict, description="By a word for the grader, e.g. `refused`"
+    )
     gives_up: GiveUpContract | None = None
     other_names: tuple[str, ...] = Field(
         default=(), description="Full names that it takes when it is started with remaps"
@@ -137,6 +171,10 @@ class NodeContract(Contract):
     def constant(self, name: str) -> float:
         """A number of the card. Raises KeyError where there is none of this name."""
         return {each.name: each.value for each in self.constants}[name]
+
+    def parameter(self, name: str) -> ParameterContract:
+        """A parameter of the card. Raises KeyError where there is none of this name."""
+        return {each.name: each for each in self.parameters}[name]
 
 
 class LaunchContract(Contract):
@@ -178,6 +216,9 @@ class Card(Contract):
     needs: tuple[str, ...] = Field(default=(), description="Labs to do before this one")
     package: str = Field(pattern=r"^[a-z][a-z0-9_]*$")
     build_type: Literal["ament_python"] = "ament_python"
+    groups: tuple[GroupName, ...] = Field(
+        default=(), description="Dependency groups that its check needs besides the usual ones"
+    )
     nodes: tuple[NodeContract, ...]
     launch: LaunchContract | None = None
     ends_within_s: float = Field(default=2.0, gt=0, description="After Ctrl-C")
@@ -196,7 +237,8 @@ class Card(Contract):
     @model_validator(mode="after")
     def _texts_have_known_fields(self) -> Card:
         for node in self.nodes:
-            _allow_fields(node.log, {"text"})
+            for log in (node.log, *(outcome.log for outcome in node.outcomes.values())):
+                _allow_fields(log, {"text"})
             for topic in (*node.publishes, *node.subscribes):
                 _allow_fields(topic.text, {"n"})
         return self

@@ -12,10 +12,12 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import PurePosixPath
 
 from roslings.course.card import (
+    ActionContract,
     AnswerContract,
     Card,
     GiveUpContract,
     NodeContract,
+    OutcomeContract,
     ParameterContract,
     PictureContract,
     Plain,
@@ -108,12 +110,14 @@ def _node_rows(node: NodeContract) -> Iterable[tuple[str, ...]]:
         yield "also runs as", ", ".join(f"`{name}`" for name in node.other_names)
     if node.log:
         yield "logs", f"`{node.log.format(text='TEXT')}`, TEXT being {node.log_about}"
+    for outcome in node.outcomes.values():
+        yield outcome.when, _outcome(outcome)
     if node.gives_up:
         yield "without a server", _giving_up(node.gives_up)
 
 
 def _speaking_rows(node: NodeContract) -> Iterable[tuple[str, ...]]:
-    """What goes in and out: topics, then services."""
+    """What goes in and out: topics, then services, then actions."""
     topics = {"publishes on": node.publishes, "subscribes to": node.subscribes}
     for verb, topic in ((verb, topic) for verb, each in topics.items() for topic in each):
         yield verb, f"`{topic.topic}`"
@@ -122,6 +126,26 @@ def _speaking_rows(node: NodeContract) -> Iterable[tuple[str, ...]]:
     for verb, service in ((verb, service) for verb, each in services.items() for service in each):
         yield verb, f"`{service.service}`"
         yield from _service_rows(service)
+    actions = {"performs": node.performs, "sends goals to": node.orders}
+    for verb, action in ((verb, action) for verb, each in actions.items() for action in each):
+        yield verb, f"`{action.action}`"
+        yield from _action_rows(action)
+
+
+def _action_rows(action: ActionContract) -> Iterable[tuple[str, ...]]:
+    yield "action type", f"`{action.type}`"
+    if rate := action.feedback:
+        span = f"{rate.low_hz:.4g} Hz to {rate.high_hz:.4g} Hz is right"
+        yield "feedback", f"{rate.hz:g} Hz while it works; {span}"
+    yield from action.rules.items()
+    if action.cancels_within_s:
+        yield "time to cancel", f"{action.cancels_within_s:g} s at most, until all stands still"
+
+
+def _outcome(outcome: OutcomeContract) -> str:
+    about = f", TEXT being {outcome.log_about}" if outcome.log_about else ""
+    text = outcome.log.format(text="TEXT")
+    return f"logs `{text}`{about}; ends by itself with exit code {outcome.exit_code}"
 
 
 def _service_rows(service: ServiceContract) -> Iterable[tuple[str, ...]]:
@@ -159,7 +183,13 @@ def _giving_up(contract: GiveUpContract) -> str:
 
 def _parameter(parameter: ParameterContract) -> str:
     default = f"`{parameter.default}` when nobody sets it"
-    return f"`{parameter.name}`, {parameter.about}; type {parameter.type}; {default}"
+    limits = "" if parameter.most is None else f"; {_span(parameter)}, all else is refused"
+    live = "; a change acts at once" if parameter.live else ""
+    return f"`{parameter.name}`, {parameter.about}; type {parameter.type}; {default}{limits}{live}"
+
+
+def _span(parameter: ParameterContract) -> str:
+    return f"{parameter.least:g} to {parameter.most:g}"
 
 
 def _topic_rows(topic: TopicContract) -> Iterable[tuple[str, ...]]:
@@ -178,6 +208,8 @@ def _topic_rows(topic: TopicContract) -> Iterable[tuple[str, ...]]:
 
 def _qos(qos: QosContract) -> str:
     default = " (the default)" if qos == QosContract() else ""
+    if qos.exact:
+        return f"just {qos.reliability}, {qos.durability}"
     return f"fits {qos.reliability}, {qos.durability}{default}"
 
 

@@ -12,7 +12,7 @@ from roslings.course import TopicContract
 from roslings.devices.board import Board, Chunk, Mega
 from roslings.devices.board.attached import AttachedBoard
 from roslings.devices.rover import Body, Box, Rover, World
-from roslings.evidence import BoardMark, BoardSeen, CableLine, Endpoint, MotorsSeen
+from roslings.evidence import BoardMark, BoardSeen, CableLine, Endpoint, MotorsSeen, WaySeen
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
 from roslings.experiment.scene import Scene
 from roslings.experiment.start import Start
@@ -72,6 +72,7 @@ class Cable:
         self.board = board
         self._scene, self._chip, self._parameter = scene, chip, parameter
         self.seen = BoardSeen()
+        self._way = WaySeen(name="where the rover really was", points_m=[])
         self._never_heard = 0
         """Lines that the board told before the node was there."""
         scene.seen.board = self.seen
@@ -94,7 +95,7 @@ class Cable:
             return
         until_s = self._now_s + for_s
         while self._now_s < until_s and self.say(ear, forward_m_s, turn_rad_s):
-            self._scene.until(lambda: False, SAY_EVERY_S)
+            self._scene.until(self._goes_on, SAY_EVERY_S)
         self.mark(part)
 
     def flood(self, topic: TopicContract, motions: Sequence[tuple[float, float]]) -> None:
@@ -115,6 +116,7 @@ class Cable:
         """Wait until the node tells what the board says; marks the start."""
         self.await_messages(counted, SETTLES_LINES)
         self._never_heard = self._lines() - self._heard(counted)
+        self._scene.seen.ways.append(self._way)
         self.mark("start")
 
     def await_messages(
@@ -132,6 +134,7 @@ class Cable:
     def mark(self, part: str) -> None:
         """Write down how things really are now."""
         truth = self._chip.truth
+        self._note_place()
         self.seen.marks.append(
             BoardMark(
                 part=part,
@@ -157,6 +160,16 @@ class Cable:
         if ear := self._ear(topic):
             self.say(ear, math.nan, math.inf)
 
+    def _goes_on(self) -> bool:
+        """Never the end of a wait: only a moment to note where the rover is."""
+        self._note_place()
+        return False
+
+    def _note_place(self) -> None:
+        """Where the rover is now, for the picture of its way."""
+        pose = self._chip.truth.pose
+        self._way.points_m.append((round(pose.x_m, 4), round(pose.y_m, 4)))
+
     def write_down(self) -> None:
         """Put what the board and its cable saw into the evidence."""
         self.seen.told = lines_of(self.board.told)
@@ -178,6 +191,7 @@ class Cable:
         )
 
     def _stands(self) -> bool:
+        self._note_place()
         truth = self._chip.truth
         speeds = (abs(truth.left_rad_s), abs(truth.right_rad_s))
         return max(speeds) < STANDS_RAD_S and truth.left_pwm == truth.right_pwm == 0

@@ -143,13 +143,13 @@ class Scene:
             self._probe.say(ear, {"data": text}, FIRST_MESSAGE_WITHIN_S)
 
             def repeated() -> bool:
-                return not process.alive or self._is_written(process, text)
+                return not process.alive or self.is_written(process, text)
 
             if not self._probe.until(repeated, AFTER_THE_TURN_S):
                 turned = self._probe.turned(ear.node, HEARD_WITHIN_S)
                 self._probe.until(repeated, AFTER_THE_TURN_S if turned else HEARD_WITHIN_S)
 
-    def _is_written(self, process: Process, text: str) -> bool:
+    def is_written(self, process: Process, text: str) -> bool:
         """The text stands in the terminal or in /rosout."""
         lines = [*process.lines(), *(line for log in self.seen.rosout.values() for line in log)]
         return any(text in line.text for line in lines)

@@ -248,7 +248,7 @@ def ask(node: NodeContract, service: ServiceContract) -> Demand[ExperimentView]:
     def demand(experiment: ExperimentView) -> None:
         process = experiment.process(node)
         if not experiment.seen.served:
-            _require_no_crash(process)
+            require_no_crash(process)
             near = nearest(service.service, (e.service for e in _ends(experiment, "client")))
             if near and not near.exact:
                 raise faults.AsksElsewhere(near)
@@ -264,7 +264,8 @@ def ask(node: NodeContract, service: ServiceContract) -> Demand[ExperimentView]:
     return demand
 
 
-def _require_no_crash(process: ProcessView) -> None:
+def require_no_crash(process: ProcessView) -> None:
+    """Raises DidNotComeUp where it ended with a traceback."""
     seen = process.seen
     if seen.ended_by_itself and any(text.startswith("Traceback") for text in process.texts):
         how = f"it ended with an error ({describe_status(seen.status)})"
@@ -290,18 +291,19 @@ def tell_the_answer(node: NodeContract) -> Demand[ExperimentView]:
     return demand
 
 
-def end_by_itself(node: NodeContract) -> Demand[ExperimentView]:
-    """The client ends when it has its answer, with exit code 0."""
+def end_by_itself(node: NodeContract, exit_code: int | None = 0) -> Demand[ExperimentView]:
+    """The client ends when it has its answer, with this exit code; None: with any."""
 
     def demand(experiment: ExperimentView) -> None:
         process = experiment.process(node)
         if not process.seen.ended_by_itself:
             require_steady(experiment.seen.stall_s)
             if experiment.seen.stuck:
-                answered = bool(experiment.seen.served)
+                answered = bool(experiment.seen.served or experiment.seen.orders)
                 raise faults.ClientDeadlock(node.executable, process.ran_s, answered)
             raise faults.ClientStays(node.executable, process.ran_s)
-        _require_code(process, 0, "after an answer")
+        if exit_code is not None:
+            require_code(process, exit_code, "after an answer")
 
     return demand
 
@@ -316,15 +318,16 @@ def give_up(node: NodeContract) -> Demand[ExperimentView]:
             require_steady(experiment.seen.stall_s)
             raise faults.NeverGivesUp(node.executable, process.ran_s, contract.within_s)
         if not any(contract.log in text for text in process.texts):
-            _require_no_crash(process)
+            require_no_crash(process)
             last = process.texts[-1] if process.texts else None
             raise NotLogged(node.executable, contract.log, last)
-        _require_code(process, contract.exit_code, "without a server")
+        require_code(process, contract.exit_code, "without a server")
 
     return demand
 
 
-def _require_code(process: ProcessView, wanted: int, when: str) -> None:
+def require_code(process: ProcessView, wanted: int, when: str) -> None:
+    """Raises WrongExitCode."""
     seen = process.seen
     if seen.status != wanted:
         raise faults.WrongExitCode(

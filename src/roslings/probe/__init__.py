@@ -3,7 +3,6 @@
 `rclpy` is imported here, and only when a probe is opened.
 """
 
-from roslings.probe.live import live_graph
 from roslings.probe.probe import Probe
 
-__all__ = ["Probe", "live_graph"]
+__all__ = ["Probe"]

@@ -9,7 +9,7 @@ from contextlib import suppress
 from types import TracebackType
 from typing import Any
 
-from roslings.evidence import CallSeen
+from roslings.evidence import CallSeen, ParameterSet
 from roslings.probe.content import message_class, to_plain
 from roslings.probe.probe import Probe
 
@@ -47,6 +47,10 @@ class Caller:
 
     def send(self, request: dict[str, Any]) -> Call:
         """Ask, and do not wait. Raises AttributeError where the type has no such field."""
+        return self.send_message(_filled(self._class.Request(), request), request)
+
+    def send_message(self, message: Any, request: dict[str, Any]) -> Call:
+        """The same with a request that is a ROS message already; `request` is for the record."""
         call = Call(
             CallSeen(
                 service=self._service,
@@ -56,7 +60,7 @@ class Caller:
                 client=self._number,
             )
         )
-        future = self._client.call_async(_filled(self._class.Request(), request))
+        future = self._client.call_async(message)
         future.add_done_callback(call.take)
         return call
 
@@ -139,6 +143,31 @@ def parameters_of(
         call = caller.send({})
         call.wait(within_s, while_true)
     return list(call.seen.response["result"]["names"]) if call.seen.response else []
+
+
+def set_parameter(
+    probe: Probe, node: str, name: str, value: bool | int | float | str, within_s: float
+) -> ParameterSet:
+    """Ask a node to set one of its parameters; what it answered is written down."""
+    from rclpy.parameter import Parameter
+
+    said = ParameterSet(node=node, name=name, value=value, asked_ns=time.monotonic_ns())
+    probe.seen.parameter_sets.append(said)
+    wanted = Parameter(name, value=value).to_parameter_msg()
+    service, type_ = f"{node}/set_parameters", "rcl_interfaces/srv/SetParameters"
+    with Caller(probe, service, type_) as caller:
+        if probe.until(lambda: caller.ready, within_s):
+            call = caller.send({"parameters": [wanted]})
+            call.wait(within_s)
+            _write_answer(said, call.seen)
+    return said
+
+
+def _write_answer(said: ParameterSet, call: CallSeen) -> None:
+    if call.response and call.response["results"]:
+        said.answered_ns = call.answered_ns
+        said.accepted = bool(call.response["results"][0]["successful"])
+        said.reason = str(call.response["results"][0]["reason"])
 
 
 def _filled(message: Any, fields: dict[str, Any]) -> Any:

@@ -18,11 +18,24 @@ class UnknownType(Exception):
         super().__init__(f"the message type {type_name} is not installed here")
 
 
+PARTS_OF_AN_ACTION = {
+    "SendGoal": "SendGoalService",
+    "GetResult": "GetResultService",
+    "FeedbackMessage": "FeedbackMessage",
+}
+"""The end of a type's name in the graph, to the class that rclpy keeps inside the action's."""
+
+
 def message_class(type_name: str) -> type[Any]:
     """The Python class of e.g. `std_msgs/msg/String`. Raises UnknownType."""
     try:
         package, kind, name = type_name.split("/")
-        found: type[Any] = getattr(importlib.import_module(f"{package}.{kind}"), name)
+        module = importlib.import_module(f"{package}.{kind}")
+        whole, _, part = name.rpartition("_")
+        if kind == "action" and part in PARTS_OF_AN_ACTION:
+            inner: type[Any] = getattr(getattr(module, whole).Impl, PARTS_OF_AN_ACTION[part])
+            return inner
+        found: type[Any] = getattr(module, name)
     except (ValueError, ImportError, AttributeError):
         raise UnknownType(type_name) from None
     return found

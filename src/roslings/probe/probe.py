@@ -23,7 +23,7 @@ from roslings.probe import canary
 from roslings.probe.clock import Barrier, SimClock
 from roslings.probe.content import from_plain
 from roslings.probe.graph import read_graph
-from roslings.probe.recorder import Allowance, Recorder, can_record
+from roslings.probe.recorder import Allowance, Read, Recorder, can_record
 from roslings.rates import place_on_ticks
 
 NAME = "_roslings_probe"
@@ -56,6 +56,7 @@ class Probe:
         self._large = Allowance(large_bytes)
         self._recorders: dict[str, Recorder] = {}
         self._publishers: dict[str, Any] = {}
+        self._readers: dict[str, Read] = {}
         self._changed = threading.Condition()
         self._closing = threading.Event()
         self._called_off = False
@@ -172,11 +173,7 @@ class Probe:
 
         It is sent when the two are matched, or after `within_s`. Raises UnknownType.
         """
-        publisher = self._publisher_for(ear)
-        matched = self.until(lambda: publisher.get_subscription_count() > 0, within_s)
-        message = from_plain(ear.type, content)
-        sent_ns = time.monotonic_ns()  # before it is sent: an answer can be back at once
-        publisher.publish(message)
+        sent_ns, matched = self.send(ear, from_plain(ear.type, content), within_s)
         spoken = Spoken(
             topic=ear.topic,
             type=ear.type,
@@ -187,6 +184,24 @@ class Probe:
         )
         self.seen.spoken.append(spoken)
         return spoken
+
+    def send(self, ear: Endpoint, message: Any, within_s: float) -> tuple[int, bool]:
+        """Send a ROS message to `ear` as `say` does, and write nothing down.
+
+        When it was sent (monotonic, ns), and whether somebody was there to hear it.
+        """
+        publisher = self._publisher_for(ear)
+        matched = self.until(lambda: publisher.get_subscription_count() > 0, within_s)
+        sent_ns = time.monotonic_ns()  # before it is sent: an answer can be back at once
+        publisher.publish(message)
+        return sent_ns, matched
+
+    def read_as_it_comes(self, type_name: str, read: Read) -> None:
+        """From now on, messages of this type are read by `read` when they come, also large ones.
+
+        It gives the plain values to be kept, and runs in the probe's thread: it must be quick.
+        """
+        self._readers[type_name] = read
 
     def turned(self, node: str, within_s: float) -> bool:
         """Wait until the node's executor has run the callback of all that was sent before.
@@ -230,7 +245,7 @@ class Probe:
         recorder = self._recorders.get(endpoint.topic)
         if recorder is None and can_record(endpoint):
             self._recorders[endpoint.topic] = Recorder(
-                self._eye, endpoint, self.notify, self._large
+                self._eye, endpoint, self.notify, self._large, self._readers
             )
 
     def _hear_logs(self) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from roslings.evidence import Endpoint, MessageSeen, TopicSeen
@@ -15,6 +15,8 @@ QUEUE_DEPTH = 5000
 LONGEST_BACKLOG_NS = 60 * 10**9
 MOST_MESSAGES = 20_000
 LARGEST_CONTENT = 64 * 1024
+Read = Callable[[Any], Any]
+"""Makes the plain values of a message that are to be kept."""
 
 
 class Allowance:
@@ -39,8 +41,11 @@ class Recorder:
         endpoint: Endpoint,
         heard: Callable[[], None],
         large: Allowance | None = None,
+        readers: Mapping[str, Read] | None = None,
     ) -> None:
         """Keeps messages above LARGEST_CONTENT as long as `large` lets it.
+
+        A type in `readers`, which may change, is read when a message comes, whatever its size.
 
         Raises UnknownType where the message type is not installed.
         """
@@ -49,6 +54,7 @@ class Recorder:
         self._class = message_class(endpoint.type)
         self._heard = heard
         self._large = large or Allowance()
+        self._readers = {} if readers is None else readers
         self._raw: list[bytes] = []
         self._subscription = eye.create_subscription(
             self._class, endpoint.topic, self._take, _matching_qos(endpoint), raw=True
@@ -71,8 +77,13 @@ class Recorder:
                 sequence=info["publication_sequence_number"],
                 arrival_ns=arrival_ns,
                 size=len(raw),
+                content=self._read_now(raw),
             )
         )
+
+    def _read_now(self, raw: bytes) -> Any:
+        read = self._readers.get(self.seen.type)
+        return read(self._message(raw)) if read else None
 
     def raw_messages(self) -> Iterator[tuple[MessageSeen, bytes]]:
         """Each message whose bytes were kept, and these, as they came."""
@@ -80,11 +91,14 @@ class Recorder:
 
     def read_contents(self) -> None:
         """Turn the bytes into values, after the watch, so that reading delays no message."""
+        for message, raw in zip(self.seen.messages, self._raw, strict=True):
+            if message.content is None and 0 < len(raw) <= LARGEST_CONTENT:
+                message.content = to_plain(self._message(raw))
+
+    def _message(self, raw: bytes) -> Any:
         from rclpy.serialization import deserialize_message
 
-        for message, raw in zip(self.seen.messages, self._raw, strict=True):
-            if 0 < len(raw) <= LARGEST_CONTENT:
-                message.content = to_plain(deserialize_message(raw, self._class))
+        return deserialize_message(raw, self._class)
 
 
 def _arrival_ns(info: Any) -> int:

@@ -18,6 +18,15 @@ from roslings.workspace.trouble import reading
 
 NOT_THE_PACKAGES_CODE = frozenset({"test", "tests", "launch", "resource"})
 
+ROSDEP_KEYS = {
+    "cv2": "python3-opencv",
+    "serial": "python3-serial",
+}
+"""Modules that no ROS package brings, to their names in package.xml (rosdep's list).
+
+Not numpy: every message package of ROS brings it along.
+"""
+
 
 def ros_packages() -> frozenset[str]:
     """The ROS packages of this machine: those with a `share/NAME/package.xml`."""
@@ -82,15 +91,16 @@ def _syntax_errors(python: dict[str, Path]) -> Iterator[str]:
 
 
 def _imported(python: dict[str, Path], known: Collection[str], own: str) -> dict[str, str]:
-    """Each ROS package to the first place where it is imported."""
+    """Each package that package.xml must name to the first place where it is imported."""
     found: dict[str, str] = {}
     for name, path in python.items():
         try:
             imports = sorted(code.imports(code.parse(path)), key=lambda pair: pair[1])
         except code.NotPython:  # told as an error of syntax
             continue
-        for package, line in imports:
-            if package in known and package != own:
+        for module, line in imports:
+            package = ROSDEP_KEYS.get(module, module)
+            if (package in known or module in ROSDEP_KEYS) and package != own:
                 found.setdefault(package, f"{name}:{line}")
     return found
 

@@ -96,7 +96,7 @@ class SyntaxErrorInCode(Fault):
 
 @dataclass(eq=False)
 class UnlistedDependency(Fault):
-    """The code imports a ROS package that package.xml does not name."""
+    """The code imports a package that package.xml does not name."""
 
     package: str
     place: str
@@ -117,6 +117,8 @@ class UnlistedDependency(Fault):
     @property
     def hint(self) -> str:
         """Where to look."""
+        if self.package.startswith("python3-"):
+            return f"Add one line: this library has the name {self.package} in package.xml."
         return "Look at the <depend> lines in package.xml: one for each ROS package you import."
 
 

@@ -1,0 +1,352 @@
+"""What counts as done in the lab "actions": a server that drives the rover to a point, a client.
+
+The names, numbers, texts and points stand in labs/actions/card.yaml. Experiments run the
+student's nodes, beside a rover of the grader's own; checks read what was seen and run nothing.
+"""
+
+import math
+
+from roslings.course import lab
+from roslings.evidence import ExperimentSeen
+from roslings.experiment import Scene, experiment
+from roslings.experiment.acting import (
+    Director,
+    await_action,
+    await_client,
+    lead,
+    taking,
+    timed_feedback,
+)
+from roslings.experiment.driving import robot_beside, start_near
+from roslings.experiment.start import Start
+from roslings.judge import (
+    ExperimentView,
+    PackageView,
+    be_built_as,
+    be_named,
+    be_there,
+    be_well_formed,
+    carry_its_type,
+    check,
+    come_up,
+    end_within,
+    exit_cleanly,
+    install,
+    list_what_it_imports,
+)
+from roslings.judge.actions import (
+    accept,
+    accept_again,
+    arrive,
+    cancel_in_time,
+    end_so,
+    hear_meanwhile,
+    keep_to_the_first,
+    perform,
+    perform_its_type,
+    refuse_each,
+    send_goal,
+    show_each,
+    stop_in_time,
+    succeed,
+    tell_at_its_rate,
+    tell_the_truth,
+    trip,
+)
+from roslings.judge.demands import written
+from roslings.judge.services import give_up
+
+CARD = lab("actions").card
+SERVER, CLIENT = CARD.node("drive_server"), CARD.node("drive_client")
+CMD_VEL, ODOM = SERVER.publishes[0], SERVER.subscribes[0]
+DRIVE_TO, ORDER = SERVER.performs[0], CLIENT.orders[0]
+FEEDBACK = written(DRIVE_TO.feedback, DRIVE_TO.action)
+CANCELS_WITHIN_S = written(DRIVE_TO.cancels_within_s, DRIVE_TO.action)
+GIVES_UP = written(CLIENT.gives_up, CLIENT.node)
+GOAL = DRIVE_TO.goal
+CENTRE = {"x": 3.0, "y": 2.5, "tolerance": 0.1}
+ASKED = {parameter.name: float(parameter.tried) for parameter in CLIENT.parameters}
+TELLS = ("1.87", "1.23", "0.64", "0.12")
+ELAPSED_S = 7.3
+
+WEST, EAST = SERVER.constant("west"), SERVER.constant("east")
+SOUTH, NORTH = SERVER.constant("south"), SERVER.constant("north")
+OUTSIDE = "it lies outside of the map"
+IMPOSSIBLE = {
+    "too far east": ({"x": EAST + 1.0}, OUTSIDE),
+    "too far west": ({"x": WEST - 1.0}, OUTSIDE),
+    "too far north": ({"y": NORTH + 1.0}, OUTSIDE),
+    "too far south": ({"y": SOUTH - 1.0}, OUTSIDE),
+    "x is nan": ({"x": math.nan}, "x is no number"),
+    "y is nan": ({"y": math.nan}, "y is no number"),
+    "y is infinite": ({"y": math.inf}, OUTSIDE),
+    "tolerance is 0": ({"tolerance": 0.0}, "no robot stops at the very point"),
+    "tolerance below 0": ({"tolerance": -0.1}, "a tolerance is more than 0"),
+    "tolerance is nan": ({"tolerance": math.nan}, "the tolerance is no number"),
+}
+NODES = [SERVER.executable, CLIENT.executable]
+
+
+# --- experiments: the server, with a rover -----------------------------------------------------
+
+
+def goal_near(scene: Scene, x: float, y: float, nearest_m: float) -> dict[str, float]:
+    """A goal that nobody can know before, with a tolerance of its own."""
+    pose = start_near(scene, x, y, nearest_m, nearest_m + 0.2)
+    return {"x": round(pose.x_m, 2), "y": round(pose.y_m, 2), "tolerance": scene.between(0.08, 0.2)}
+
+
+@experiment
+def driving(scene: Scene) -> None:
+    """The server drives a rover to one goal, and to the next."""
+    start = start_near(scene, GOAL["x"], GOAL["y"], 1.0, 1.3)
+    with scene.run(SERVER) as process, robot_beside(scene, start, CMD_VEL, ODOM) as robot:
+        director = Director(scene, process, SERVER, DRIVE_TO, robot)
+        with timed_feedback(scene, DRIVE_TO):
+            director.drive("first", GOAL)
+        director.drive("next", goal_near(scene, GOAL["x"], GOAL["y"], 0.6))
+
+
+@experiment
+def cancelling(scene: Scene, driving: ExperimentSeen) -> None:
+    """The server's goal is cancelled on the way; then it gets another one."""
+    if driving.stuck:
+        return  # it would not hear the cancel either
+    start = start_near(scene, CENTRE["x"], CENTRE["y"], 3.2, 3.6)
+    with scene.run(SERVER) as process, robot_beside(scene, start, CMD_VEL, ODOM) as robot:
+        director = Director(scene, process, SERVER, DRIVE_TO, robot)
+        director.cancel("cancelled", CENTRE, after_m=0.25)
+        director.drive("after", goal_near(scene, robot.pose.x_m, robot.pose.y_m, 0.5))
+
+
+@experiment
+def refusing(scene: Scene, driving: ExperimentSeen) -> None:
+    """The server gets goals that it cannot reach, and two at once."""
+    start = start_near(scene, CENTRE["x"], CENTRE["y"], 0.9, 1.1)
+    with scene.run(SERVER) as process, robot_beside(scene, start, CMD_VEL, ODOM) as robot:
+        director = Director(scene, process, SERVER, DRIVE_TO, robot)
+        for part, (wrong, _) in IMPOSSIBLE.items():
+            director.refuse(part, {**CENTRE, **wrong})
+        if any(goal.ended_ns for goal in driving.goals):  # else this one would not end either
+            director.disturb("kept", CENTRE, GOAL, after_m=0.2)
+
+
+@experiment
+def resting(scene: Scene) -> None:
+    """The server with nothing to do, until Ctrl-C."""
+    with scene.run(SERVER):
+        await_action(scene)
+
+
+# --- experiments: the client, with a server ----------------------------------------------------
+
+
+@experiment
+def sending(scene: Scene) -> None:
+    """The client alone, with a server that lets it arrive."""
+    feedback = [{**CENTRE, "distance": float(text)} for text in TELLS]
+    for each in feedback:
+        each.pop("tolerance")
+    result = {"reached": True, "elapsed": ELAPSED_S}
+    with taking(scene, ORDER) as taker, scene.run(CLIENT, start=Start(parameters=ASKED)) as process:
+        lead(scene, process, taker, feedback, TELLS, "succeed", result)
+        await_client(scene, process, CLIENT)
+
+
+@experiment
+def refused(scene: Scene) -> None:
+    """The client alone, with a server that refuses its goal."""
+    with taking(scene, ORDER, accepts=False), scene.run(CLIENT) as process:
+        await_client(scene, process, CLIENT)
+
+
+@experiment
+def failing(scene: Scene) -> None:
+    """The client alone, with a server that does not get there."""
+    with taking(scene, ORDER) as taker, scene.run(CLIENT) as process:
+        lead(scene, process, taker, [], [], "abort", {"reached": False, "elapsed": ELAPSED_S})
+        await_client(scene, process, CLIENT)
+
+
+@experiment
+def nobody(scene: Scene) -> None:
+    """The client alone, and no server anywhere."""
+    with scene.run(CLIENT) as process:
+        await_client(scene, process, CLIENT)
+
+
+# --- the package -------------------------------------------------------------------------------
+
+
+@check()
+def test_well_formed(package: PackageView) -> None:
+    """The package has all its files, and ROS and Python can read them."""
+    package.must(be_well_formed(CARD.build_type))
+
+
+@check()
+def test_depends(package: PackageView) -> None:
+    """package.xml names every ROS package that the code imports."""
+    package.must(list_what_it_imports)
+
+
+@check(needs=["well_formed"])
+def test_builds(package: PackageView) -> None:
+    """colcon builds it: {SERVER.executable} and {CLIENT.executable} are there."""
+    package.must(be_built_as(CARD.build_type), install(NODES))
+
+
+# --- the server --------------------------------------------------------------------------------
+
+
+@check(needs=["builds"])
+def test_server_runs(driving: ExperimentView) -> None:
+    """The server starts and makes a node."""
+    driving.process(SERVER).must(come_up)
+
+
+@check(needs=["server_runs"])
+def test_server_name(driving: ExperimentView) -> None:
+    """The server's node is called {SERVER.node}."""
+    driving.node(SERVER).must(be_named)
+
+
+@check(needs=["server_runs"])
+def test_topics(driving: ExperimentView) -> None:
+    """It publishes on {CMD_VEL.topic} and subscribes to {ODOM.topic}."""
+    driving.publisher(SERVER, CMD_VEL).must(be_there, carry_its_type)
+    driving.subscription(SERVER, ODOM).must(be_there, carry_its_type)
+
+
+@check(needs=["server_runs"])
+def test_action(driving: ExperimentView) -> None:
+    """It performs {DRIVE_TO.action}."""
+    driving.must(perform(DRIVE_TO))
+
+
+@check(needs=["server_runs"])
+def test_action_type(driving: ExperimentView) -> None:
+    """The action is a {DRIVE_TO.type}."""
+    driving.must(perform_its_type(DRIVE_TO))
+
+
+@check(needs=["action_type"])
+def test_accepts(driving: ExperimentView) -> None:
+    """It accepts a goal on the map."""
+    driving.must(accept(SERVER, "first", "on the map, with nothing to do"))
+
+
+@check(needs=["accepts"])
+def test_not_blocked(driving: ExperimentView) -> None:
+    """While it drives, the node still hears."""
+    driving.must(hear_meanwhile)
+
+
+@check(needs=["accepts"])
+def test_feedback(driving: ExperimentView) -> None:
+    """Feedback comes at {FEEDBACK.hz:g} Hz while it drives."""
+    driving.must(tell_at_its_rate(SERVER, DRIVE_TO, "first"))
+
+
+@check(needs=["not_blocked", "feedback"])
+def test_position(driving: ExperimentView) -> None:
+    """Feedback tells where the rover is, and how far it still is."""
+    driving.must(tell_the_truth(SERVER, "first"))
+
+
+@check(needs=["not_blocked"])
+def test_arrives(driving: ExperimentView) -> None:
+    """The rover gets there, within the tolerance, and is told to stop."""
+    driving.must(arrive(SERVER, "first"))
+
+
+@check(needs=["arrives"])
+def test_result(driving: ExperimentView) -> None:
+    """The goal succeeds; the result says reached and elapsed."""
+    driving.must(succeed(SERVER, "first"))
+
+
+@check(needs=["arrives"])
+def test_next_goal(driving: ExperimentView) -> None:
+    """After one goal it takes the next."""
+    driving.must(accept_again(SERVER, "next", "after a goal that was reached"))
+
+
+@check(needs=["not_blocked"])
+def test_cancel(cancelling: ExperimentView, driving: ExperimentView) -> None:
+    """A goal can be cancelled on the way, within {CANCELS_WITHIN_S:g} s."""
+    undisturbed = trip(driving, SERVER, "first")
+    cancelling.must(cancel_in_time(SERVER, DRIVE_TO, "cancelled", undisturbed))
+
+
+@check(needs=["cancel"])
+def test_stops(cancelling: ExperimentView) -> None:
+    """After a cancel the rover stands still."""
+    cancelling.must(stop_in_time(SERVER, DRIVE_TO, "cancelled"))
+
+
+@check(needs=["cancel", "arrives"])
+def test_after_cancel(cancelling: ExperimentView) -> None:
+    """After a cancel it takes the next goal."""
+    cancelling.must(accept_again(SERVER, "after", "after a goal that was cancelled"))
+
+
+@check(needs=["accepts"])
+def test_refuses(refusing: ExperimentView) -> None:
+    """It refuses: outside of the map, nan, a tolerance of 0."""
+    refusing.must(refuse_each(SERVER, {part: why for part, (_, why) in IMPOSSIBLE.items()}))
+
+
+@check(needs=["arrives"])
+def test_at_once(refusing: ExperimentView) -> None:
+    """While it drives, it refuses another goal, and goes on."""
+    refusing.must(keep_to_the_first(SERVER, "kept"))
+
+
+# --- the client --------------------------------------------------------------------------------
+
+
+@check(needs=["builds"])
+def test_client_sends(sending: ExperimentView) -> None:
+    """The client sends the goal that its parameters say."""
+    sending.must(send_goal(CLIENT, ORDER, ASKED))
+
+
+@check(needs=["client_sends"])
+def test_client_tells(sending: ExperimentView) -> None:
+    """The client shows the progress: each distance."""
+    sending.must(show_each(CLIENT, TELLS))
+
+
+@check(needs=["client_sends"])
+def test_client_ends(sending: ExperimentView) -> None:
+    """When the rover is there, it says so and ends, exit code 0."""
+    sending.must(end_so(CLIENT, CLIENT.outcomes["reached"], f"{ELAPSED_S:.1f}"))
+
+
+@check(needs=["client_sends"])
+def test_client_refused(refused: ExperimentView, failing: ExperimentView) -> None:
+    """Refused, or not reached: it says so and ends, exit code 1."""
+    refused.must(end_so(CLIENT, CLIENT.outcomes["refused"]))
+    failing.must(end_so(CLIENT, CLIENT.outcomes["not_reached"]))
+
+
+@check(needs=["builds"])
+def test_no_server(nobody: ExperimentView) -> None:
+    """Without a server it says so and ends, exit code {GIVES_UP.exit_code}."""
+    nobody.must(give_up(CLIENT))
+
+
+# --- the end -----------------------------------------------------------------------------------
+
+
+@check(needs=["server_runs"])
+def test_ends(resting: ExperimentView) -> None:
+    """With nothing to do, the server ends within {CARD.ends_within_s:g} s of Ctrl-C."""
+    resting.process(SERVER).must(end_within(CARD.ends_within_s))
+
+
+@check(needs=["ends"])
+def test_clean_exit(resting: ExperimentView) -> None:
+    """After Ctrl-C the server ends without an error."""
+    resting.process(SERVER).must(exit_cleanly)

@@ -1,0 +1,318 @@
+"""Experiments with actions: give goals, cancel them, be a server of them."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+from roslings.arena import Process
+from roslings.course import ActionContract, NodeContract, RateContract
+from roslings.evidence import ActionEnd, DriveSeen, GoalSeen
+from roslings.experiment.asking import TURNS_WITHIN_S, await_end
+from roslings.experiment.driving import STANDS_WITHIN_S, Robot
+from roslings.experiment.on_the_wall import (
+    CANARY_WITHIN_S,
+    FIRST_MESSAGE_WITHIN_S,
+    longest_wait_s,
+    singing,
+    trouble,
+)
+from roslings.experiment.scene import Scene
+from roslings.near import nearest
+from roslings.probe.actions import Goal, GoalGiver, GoalTaker, read_actions
+from roslings.rates import measure_rate
+
+ANSWER_WITHIN_S = 5.0
+HEARS_WITHIN_S = 10.0
+"""A node that answers no question for so long is blocked; a busy computer may need some of it."""
+
+ENDS_WITHIN_S = 45.0
+"""A goal that is under way, and whose robot moves, may take so long."""
+
+RESTS_S = 8.0
+"""A robot that has not moved for so long will not get there."""
+
+STRAYS_S = 12.0
+"""Nor will one that has not come nearer for so long: a slow one turns about in less."""
+
+MOVED_M = 0.03
+MOVED_RAD = 0.1
+CANCELS_WITHIN_S = 5.0
+"""No end for so long after a request to cancel is none; a late one is told as late."""
+
+SHOWS_WITHIN_S = 3.0
+CALM_S = 0.7
+"""So long a robot is watched after it stands: it must not be told to drive on."""
+
+
+@dataclass
+class Director:
+    """Gives goals to the action of one running node, as clients do, and watches its robot."""
+
+    scene: Scene
+    process: Process
+    node: NodeContract
+    action: ActionContract
+    robot: Robot
+    _silent: bool = field(default=False, init=False)
+
+    def __post_init__(self) -> None:
+        """Waits until the node's action is there."""
+        await_action(self.scene)
+
+    @contextmanager
+    def giving(self) -> Iterator[GoalGiver | None]:
+        """A client that is matched with the server; None where there is none to give goals to."""
+        end = self._end()
+        if end is None or self._silent:
+            yield None
+            return
+        with GoalGiver(self.scene.probe, end.action, end.type) as giver:
+            matched = self.scene.until(lambda: giver.ready, FIRST_MESSAGE_WITHIN_S)
+            yield giver if matched else None
+
+    def drive(self, part: str, goal: Mapping[str, float]) -> None:
+        """Give a goal, wait for its end, and watch until the robot stands."""
+        with self.giving() as giver:
+            if given := self._give(giver, part, goal):
+                self._look_whether_it_hears()
+                self._await_end(given)
+                self._watch_rest(given)
+
+    def cancel(self, part: str, goal: Mapping[str, float], after_m: float) -> None:
+        """Give a goal, cancel it when the robot has gone so far, and watch until it stands."""
+        with self.giving() as giver:
+            if given := self._give(giver, part, goal):
+                self._await_way(given, after_m)
+                self._cancel(given)
+                self._watch_rest(given)
+                self._note_lateness(given)
+
+    def refuse(self, part: str, goal: Mapping[str, float]) -> None:
+        """Give a goal that is to be refused; one that is accepted is cancelled at once."""
+        with self.giving() as giver:
+            if given := self._give(giver, part, goal):
+                self._cancel(given)
+
+    def disturb(
+        self, part: str, goal: Mapping[str, float], other: Mapping[str, float], after_m: float
+    ) -> None:
+        """Give a goal, and another one on the way; watch what becomes of the first."""
+        with self.giving() as giver:
+            if given := self._give(giver, part, goal):
+                self._await_way(given, after_m)
+                second = self._give(giver, f"{part}: another", other)
+                self._await_end(given)
+                if second and not second.ended:
+                    self._cancel(second)
+
+    # --- the parts ------------------------------------------------------------------------
+
+    def _give(self, giver: GoalGiver | None, part: str, goal: Mapping[str, float]) -> Goal | None:
+        """The goal, where it was accepted."""
+        if giver is None or self._silent:
+            return None
+        given = giver.give(dict(goal), part)
+        accepted = given.await_answer(ANSWER_WITHIN_S, lambda: self.process.alive)
+        if given.seen.answered_ns is None:
+            self._silent = True
+            self._look_whether_it_hears()
+        return given if accepted else None
+
+    def _note_lateness(self, given: Goal) -> None:
+        """A late end that this computer may have made late is no reason to judge."""
+        limit_s, seen = self.action.cancels_within_s, self.scene.seen
+        drive = seen.drive
+        took_s = [cancelled_after_s(given.seen), drive and stopped_after_s(given.seen, drive)]
+        late_s = max([each - limit_s for each in took_s if each and limit_s], default=0.0)
+        held_s = seen.stall_s + given.seen.cpu_wait_s
+        if 0.0 < late_s <= held_s:
+            seen.machine_fault = (
+                f"a goal was cancelled {late_s:.2f} s late, and this computer held your node or the"
+                f" check up for {held_s:.2f} s"
+            )
+
+    def _look_whether_it_hears(self) -> None:
+        """Does the node run its other callbacks meanwhile?"""
+        near = nearest(self.node.node, self.scene.seen.graph.nodes)
+        if near is None or not self.process.alive or near.found in self.scene.seen.stuck:
+            return
+        if not self.scene.probe.turned(near.found, HEARS_WITHIN_S) and self.process.alive:
+            self.scene.seen.stuck.append(near.found)
+
+    def _await_end(self, given: Goal) -> None:
+        """Wait for the goal's end, as long as the robot moves and the node hears."""
+        if self.scene.seen.stuck:
+            self._silent = True
+            return
+        rest = Rest(self.robot, given.seen.goal)
+        self.scene.until(lambda: given.ended or rest.is_over(), ENDS_WITHIN_S)
+        self._silent = not given.ended
+
+    def _await_way(self, given: Goal, way_m: float) -> None:
+        """Wait until the robot has gone so far, or clearly does not go."""
+        begin, rest = self.robot.pose, Rest(self.robot, given.seen.goal)
+        self.scene.until(
+            lambda: self.robot.distance_to(begin.x_m, begin.y_m) >= way_m or rest.is_over(),
+            ENDS_WITHIN_S,
+        )
+
+    def _cancel(self, given: Goal) -> None:
+        before_ns = self.process.waits_ns()
+        given.cancel()
+        self.scene.until(lambda: given.ended, CANCELS_WITHIN_S)
+        if now_ns := self.process.waits_ns():
+            given.seen.cpu_wait_s = longest_wait_s(before_ns, now_ns)
+
+    def _watch_rest(self, given: Goal) -> None:
+        """Watch until the robot stands, and a little longer."""
+        self.scene.until(lambda: self.robot.stands, STANDS_WITHIN_S)
+        calm_s = time.monotonic() + CALM_S
+        self.scene.until(lambda: time.monotonic() > calm_s, 2 * CALM_S)
+        given.seen.watched_until_ns = time.monotonic_ns()
+
+    def _end(self) -> ActionEnd | None:
+        """The action to use: the nearest by name among those of the right type."""
+        ends = [e for e in self.scene.seen.actions if e.kind == "server"]
+        right = [e for e in ends if e.type == self.action.type]
+        near = nearest(self.action.action, (e.action for e in right))
+        return next((e for e in right if near and e.action == near.found), None)
+
+
+def await_action(scene: Scene) -> None:
+    """Wait until a node performs an action; the fullest sight is kept, as of the graph."""
+
+    def there() -> bool:
+        ends = read_actions(scene.probe.eye, scene.seen.graph.nodes)
+        if len(ends) >= len(scene.seen.actions):
+            scene.seen.actions = ends
+        return any(end.kind == "server" for end in ends)
+
+    scene.until(there, FIRST_MESSAGE_WITHIN_S)
+
+
+class Rest:
+    """Tells that a robot will not get to a point: it stands, or has not come nearer, for long."""
+
+    def __init__(self, robot: Robot, goal: Mapping[str, float]) -> None:
+        self._robot, self._goal = robot, goal
+        self._nearest_m = math.inf
+        self._moved_s = self._nearer_s = time.monotonic()
+        self._pose = robot.pose
+
+    def is_over(self) -> bool:
+        """It has been so for long enough."""
+        now_s = time.monotonic()
+        if self._moves():
+            self._pose, self._moved_s = self._robot.pose, now_s
+        distance_m = self._robot.distance_to(self._goal["x"], self._goal["y"])
+        if distance_m < self._nearest_m - MOVED_M:
+            self._nearest_m, self._nearer_s = distance_m, now_s
+        return now_s - self._moved_s > RESTS_S or now_s - self._nearer_s > STRAYS_S
+
+    def _moves(self) -> bool:
+        pose = self._robot.pose
+        turned_rad = abs(math.remainder(pose.heading_rad - self._pose.heading_rad, math.tau))
+        went_m = self._robot.distance_to(self._pose.x_m, self._pose.y_m)
+        return went_m > MOVED_M or turned_rad > MOVED_RAD
+
+
+@contextmanager
+def timed_feedback(scene: Scene, action: ActionContract) -> Iterator[None]:
+    """A canary runs beside while the block lasts: it tells whether a rate can be believed."""
+    limit, seen = action.feedback, scene.seen
+    assert limit is not None, f"the card says no rate for {action.action}"
+    with singing(limit.hz, scene.arena.domain_id):
+        scene.probe.listen_to_canary(limit.hz)
+        scene.until(lambda: bool(seen.canary and seen.canary.messages), CANARY_WITHIN_S)
+        before = [process.waits_ns() for process in scene.arena.processes]
+        yield
+        for process, before_ns in zip(scene.arena.processes, before, strict=True):
+            if now_ns := process.waits_ns():
+                process.seen.cpu_wait_s = longest_wait_s(before_ns, now_ns)
+    _note_trouble(scene, limit)
+
+
+def _note_trouble(scene: Scene, limit: RateContract) -> None:
+    """Whatever was seen of the rate, nobody will watch for longer."""
+    seen = scene.seen
+    for topic in {goal.feedback_topic for goal in seen.goals}:
+        scene.probe.note_longest_watch(topic)
+        rate = measure_rate(scene.probe.messages(topic))
+        rate = rate.held_up(seen.cpu_wait_s) if rate else None
+        seen.machine_fault = seen.machine_fault or trouble(seen, rate, limit)
+
+
+def cancelled_after_s(goal: GoalSeen) -> float | None:
+    """From the request to cancel to the goal's end; None where there was none of the two."""
+    if goal.cancel_sent_ns is None or goal.ended_ns is None:
+        return None
+    return (goal.ended_ns - goal.cancel_sent_ns) / 1e9
+
+
+def stopped_after_s(goal: GoalSeen, drive: DriveSeen) -> float | None:
+    """From the request to cancel to the command after which the robot was never told to move.
+
+    None where the last command tells it to move.
+    """
+    begin_ns, end_ns = goal.cancel_sent_ns or 0, goal.watched_until_ns or math.inf
+    stopped_ns: int | None = begin_ns
+    for command in drive.commands:
+        if command.arrival_ns > end_ns:
+            break
+        if command.forward_m_s or command.turn_rad_s:
+            stopped_ns = None
+        elif stopped_ns is None:
+            stopped_ns = max(command.arrival_ns, begin_ns)
+    return None if stopped_ns is None else (stopped_ns - begin_ns) / 1e9
+
+
+# --- the other side ----------------------------------------------------------------------------
+
+
+@contextmanager
+def taking(scene: Scene, action: ActionContract, accepts: bool = True) -> Iterator[GoalTaker]:
+    """A server of our own for as long as the block lasts."""
+    with GoalTaker(scene.probe, action.action, action.type, accepts) as taker:
+        yield taker
+
+
+def lead(
+    scene: Scene,
+    process: Process,
+    taker: GoalTaker,
+    feedback: Sequence[Mapping[str, float]],
+    shown: Sequence[str],
+    how: Literal["succeed", "abort"],
+    result: Mapping[str, Any],
+) -> None:
+    """Take the client's goal, send it feedback, each when the one before is shown, and end it."""
+    scene.until(lambda: _took_goal(scene, taker), FIRST_MESSAGE_WITHIN_S)
+    if not taker.has_goal:
+        return
+    for each, text in zip(feedback, shown, strict=True):
+        taker.tell(dict(each))
+        scene.until(lambda text=text: scene.is_written(process, text), SHOWS_WITHIN_S)  # type: ignore[misc]
+    taker.end(how, dict(result))
+
+
+def _took_goal(scene: Scene, taker: GoalTaker) -> bool:
+    """A client that looks elsewhere may soon be gone: note where it looks."""
+    _note_clients(scene)
+    return taker.has_goal
+
+
+def await_client(scene: Scene, process: Process, node: NodeContract) -> None:
+    """Wait for a client that ends by itself, and note whom it gives goals to."""
+    scene.until(lambda: _note_clients(scene), TURNS_WITHIN_S)
+    await_end(scene, process, node)
+
+
+def _note_clients(scene: Scene) -> bool:
+    ends = read_actions(scene.probe.eye, scene.seen.graph.nodes)
+    scene.seen.actions = ends or scene.seen.actions
+    return any(end.kind == "client" for end in ends)

@@ -1,0 +1,339 @@
+"""Faults of a node that publishes what a camera sees."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from roslings.judge.faults.base import Fault
+
+
+@dataclass(eq=False)
+class NotThisQos(Fault):
+    """The quality of service would match, and is not the asked one."""
+
+    topic: str
+    wanted: str
+    found: str
+    why = (
+        "A picture that is late is worth nothing. Reliable means: send the old one again, and let"
+        " the new one wait. On Wi-Fi the pictures then come seconds late."
+    )
+    hint = (
+        "Give qos_profile_sensor_data, from rclpy.qos, to create_publisher in place of the number."
+    )
+
+    @property
+    def expected(self) -> str:
+        """The asked one."""
+        return f"{self.topic} is published {self.wanted}"
+
+    @property
+    def measured(self) -> str:
+        """The one that is there."""
+        return f"it is published {self.found}"
+
+
+@dataclass(eq=False)
+class WrongStep(Fault):
+    """The step is not the length of a row."""
+
+    topic: str
+    wanted: int
+    found: int
+    why = "Who reads the picture goes on by `step` bytes to find the next row."
+    hint = "step is the bytes of one row: width x channels. bgr8 has 3 channels, each one byte."
+
+    @property
+    def expected(self) -> str:
+        """Bytes a row."""
+        return f"on {self.topic}, step is {self.wanted}"
+
+    @property
+    def measured(self) -> str:
+        """What is there."""
+        return f"step is {self.found}{_guess_of_step(self.found, self.wanted)}"
+
+
+def _guess_of_step(found: int, wanted: int) -> str:
+    guesses = {wanted // 3: ": the width, without the channels", 0: ": nobody filled it"}
+    return guesses.get(found, "")
+
+
+@dataclass(eq=False)
+class NotAllBytes(Fault):
+    """The bytes are fewer or more than the header says."""
+
+    topic: str
+    wanted: int
+    found: int
+    why = "Who reads the picture believes its header, and reads beyond the end of the bytes."
+    hint = "data holds step x height bytes: all rows of the picture, one behind the other."
+
+    @property
+    def expected(self) -> str:
+        """Step times height."""
+        return f"on {self.topic}, data has step x height = {self.wanted} bytes"
+
+    @property
+    def measured(self) -> str:
+        """How many there are."""
+        return f"it has {self.found} bytes"
+
+
+@dataclass(eq=False)
+class WrongPicture(Fault):
+    """The picture is not the one that the camera gave."""
+
+    topic: str
+    off: float | None
+    why = "Every node that looks through this camera sees only what you publish."
+    hint = (
+        "Publish what camera.read() gave: all rows, all columns, in their order. Look at it:"
+        " `ros2 run rqt_image_view rqt_image_view`, or the page of --html."
+    )
+
+    @property
+    def expected(self) -> str:
+        """What the camera saw."""
+        return f"on {self.topic}, the pictures of the camera"
+
+    @property
+    def measured(self) -> str:
+        """How far off it is."""
+        if self.off is None:
+            return "bytes that are no picture of this size"
+        return f"another picture: its values are off by {self.off:.0f} of 255 on average"
+
+
+@dataclass(eq=False)
+class RedAndBlueSwapped(WrongPicture):
+    """Red looks blue and blue looks red."""
+
+    hint = (
+        "OpenCV has blue first, and so has the camera: that is bgr8. Take cv2.cvtColor away, or"
+        " let the encoding say what the bytes are."
+    )
+
+    @property
+    def measured(self) -> str:
+        """What is the matter."""
+        return "the right picture, with red and blue exchanged"
+
+
+@dataclass(eq=False)
+class PictureTwice(Fault):
+    """One picture of the camera is published again."""
+
+    topic: str
+    share: float
+    why = "A robot that sees the past believes that the way is free."
+    hint = (
+        "Call camera.read() each time before you publish. Keep no old picture and no old message."
+    )
+
+    @property
+    def expected(self) -> str:
+        """Each once."""
+        return f"on {self.topic}, a new picture each time"
+
+    @property
+    def measured(self) -> str:
+        """How many repeat."""
+        return f"{self.share:.0%} of the messages show the same picture as the one before"
+
+
+@dataclass(eq=False)
+class PicturesLost(Fault):
+    """Pictures that were read are not published."""
+
+    topic: str
+    share: float
+    why = "Each picture that is read costs time. A lost one may be the one with the ball."
+    hint = "Call camera.read() once for each message, and publish what it gave."
+
+    @property
+    def expected(self) -> str:
+        """All."""
+        return f"on {self.topic}, each picture that the node reads from the camera"
+
+    @property
+    def measured(self) -> str:
+        """How many are missing."""
+        return f"{self.share:.0%} of the pictures that the node read were not published"
+
+
+@dataclass(eq=False)
+class ParameterNotSet(Fault):
+    """A parameter could not be set while the node ran."""
+
+    node: str
+    name: str
+    value: str
+    reason: str
+    why = "Who tunes a robot does so while it runs, and watches what happens."
+    hint = "Call self.declare_parameter(NAME, DEFAULT) in __init__, with the name of the card."
+
+    @property
+    def expected(self) -> str:
+        """That it can be set."""
+        return f"`ros2 param set {self.node} {self.name} {self.value}` works"
+
+    @property
+    def measured(self) -> str:
+        """What the node said."""
+        return f"the node refuses: {self.reason}" if self.reason else "the node does not answer"
+
+
+@dataclass(eq=False)
+class ParameterAccepted(Fault):
+    """A value that is wrong was taken."""
+
+    node: str
+    name: str
+    value: str
+    span: str
+    why = "A wrong value must not stop a robot that runs. Refuse it where it comes in."
+    hint = (
+        "Give limits to declare_parameter: ParameterDescriptor(integer_range=[IntegerRange("
+        "from_value=..., to_value=..., step=1)]). The type is that of the default."
+    )
+
+    @property
+    def expected(self) -> str:
+        """A refusal."""
+        return f"{self.node} refuses {self.name} = {self.value} ({self.span})"
+
+    @property
+    def measured(self) -> str:
+        """That there was none."""
+        return "the value was taken"
+
+
+@dataclass(eq=False)
+class EndedByParameter(ParameterAccepted):
+    """The node ended when a wrong value came."""
+
+    hint = "Read the last lines below. Raise nothing for a wrong value: let ROS refuse it."
+
+    @property
+    def measured(self) -> str:
+        """That it ended."""
+        return "the node ended"
+
+
+@dataclass(eq=False)
+class WrongBrightness(Fault):
+    """The brightness does not do what the card says."""
+
+    name: str
+    before: int
+    after: int
+    wanted: float
+    found: float
+    why = "A program that finds things by their colour fails in a light that it does not know."
+    hint = (
+        "For each point above the neutral value, add the levels of the card to every value of the"
+        " picture. cv2.add stops at 0 and at 255."
+    )
+
+    @property
+    def expected(self) -> str:
+        """How much lighter."""
+        return (
+            f"{self.name} {self.before} -> {self.after}: each value {_change(self.wanted)},"
+            " as far as 0 and 255 let it"
+        )
+
+    @property
+    def measured(self) -> str:
+        """How much lighter they became."""
+        return f"the mean is {_change(self.found)}"
+
+
+def _change(levels: float) -> str:
+    return f"{abs(levels):.0f} of 255 {'higher' if levels >= 0 else 'lower'}"
+
+
+@dataclass(eq=False)
+class BrightnessIgnored(WrongBrightness):
+    """Nothing happens."""
+
+    hint = (
+        "Read the parameter for each picture: self.get_parameter(NAME).value. What __init__ read"
+        " stays as it was then."
+    )
+
+
+@dataclass(eq=False)
+class BrightnessGoesRound(WrongBrightness):
+    """Values beyond 255 begin again at 0."""
+
+    hint = (
+        "A value of 8 bits goes round: 250 + 10 is 4. Use cv2.add(picture, (n, n, n, 0)), which"
+        " stops at 0 and at 255. cv2.convertScaleAbs makes -20 to 20."
+    )
+
+    @property
+    def measured(self) -> str:
+        """What it looks like."""
+        return f"values beyond 0 or 255 come out at the other end (mean {_change(self.found)})"
+
+
+@dataclass(eq=False)
+class SilentAboutCamera(Fault):
+    """The camera cannot be used, and the node does not say so."""
+
+    when: str
+    line: str
+    reason: str
+    similar: str | None
+    why = "Nobody can mend what a program does not tell. A robot has no screen: only its log."
+    hint = (
+        "except OSError as error: log the line of the card with str(error) in it, each time."
+        " It names the device and the reason."
+    )
+
+    @property
+    def expected(self) -> str:
+        """The line."""
+        return f"{self.when}: a line {self.line!r} with {self.reason!r} in it"
+
+    @property
+    def measured(self) -> str:
+        """What it wrote."""
+        return f"it wrote {self.similar!r}" if self.similar else "it wrote no such line"
+
+
+@dataclass(eq=False)
+class EndedWithoutCamera(SilentAboutCamera):
+    """The node ended."""
+
+    hint = (
+        "Read the last lines below. Catch OSError where you open the camera and where you read"
+        " it. Then try again from a timer."
+    )
+
+    @property
+    def measured(self) -> str:
+        """That it ended."""
+        return "the node ended"
+
+
+@dataclass(eq=False)
+class NoPictureAfter(Fault):
+    """The camera is there, and no picture comes."""
+
+    when: str
+    topic: str
+    why = "Plugs come loose on a robot that drives. Nobody is there to start the node again."
+    hint = "After an OSError close the camera and set it to None. A timer opens it when it is None."
+
+    @property
+    def expected(self) -> str:
+        """Pictures."""
+        return f"pictures on {self.topic} {self.when}"
+
+    @property
+    def measured(self) -> str:
+        """None."""
+        return "none came"
