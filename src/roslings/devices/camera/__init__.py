@@ -4,6 +4,16 @@ Needs numpy, which ROS's Python messages bring along.
 """
 
 from roslings.devices.camera.camera import Light, SyntheticCamera
-from roslings.devices.camera.frame import ENCODINGS, Encoding, Frame, NotAnImage
+from roslings.devices.camera.frame import CHANNELS, ENCODINGS, Encoding, Frame, NotAnImage
+from roslings.devices.camera.on_socket import SocketCamera
 
-__all__ = ["ENCODINGS", "Encoding", "Frame", "Light", "NotAnImage", "SyntheticCamera"]
+__all__ = [
+    "CHANNELS",
+    "ENCODINGS",
+    "Encoding",
+    "Frame",
+    "Light",
+    "NotAnImage",
+    "SocketCamera",
+    "SyntheticCamera",
+]

@@ -127,7 +127,7 @@ class RoverNode:
 
     def _tell_where(self) -> None:
         stamp = self._node.get_clock().now().to_msg()
-        self._odom.publish(_odometry(self.rover, stamp))
+        self._odom.publish(odometry(self.rover, stamp))
         if self._tf is not None:
             self._tf.publish(_transforms(self.rover, stamp))
 
@@ -167,7 +167,8 @@ def _tf_publisher(node: Any) -> Any | None:
     return node.create_publisher(TFMessage, "/tf", 100)
 
 
-def _odometry(rover: Rover, stamp: Any) -> Any:
+def odometry(rover: Rover, stamp: Any) -> Any:
+    """A nav_msgs/msg/Odometry of where the rover is and how it moves."""
     from nav_msgs.msg import Odometry
 
     told = Odometry(child_frame_id=BODY_FRAME)

@@ -129,11 +129,14 @@ class World:
 
 
 def default_world() -> World:
-    """The course's room: 10 by 9 m, four obstacles and a ball; (0, 0) and (3, 5) are free."""
+    """The course's room: 10 by 9 m, four obstacles and a ball.
+
+    A rover can drive straight from (0, 0) to (3, 5).
+    """
     return World(
         room=Box(-2.0, -2.0, 8.0, 7.0),
         obstacles=(
-            Box(1.6, 2.0, 4.4, 2.5),
+            Box(2.0, 2.0, 4.4, 2.5),
             Box(5.5, 3.5, 6.0, 7.0),
             Circle(0.0, 4.5, 0.5),
             Circle(5.5, 0.0, 0.4),

@@ -6,15 +6,16 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from roslings.evidence import Evidence
-from roslings.report.html import seen_part, verdict_part
+from roslings.report.html import seen_part, shown_part, verdict_part
 from roslings.report.html.intervals import Asked
 from roslings.report.html.markup import Markup, joined, tag
 from roslings.report.whole_file import write_whole
 from roslings.verdict import Verdict
 
 STYLE = Path(__file__).with_name("style.css")
-POLICY = "default-src 'none'; style-src 'unsafe-inline'"
-"""What the browser may do with this page: draw it. No script, no address, whatever stands in it."""
+POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:"
+"""What the browser may do with this page: draw it, with the pictures that it carries itself. No
+script, no address, whatever stands in it."""
 
 
 def write_html(verdict: Verdict, evidence: Evidence, asked: Sequence[Asked], path: Path) -> None:
@@ -44,6 +45,8 @@ def _head(verdict: Verdict) -> Markup:
 def _body(verdict: Verdict, evidence: Evidence, asked: Sequence[Asked]) -> Markup:
     parts = joined(
         *verdict_part.body(verdict),
+        *shown_part.pictures(evidence),
+        *shown_part.ways(evidence),
         *seen_part.topics(evidence, asked),
         *seen_part.said(evidence),
         *seen_part.graphs(evidence),

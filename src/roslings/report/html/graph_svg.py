@@ -31,6 +31,14 @@ class MonospacedRuler:
         return cell_len(line.text) * CELL * line.size
 
 
+def graph_svg(graph: GraphSeen) -> Markup:
+    """The graph from left to right, as an `svg` element alone."""
+    labels = labels_of(shape := shape_of(graph))
+    ruler = MonospacedRuler()
+    boxes = {key: label.box(ruler) for key, label in labels.items()}
+    return _drawing(plan_of(boxes, edges_of(shape)), labels, describe_graph(graph))
+
+
 def graph_pictures(graph: GraphSeen) -> Markup:
     """The graph from left to right; for narrow screens, where that is wide, also downwards."""
     ruler = MonospacedRuler()
@@ -47,8 +55,14 @@ def graph_pictures(graph: GraphSeen) -> Markup:
 
 
 def _picture(plan: Plan, labels: Mapping[str, Label], words: str, screen: str | None) -> Markup:
+    drawing = _drawing(plan, labels, words)
+    return tag("div", drawing, class_=" ".join(filter(None, ("scroll", screen))), tabindex="0",
+               role="group", aria_label="the graph, to scroll")  # fmt: skip
+
+
+def _drawing(plan: Plan, labels: Mapping[str, Label], words: str) -> Markup:
     width, height = plan.width + 2 * MARGIN, plan.height + 2 * MARGIN
-    drawing = tag(
+    return tag(
         "svg",
         *_parts(plan.moved(MARGIN, MARGIN), labels),
         role="img",
@@ -58,8 +72,6 @@ def _picture(plan: Plan, labels: Mapping[str, Label], words: str, screen: str | 
         height=height * SCALE,
         class_="graph",
     )
-    return tag("div", drawing, class_=" ".join(filter(None, ("scroll", screen))), tabindex="0",
-               role="group", aria_label="the graph, to scroll")  # fmt: skip
 
 
 def _parts(plan: Plan, labels: Mapping[str, Label]) -> Iterator[Markup]:

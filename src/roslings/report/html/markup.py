@@ -8,7 +8,10 @@ import re
 from roslings.report.safe_text import harmless
 
 _CODE = re.compile(r"`([^`\n]+)`")
-VOID = frozenset({"meta", "line", "rect", "ellipse", "path", "br"})
+VOID = frozenset({"meta", "line", "rect", "ellipse", "path", "br", "img"})
+HTML_VOID = frozenset({"meta", "br", "img"})
+"""The others are SVG's, and are closed as XML wants it."""
+
 Attribute = str | float | None
 
 
@@ -25,7 +28,7 @@ def tag(name: str, /, *inside: str, **attributes: Attribute) -> Markup:
     """
     words = "".join(_attribute(key, value) for key, value in attributes.items())
     if name in VOID:
-        return Markup(f"<{name}{words}>" if name in ("meta", "br") else f"<{name}{words}/>")
+        return Markup(f"<{name}{words}>" if name in HTML_VOID else f"<{name}{words}/>")
     return Markup(f"<{name}{words}>{joined(*inside)}</{name}>")
 
 
