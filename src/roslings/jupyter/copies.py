@@ -1,0 +1,102 @@
+"""The student's own copies of the lessons: what a student writes in is never the course's file.
+
+~/roslings_ws/notebooks/Days.md               the list of days, written anew each time
+~/roslings_ws/notebooks/03-topics/lesson.ipynb    the student's; never overwritten
+~/roslings_ws/notebooks/03-topics/pictures/       the course's, brought up to date
+~/roslings_ws/notebooks/01-install/PAGE.md        the course's, too
+~/roslings_ws/.roslings/lessons/03-topics.ipynb   the lesson as it was when it was copied
+"""
+
+from __future__ import annotations
+
+import filecmp
+import shutil
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from roslings.lessons import Day
+from roslings.workspace.trouble import shown, writing
+
+LESSON, PICTURES, LIST = "lesson.ipynb", "pictures", "Days.md"
+MOST_COPIES = 1000
+
+
+@dataclass(frozen=True)
+class Copies:
+    """The lessons of the course in `course`, as they lie in the workspace `workspace`."""
+
+    course: Path
+    workspace: Path
+
+    @property
+    def folder(self) -> Path:
+        """Where the student's notebooks lie."""
+        return self.workspace / "notebooks"
+
+    def lesson_of(self, day: Day) -> Path:
+        """The course's file."""
+        return self.course / "days" / day.id / LESSON
+
+    def copy_all(self, days: tuple[Day, ...]) -> list[str]:
+        """Bring what is missing and list the days; returns what a student should know.
+
+        Raises DiskFull and CannotWrite of the workspace.
+        """
+        told: list[str] = []
+        with writing(self.folder):
+            for day in (day for day in days if self.lesson_of(day).is_file()):
+                told += self._copy(day)
+            self.folder.mkdir(parents=True, exist_ok=True)
+            (self.folder / LIST).write_text("\n".join(self._list(days)), encoding="utf-8")
+        return told
+
+    def _copy(self, day: Day) -> Iterator[str]:
+        own, theirs = self.folder / day.id / LESSON, self.lesson_of(day)
+        self._copy_beside(day)
+        before = self._before(day)
+        if not own.exists():
+            _copy_file(theirs, own)
+        elif before.is_file() and filecmp.cmp(before, theirs, shallow=False):
+            return  # the course's lesson is the one that was copied
+        elif filecmp.cmp(own, before if before.is_file() else theirs, shallow=False):
+            _copy_file(theirs, own)  # nothing was written in it
+        elif not filecmp.cmp(own, theirs, shallow=False):
+            new = _free_name(own)
+            _copy_file(theirs, new)
+            yield f"{day.name} has changed. Your work stays in {shown(own)}; the new is {new.name}."
+        _copy_file(theirs, before)
+
+    def _before(self, day: Day) -> Path:
+        return self.workspace / ".roslings" / "lessons" / f"{day.id}.ipynb"
+
+    def _copy_beside(self, day: Day) -> None:
+        (self.folder / day.id).mkdir(parents=True, exist_ok=True)
+        pictures = self.course / "days" / day.id / PICTURES
+        if pictures.is_dir():
+            shutil.copytree(pictures, self.folder / day.id / PICTURES, dirs_exist_ok=True)
+        for page in pictures.parent.glob("*.md"):  # the lesson links to it
+            shutil.copy(page, self.folder / day.id)
+
+    def _list(self, days: tuple[Day, ...]) -> Iterator[str]:
+        yield from (
+            "# The days of roslings",
+            "",
+            "| Day | You can | Hours |",
+            "| --- | --- | --- |",
+        )
+        for day in days:
+            there = self.lesson_of(day).is_file()
+            name = f"[{day.name}]({day.id}/{LESSON})" if there else f"{day.name} (to come)"
+            yield f"| {name} | {day.can} | {day.hours:g} |"
+        yield from ("", "These are your own copies: change what you like.", "")
+
+
+def _copy_file(source: Path, target: Path) -> None:
+    target.parent.mkdir(parents=True, exist_ok=True)
+    shutil.copyfile(source, target)
+
+
+def _free_name(path: Path) -> Path:
+    names = (path.with_stem(f"{path.stem}-{number}") for number in range(2, MOST_COPIES))
+    return next(name for name in names if not name.exists())

@@ -1,0 +1,67 @@
+"""Rules on the file: what is in it, and what never is."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections import Counter
+from collections.abc import Iterator
+
+from roslings.lessons.rules.lesson_file import Broken, Cell, Lesson
+
+KERNEL = "roslings"
+TAGS = frozenset({"predict", "run", "explain", "change", "raises-exception"})
+ID = re.compile(r"^[a-z][a-z0-9]*(-[a-z0-9]+)*$")
+MACHINE = re.compile(
+    r"/home/(?!you\b|pi\b|ubuntu\b)\w+|/root/|/Users/\w+|/tmp/ipykernel|site-packages"
+)
+
+
+def broken(lesson: Lesson) -> Iterator[Broken]:
+    """Every rule on the file that `lesson` breaks."""
+    yield from _of_notebook(lesson)
+    yield from _ids(lesson)
+    for cell in lesson.cells:
+        yield from _of_cell(lesson, cell)
+
+
+def _of_notebook(lesson: Lesson) -> Iterator[Broken]:
+    version = lesson.raw.get("nbformat"), lesson.raw.get("nbformat_minor")
+    if version != (4, 5):
+        yield lesson.broken(f"The format is {version}, not 4.5.", "Convert it by jupytext again.")
+    metadata = lesson.raw.get("metadata", {})
+    strange = sorted(set(metadata) - {"kernelspec", "language_info"})
+    if strange:
+        yield lesson.broken(f"The metadata hold {', '.join(strange)}.", "Delete these entries.")
+    if metadata.get("kernelspec", {}).get("name") != KERNEL:
+        yield lesson.broken("The kernel is another one.", f"Name the kernelspec '{KERNEL}'.")
+    if set(metadata.get("language_info", {"name": ""})) != {"name"}:
+        yield lesson.broken("language_info says too much.", "Keep its 'name' alone: python.")
+
+
+def _ids(lesson: Lesson) -> Iterator[Broken]:
+    times = Counter(cell.id for cell in lesson.cells)
+    for cell in lesson.cells:
+        if not ID.match(cell.id) or re.fullmatch(r"[0-9a-f]{8}", cell.id):
+            mend = "Give it a readable one, such as talk-run."
+            yield lesson.broken_at(cell, 1, f"'{cell.id}' is no readable id.", mend)
+        if times[cell.id] > 1:
+            yield lesson.broken_at(cell, 1, "Another cell has this id.", "Choose another one.")
+
+
+def _of_cell(lesson: Lesson, cell: Cell) -> Iterator[Broken]:
+    if cell.raw.get("outputs") or cell.raw.get("execution_count") is not None:
+        mend = "Clear all outputs before you commit."
+        yield lesson.broken_at(cell, 1, "The cell holds outputs or an execution count.", mend)
+    strange = sorted(set(cell.raw.get("metadata", {})) - {"tags", "roslings"})
+    if strange:
+        what = f"The cell's metadata hold {', '.join(strange)}."
+        yield lesson.broken_at(cell, 1, what, "Keep tags and roslings alone.")
+    for tag in sorted(set(cell.tags) - TAGS):
+        mend = f"Use these alone: {', '.join(sorted(TAGS))}."
+        yield lesson.broken_at(cell, 1, f"'{tag}' is no tag of a lesson.", mend)
+    found = MACHINE.search(cell.text) or MACHINE.search(json.dumps(cell.raw.get("metadata", {})))
+    if found:
+        line = cell.text[: found.start()].count("\n") + 1
+        what = f"'{found.group()}' is a path of one machine."
+        yield lesson.broken_at(cell, line, what, "Write ~ or a path in the course.")

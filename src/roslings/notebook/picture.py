@@ -1,0 +1,85 @@
+"""A picture below a cell, with its text alternative.
+
+As HTML with an `img`: JupyterLab and the site then both hand `alt` to who cannot see it. The
+picture brings its own white sheet, so that it can be read in a dark theme too.
+"""
+
+from __future__ import annotations
+
+import base64
+import html
+import re
+import sys
+from dataclasses import dataclass
+from typing import Any, Literal
+
+STYLE = (
+    "max-width:100%;height:auto;background:#fff;border:1px solid #d5d9e0;border-radius:8px;"
+    "padding:4px"
+)
+INK = """
+text { fill: #14181f; font-family: ui-monospace, "DejaVu Sans Mono", Menlo, Consolas, monospace; }
+.plot text { fill: #515b69; font: 12px system-ui, sans-serif; }
+.graph .bold { font-weight: 700; } .graph .warn { fill: #b3151d; }
+.node { fill: #eaf2ff; stroke: #1f6feb; stroke-width: 1.4; } .doubled { stroke: #b3151d; }
+.topic { fill: #e9f7ec; stroke: #1a7f37; stroke-width: 1.4; }
+.arrow { fill: none; stroke: #444; stroke-width: 1.4; } .head { fill: #444; }
+.grid { stroke: #e4e7ec; } .axis { stroke: #515b69; }
+.trace { fill: none; stroke: #1d4ed8; stroke-width: 1; opacity: .45; }
+.dots { stroke: #1d4ed8; stroke-width: 6; stroke-linecap: round; }
+.columns { stroke: #1d4ed8; stroke-width: 1.2; }
+.gap { stroke: #b3151d; stroke-dasharray: 2 4; } .beyond { fill: #b3151d; }
+.lost { fill: none; stroke: #b3151d; stroke-width: 2.4; }
+"""
+"""The colours of the lessons' own pictures: nodes blue, topics green."""
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A drawing and the sentences that say the same."""
+
+    content: bytes
+    kind: Literal["image/svg+xml", "image/png"]
+    alt: str
+    width_px: int | None = None
+    pixelated: bool = False
+
+    def _repr_mimebundle_(self, **_: object) -> dict[str, str]:
+        """What Jupyter shows: the picture, or the sentences where there are no pictures."""
+        return {"text/html": self.html(), "text/plain": self.alt}
+
+    def html(self) -> str:
+        """An `img` that holds everything: it needs no file."""
+        held = base64.b64encode(self.content).decode("ascii")
+        width = f' width="{self.width_px}"' if self.width_px else ""
+        style = STYLE + (";image-rendering:pixelated" if self.pixelated else "")
+        alt = html.escape(self.alt)
+        return f'<img src="data:{self.kind};base64,{held}" alt="{alt}"{width} style="{style}">'
+
+
+def svg_picture(svg: str, alt: str) -> Picture:
+    """A picture of an `svg` element that was written for a page with a style sheet."""
+    inside = re.sub(r"^<svg ", '<svg xmlns="http://www.w3.org/2000/svg" ', svg, count=1)
+    styled = inside.replace(">", f"><style>{INK}</style>", 1)
+    return Picture(styled.encode("utf-8"), "image/svg+xml", alt)
+
+
+def show(picture: Picture) -> None:
+    """Show it below the cell; without a notebook, print its text alternative."""
+    if not in_a_notebook():
+        print(picture.alt)
+        return
+    from IPython.display import display
+
+    display(picture)
+
+
+def in_a_notebook() -> bool:
+    """A cell runs this, and not a program or a test."""
+    return notebook_shell() is not None
+
+
+def notebook_shell() -> Any | None:
+    """IPython's shell; None in a program, which then need not import IPython either."""
+    ipython = sys.modules.get("IPython")
+    return ipython.get_ipython() if ipython else None

@@ -1,0 +1,128 @@
+"""`./roslings lab`: the student's own copies, the right day, the right kernel."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from tiny_course import DAY, write_course
+
+from roslings.course import root
+from roslings.jupyter.choosing import chosen_day, place_for
+from roslings.jupyter.copies import Copies
+from roslings.jupyter.server import Place, command, write_kernel
+from roslings.jupyter.trouble import NoSuchDay, NotWritten
+from roslings.lessons import Day, read_lessons
+
+
+@pytest.fixture
+def copies(tmp_path: Path) -> Copies:
+    """The tiny course, and a workspace that is not there yet."""
+    write_course(tmp_path / "course")
+    return Copies(tmp_path / "course", tmp_path / "ws")
+
+
+def days_of(copies: Copies) -> tuple[Day, ...]:
+    """The path of days."""
+    return read_lessons(copies.course).days
+
+
+def test_the_first_time_all_is_copied(copies: Copies) -> None:
+    """Lesson, pictures, and a list of the days, those to come too."""
+    assert copies.copy_all(days_of(copies)) == []
+    own = copies.folder / DAY / "lesson.ipynb"
+    assert own.read_bytes() == (copies.course / "days" / DAY / "lesson.ipynb").read_bytes()
+    assert (copies.folder / DAY / "pictures" / "lamp.svg").is_file()
+    listed = (copies.folder / "Days.md").read_text("utf-8")
+    assert "[Day 1: A lamp](01-lamp/lesson.ipynb)" in listed
+    assert "Day 2: A motor (to come)" in listed
+
+
+def test_work_is_never_overwritten(copies: Copies) -> None:
+    """Not where the lesson stayed, and not where it changed: then both are there, told once."""
+    copies.copy_all(days_of(copies))
+    own = copies.folder / DAY / "lesson.ipynb"
+    own.write_text("my work", "utf-8")
+    assert copies.copy_all(days_of(copies)) == []
+    lesson = copies.course / "days" / DAY / "lesson.ipynb"
+    lesson.write_text(lesson.read_text("utf-8") + "\n", "utf-8")
+    (told,) = copies.copy_all(days_of(copies))
+    assert "Your work stays" in told and "lesson-2.ipynb" in told
+    assert own.read_text("utf-8") == "my work"
+    assert own.with_name("lesson-2.ipynb").read_bytes() == lesson.read_bytes()
+    assert copies.copy_all(days_of(copies)) == []
+
+
+def test_an_untouched_copy_follows_the_course(copies: Copies) -> None:
+    """Nothing was written in it, so nothing is lost."""
+    copies.copy_all(days_of(copies))
+    lesson = copies.course / "days" / DAY / "lesson.ipynb"
+    lesson.write_text(lesson.read_text("utf-8") + "\n", "utf-8")
+    assert copies.copy_all(days_of(copies)) == []
+    assert (copies.folder / DAY / "lesson.ipynb").read_bytes() == lesson.read_bytes()
+    assert not (copies.folder / DAY / "lesson-2.ipynb").exists()
+
+
+def test_a_lost_record_costs_no_work(copies: Copies) -> None:
+    """Without it nobody knows what was changed: so all of it was."""
+    copies.copy_all(days_of(copies))
+    own = copies.folder / DAY / "lesson.ipynb"
+    own.write_text("my work", "utf-8")
+    (copies.workspace / ".roslings" / "lessons" / f"{DAY}.ipynb").unlink()
+    assert len(copies.copy_all(days_of(copies))) == 1
+    assert own.read_text("utf-8") == "my work"
+
+
+@pytest.mark.parametrize("wanted", ["1", "01", "01-lamp", "lamp", None])
+def test_a_day_has_several_names(copies: Copies, wanted: str | None) -> None:
+    """Number, folder, name; without one, the first day to begin with."""
+    day = chosen_day(wanted, days_of(copies), copies)
+    assert day is not None and day.id == DAY
+
+
+def test_a_day_that_cannot_be_opened_is_told(copies: Copies) -> None:
+    """One that does not exist, and one that is to come."""
+    with pytest.raises(NoSuchDay, match="2  02-motor"):
+        chosen_day("9", days_of(copies), copies)
+    with pytest.raises(NotWritten, match="Day 2: A motor"):
+        chosen_day("2", days_of(copies), copies)
+
+
+def test_what_the_server_is_told(copies: Copies) -> None:
+    """The page, the port, no browser, and this computer alone."""
+    place = place_for("1", days_of(copies), copies, port=9911, browser=False)
+    words = command(place)
+    assert "--LabApp.default_url=/lab/tree/01-lamp/lesson.ipynb" in words
+    assert f"--ServerApp.root_dir={copies.folder}" in words
+    assert {"--ServerApp.port=9911", "--ServerApp.port_retries=0", "--no-browser"} <= set(words)
+    assert Place(copies, None).page == "/lab/tree/Days.md"
+    assert "--no-browser" not in command(Place(copies, None))
+
+
+def test_the_kernel_is_the_one_of_this_place(tmp_path: Path) -> None:
+    """Written at each start: a clone that was moved gets the new path."""
+    for name in ("here", "moved here"):
+        write_kernel(tmp_path / name)
+        note = tmp_path / name / "share" / "jupyter" / "kernels" / "roslings" / "kernel.json"
+        assert json.loads(note.read_text())["argv"][0] == str(tmp_path / name / "bin" / "python")
+    settings = tmp_path / "here" / "share" / "jupyter" / "lab" / "settings" / "overrides.json"
+    news = json.loads(settings.read_text())["@jupyterlab/apputils-extension:notification"]
+    assert news == {"fetchNews": "false", "checkForUpdates": False}
+
+
+def test_a_wrong_day_is_wrong_use(copies: Copies) -> None:
+    """Exit code 2, no traceback, and nothing is written."""
+    done = subprocess.run(
+        [sys.executable, "-m", "roslings", "lab", "9", "--no-browser"],
+        env={
+            **os.environ, "PYTHONPATH": str(root() / "src"),
+            "ROSLINGS_COURSE": str(copies.course), "ROSLINGS_WS": str(copies.workspace),
+        },
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert done.returncode == 2 and "There is no day '9'" in done.stderr
+    assert "Traceback" not in done.stderr and not copies.workspace.exists()

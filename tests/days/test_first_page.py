@@ -1,0 +1,306 @@
+"""The first page of day 1, replayed literally: each command in the terminal that the page names."""
+
+from __future__ import annotations
+
+import json
+import os
+import pty
+import re
+import select
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager, suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import pytest
+
+from roslings.arena.lease import leased_domain
+from roslings.course import root
+
+PAGE = root() / "days" / "01-install" / "first-15-minutes.md"
+PATIENCE_S = 240.0
+"""Only a page that does not hold its promise waits so long; a first use downloads ROS."""
+MOST_COMMANDS = 8
+
+PLACE = re.compile(r"^Terminal (\d), in the roslings folder:\n\n```bash\n(.*?)^```$", re.M | re.S)
+EDIT = re.compile(r"^```diff\n-(.*)\n\+(.*)\n```$", re.M)
+ANY_BLOCK = re.compile(r"^```(\w*)$", re.M)
+FILE = re.compile(r"Open the file `~/([^`]+)`")
+LINES = re.compile(r"[Ii]n\s+line\s+(\d+)|change\s+line\s+(\d+)")
+ESCAPES = re.compile(r"\x1b(\[[0-9;?]*[a-zA-Z]|[=>]|\][^\x07]*\x07)")
+KEPT = re.compile(r"PATH|LANG|LC_ALL|ROSLINGS_.*|PIP_.*|UV_.*|https?_proxy|no_proxy", re.I)
+
+
+@dataclass(frozen=True)
+class Commands:
+    """A block that the student types."""
+
+    terminal: int
+    lines: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Change:
+    """A line that the student changes in an editor."""
+
+    file: str
+    number: int
+    old: str
+    new: str
+
+    @property
+    def undone(self) -> Change:
+        """The same change, backwards."""
+        return Change(self.file, self.number, self.new, self.old)
+
+    def make(self, home: Path) -> None:
+        """Change the line; the page says which one, and what stands there before."""
+        path = home / self.file
+        lines = path.read_text("utf-8").splitlines()
+        assert lines[self.number - 1] == self.old, f"line {self.number} is another one"
+        lines[self.number - 1] = self.new
+        path.write_text("\n".join([*lines, ""]), "utf-8")
+
+
+def page() -> str:
+    """The page as it is committed."""
+    return PAGE.read_text("utf-8")
+
+
+def commands() -> list[Commands]:
+    """Every block for a terminal, in the page's order."""
+    blocks = PLACE.findall(page())
+    return [Commands(int(number), tuple(text.splitlines())) for number, text in blocks]
+
+
+def changes() -> list[Change]:
+    """Every change of a file, in the page's order."""
+    (file,) = FILE.findall(page())
+    numbers = [int(one or other) for one, other in LINES.findall(page())]
+    return [
+        Change(file, number, old, new)
+        for number, (old, new) in zip(numbers, EDIT.findall(page()), strict=True)
+    ]
+
+
+@dataclass
+class Terminal:
+    """A bash on a pseudo-terminal of 100 columns, as a student has it."""
+
+    shell: subprocess.Popen[bytes]
+    screen: int
+    _said: bytearray = field(default_factory=bytearray)
+    _mark: int = 0
+
+    def type(self, line: str) -> None:
+        """Type a line and press Enter; what stood there before no longer counts."""
+        self.heard()
+        self._mark = len(self._said)
+        os.write(self.screen, line.encode() + b"\n")
+
+    def press_ctrl_c(self) -> None:
+        """Interrupt what runs in the foreground."""
+        os.write(self.screen, b"\x03")
+
+    def heard(self) -> str:
+        """What came since the last line was typed, without colours and cursor movements."""
+        return ESCAPES.sub("", self._said[self._mark :].decode("utf-8", "replace"))
+
+    def read_on(self, ending: threading.Event) -> None:
+        """Take what comes, for a thread of its own: a terminal that nobody reads blocks."""
+        while not ending.is_set():
+            if select.select([self.screen], [], [], 0.1)[0]:
+                try:
+                    self._said += os.read(self.screen, 65536)
+                except OSError:  # the shell is gone
+                    return
+
+    def shows(self, pattern: str) -> None:
+        """Wait until the screen has shown it."""
+        until(lambda: bool(re.search(pattern, self.heard())), lambda: f"{pattern!r}:\n{self}")
+
+    def is_free(self) -> None:
+        """Wait until the prompt is back."""
+        until(lambda: self.heard().endswith("ready> "), lambda: f"no prompt:\n{self}")
+
+    def __str__(self) -> str:
+        return self.heard()[-3000:]
+
+
+def until(holds: Callable[[], bool], missing: Callable[[], str]) -> None:
+    """Wait until something holds."""
+    late_s = time.monotonic() + PATIENCE_S
+    while not holds():
+        assert time.monotonic() < late_s, missing()
+        time.sleep(0.05)
+
+
+@contextmanager
+def opened(home: Path, domain: int) -> Iterator[Terminal]:
+    """A new terminal in the roslings folder; all that was started in it ends with it."""
+    screen, other_end = pty.openpty()
+    shell = subprocess.Popen(
+        ["bash", "--norc", "--noprofile", "-i"], cwd=root(), env=surroundings(home, domain),
+        stdin=other_end, stdout=other_end, stderr=other_end, start_new_session=True,
+        preexec_fn=take_terminal,
+    )  # fmt: skip
+    os.close(other_end)
+    ending, terminal = threading.Event(), Terminal(shell, screen)
+    reader = threading.Thread(target=terminal.read_on, args=[ending])
+    reader.start()
+    try:
+        yield terminal
+    finally:
+        end_session(shell)
+        ending.set()
+        reader.join()
+        os.close(screen)
+
+
+def take_terminal() -> None:
+    """Make standard input the terminal of this session, so that Ctrl-C is heard."""
+    import fcntl
+    import termios
+
+    fcntl.ioctl(0, termios.TIOCSCTTY, 0)
+
+
+def surroundings(home: Path, domain: int) -> dict[str, str]:
+    """An empty home, no ROS, no screen; the domain only keeps tests apart."""
+    kept = {key: value for key, value in os.environ.items() if KEPT.fullmatch(key)}
+    own = {"HOME": str(home), "TERM": "xterm", "PS1": "ready> ", "ROS_DOMAIN_ID": str(domain)}
+    return {"LANG": "C.UTF-8", **kept, **own, "COLUMNS": "100", "LINES": "40"}
+
+
+def end_session(shell: subprocess.Popen[bytes]) -> None:
+    """End the shell and every process that was started in its terminal."""
+    until(lambda: not killed(session_of(shell)), lambda: f"{session_of(shell)} do not end")
+    shell.wait()
+
+
+def killed(processes: list[int]) -> list[int]:
+    """Kill what is still there."""
+    for process in processes:
+        with suppress(ProcessLookupError):
+            os.kill(process, signal.SIGKILL)
+    return processes
+
+
+def session_of(shell: subprocess.Popen[bytes]) -> list[int]:
+    """The processes of a terminal that still run."""
+    found = []
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            state, _, _, session = stat.read_text().rpartition(")")[2].split()[:4]
+        except OSError:
+            continue
+        if int(session) == shell.pid and state != "Z":
+            found.append(int(stat.parent.name))
+    return found
+
+
+@dataclass
+class Reader:
+    """Who follows the page: a home, terminals, and the blocks that are still to be typed."""
+
+    home: Path
+    open_terminal: Callable[[], Terminal]
+    terminals: dict[int, Terminal] = field(default_factory=dict)
+    blocks: list[Commands] = field(default_factory=commands)
+    edits: list[Change] = field(default_factory=changes)
+    made: list[Change] = field(default_factory=list)
+
+    def types(self) -> Terminal:
+        """Type the page's next block; the last of its lines may go on running."""
+        block = self.blocks.pop(0)
+        if block.terminal not in self.terminals:
+            self.terminals[block.terminal] = self.open_terminal()
+            self.terminals[block.terminal].is_free()
+        terminal = self.terminals[block.terminal]
+        for line in block.lines[:-1]:
+            terminal.type(line)
+            terminal.is_free()
+        terminal.type(block.lines[-1])
+        return terminal
+
+    def edits_the_file(self) -> None:
+        """Make the page's next change."""
+        self.made.append(self.edits.pop(0))
+        self.made[-1].make(self.home)
+
+    def takes_the_edit_back(self) -> None:
+        """Put the letter back."""
+        self.made.pop().undone.make(self.home)
+
+
+@pytest.fixture
+def reader(tmp_path: Path) -> Iterator[Reader]:
+    """Somebody with an empty home, in the course's folder."""
+    with leased_domain() as domain, ExitStack() as terminals:
+        yield Reader(tmp_path, lambda: terminals.enter_context(opened(tmp_path, domain)))
+
+
+def place_of(rover: Terminal) -> float:
+    """The x that the map shows now, in metres."""
+    found = re.findall(r"\bx +(-?\d+\.\d\d) m", rover.heard())
+    return float(found[-1]) if found else 0.0
+
+
+def test_the_page_has_at_most_eight_commands_and_places_for_all() -> None:
+    """No block without its terminal and folder."""
+    typed = [line for block in commands() for line in block.lines]
+    assert 0 < len(typed) <= MOST_COMMANDS
+    kinds = [kind for kind in ANY_BLOCK.findall(page()) if kind]
+    assert sorted(kinds) == ["bash"] * len(commands()) + ["diff"] * len(changes())
+
+
+def test_20_seconds_of_robot_time_are_judged(tmp_path: Path) -> None:
+    """What the page says of its check. A busy computer goes by the wall, and says so."""
+    kept = tmp_path / "kept"
+    words = [
+        sys.executable,
+        "-m",
+        "roslings",
+        "check",
+        "nodes",
+        "--solution",
+        "--evidence",
+        str(kept),
+    ]
+    subprocess.run(words, cwd=root(), env={**os.environ, "HOME": str(tmp_path)}, check=False)
+    alone = json.loads((kept / "evidence.json").read_text("utf-8"))["experiments"]["alone"]
+    if alone["clock"] == "sim":
+        assert alone["ticks"][-1]["sim_ns"] > 20e9
+    else:
+        assert alone["not_believed"]
+
+
+def test_the_page_holds_what_it_promises(reader: Reader) -> None:
+    """The robot drives; a wrong letter is found by name; one's own program is in the picture."""
+    rover = reader.types()
+    rover.shows("The rover")
+    driver = reader.types()
+    driver.shows("publishing #1")
+    until(lambda: place_of(rover) > 0.3, lambda: f"it did not drive:\n{rover}")
+    driver.is_free()
+    reader.types().is_free()
+    reader.edits_the_file()
+    reader.types().shows(r"there is no /robot_status, but /robot_staus[^$]*Score +\d\d of 100")
+    driver.is_free()
+    reader.takes_the_edit_back()
+    reader.types().shows("100 of 100")
+    driver.is_free()
+    reader.edits_the_file()
+    own = reader.types()
+    own.shows(r"\[maria\]: Publishing")
+    reader.types().shows(r"(?s)Nodes\s+/maria\s+/rover\s.*from  /maria")
+    for terminal in (rover, own):
+        terminal.press_ctrl_c()
+        terminal.is_free()
+    assert not reader.blocks
+    assert not reader.edits
