@@ -2,7 +2,8 @@
 #
 #     source setup.bash          (in each new terminal, from anywhere: source PATH/setup.bash)
 #
-# Where a ROS 2 Jazzy is already sourced, it adds nothing but the command `roslings`.
+# Where a ROS 2 Jazzy is already sourced, it adds only the command `roslings`, and the message types
+# of the labs.
 
 _roslings=$(CDPATH= cd -- "$(dirname -- "${BASH_SOURCE[0]:-$0}")" && pwd -P)
 
@@ -16,6 +17,21 @@ if [ -z "${ROS_DISTRO-}" ]; then
         *":$_roslings/.venv:"*) ;;
         *) export AMENT_PREFIX_PATH=${AMENT_PREFIX_PATH:+$AMENT_PREFIX_PATH:}$_roslings/.venv ;;
     esac
+elif [ -d "$_roslings/.venv-apt/overlay" ]; then
+    # The message types that a lab brings, once `./roslings start` has built them.
+    _overlay=$_roslings/.venv-apt/overlay
+    case :${AMENT_PREFIX_PATH-}: in
+        *":$_overlay:"*) ;;
+        *)
+            export AMENT_PREFIX_PATH=$_overlay${AMENT_PREFIX_PATH:+:$AMENT_PREFIX_PATH}
+            export CMAKE_PREFIX_PATH=$_overlay${CMAKE_PREFIX_PATH:+:$CMAKE_PREFIX_PATH}
+            export LD_LIBRARY_PATH=$_overlay/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
+            for _folder in "$_overlay"/lib/python3*/*-packages; do
+                export PYTHONPATH=$_folder${PYTHONPATH:+:$PYTHONPATH}
+            done
+            unset _folder ;;
+    esac
+    unset _overlay
 fi
 
 # Your nodes talk to each other on this computer only, and not with the neighbour's robot. With a

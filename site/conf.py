@@ -9,6 +9,10 @@ sys.path[:0] = [str(HERE), str(HERE.parent / "src")]
 
 from course_site import course_digest  # noqa: E402  found by the line above
 
+# For the cells of the lessons: the quiz has a page of its own here, and nobody's work is checked.
+os.environ["ROSLINGS_SITE"] = "1"
+os.environ["ROSLINGS_WS"] = str(HERE / "no_workspace")
+
 project = "roslings"
 author = "the roslings authors"
 copyright = "the roslings authors, CC BY 4.0"
@@ -24,6 +28,8 @@ nb_execution_raise_on_error = True
 nb_execution_timeout = 60
 nb_execution_show_tb = True
 nb_merge_streams = True
+# `./roslings lab` writes a kernel of this name; here the one that came with ipykernel does.
+nb_kernel_rgx_aliases = {"roslings": "python3"}
 nb_ipywidgets_js = {}  # these come from another host
 myst_enable_extensions = ["colon_fence", "deflist", "fieldlist", "attrs_inline"]
 myst_heading_anchors = 4

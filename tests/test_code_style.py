@@ -34,6 +34,11 @@ ROOMS_BELOW = {
     "bootstrap": set[str](),
     "devices": set[str](),
     "ros2": {"evidence", "near", "rates", "arena", "probe", "report", "doctor"},
+    "jupyter": {"lessons", "workspace"},
+    "notebook": {
+        "evidence", "near", "course", "lessons", "workspace", "arena", "probe", "report", "devices",
+        "ros2",
+    },
 }  # fmt: skip
 """Room to the rooms that it may import: the arrows run one way."""
 

@@ -1,13 +1,14 @@
 """Gathers all pages in one folder, as Sphinx wants them: the course keeps them where they belong.
 
 site/pages/**            -> the same place
-days/NN-name/lesson.ipynb -> days/NN-name/index.ipynb, with the pictures beside it
+days/NN-name/lesson.ipynb -> days/NN-name/index.ipynb, with the pictures and pages beside it
 days/NN-name/quiz.yaml   -> days/NN-name/quiz.md and answers.md
 labs/NAME/task.md        -> labs/NAME.md
 """
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -17,6 +18,7 @@ from roslings.lessons import Day, read_lessons
 
 COMMANDS = Path(ros2.__file__).with_name("COMMANDS.md")
 NOT_A_PAGE = ("quiz.yaml", "lesson.ipynb")
+LINK_TO_LESSON = re.compile(r"\]\(((?:\.\./[0-9a-z-]+/)?)lesson\.ipynb")
 
 
 @dataclass
@@ -76,13 +78,21 @@ def gather(course: Path, pages: Path, folder: Path) -> Gathered:
 def _gather_day(gathered: Gathered, folder: Path, day: Day) -> None:
     lesson, quiz = folder / "lesson.ipynb", folder / "quiz.yaml"
     if lesson.is_file():
-        gathered.copy(lesson, f"days/{day.id}/index.ipynb")
+        gathered.write(f"days/{day.id}/index.ipynb", _linked(lesson), lesson)
         for beside in folder.rglob("*"):
-            if beside.is_file() and beside.name not in NOT_A_PAGE:
+            if beside.suffix == ".md":
+                page = f"---\norphan: true\n---\n{_linked(beside)}"
+                gathered.write(f"days/{day.id}/{beside.relative_to(folder)}", page, beside)
+            elif beside.is_file() and beside.name not in NOT_A_PAGE:
                 gathered.copy(beside, f"days/{day.id}/{beside.relative_to(folder)}")
     if quiz.is_file():
         gathered.write(f"days/{day.id}/quiz.md", _quiz_page(day), quiz)
         gathered.write(f"days/{day.id}/answers.md", _answers_page(day), quiz)
+
+
+def _linked(page: Path) -> str:
+    """Its text, with links to lessons as they are called here: in JupyterLab they are files."""
+    return LINK_TO_LESSON.sub(r"](\1index.ipynb", page.read_text("utf-8"))
 
 
 def _quiz_page(day: Day) -> str:

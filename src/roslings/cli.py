@@ -103,10 +103,12 @@ def parser() -> argparse.ArgumentParser:
     lab_options(add("diff", "what you changed since the starter", "diff"))
     pack_options(add("pack", "make the zip file to hand in", "pack"))
     graph_options(add("graph", "show the running graph, or save a picture of it", "graph"))
+    jupyter_options(add("lab", "open the day's lesson in JupyterLab", "lab"))
     site_options(add("site", "build the website: lessons, words, quizzes", "site"))
     test_options(add("test", "run the tests of roslings", "test"))
     rover_options(add("rover", "a small robot to drive by ROS, and its map", "rover"))
     board_options(add("board", "the rover's Arduino board on a serial port", "board"))
+    camera_options(add("camera", "the rover's camera, for a node to read", "camera"))
     add("ros2", "the ros2 commands, where the real ones are not installed", None)
     add("wheels", "fetch every package into a folder, for a lab without a network", None)
     return top
@@ -213,6 +215,15 @@ def graph_options(word: argparse.ArgumentParser) -> None:
     word.add_argument("--all", action="store_true", help="also /rosout and other parts of ROS")
 
 
+def jupyter_options(word: argparse.ArgumentParser) -> None:
+    """What `lab` takes."""
+    word.add_argument(
+        "day", metavar="DAY", nargs="?", help="for example: 3, or 03-topics (default: today's)"
+    )
+    word.add_argument("--no-browser", action="store_true", help="print the address, open nothing")
+    word.add_argument("--port", metavar="N", type=int, help="default: 8888, or the next free one")
+
+
 def rover_options(word: argparse.ArgumentParser) -> None:
     """What `rover` takes."""
     word.add_argument(
@@ -231,6 +242,17 @@ def board_options(word: argparse.ArgumentParser) -> None:
         metavar="FILE.ino",
         type=Path,
         help="run this sketch, in an emulated Mega",
+    )
+
+
+def camera_options(word: argparse.ArgumentParser) -> None:
+    """What `camera` takes."""
+    word.add_argument("--device", metavar="PATH", type=Path, help="default: /tmp/rover_camera")
+    word.add_argument(
+        "--hue", type=int, default=5, metavar="0..179", help="the ball's colour, as OpenCV counts"
+    )
+    word.add_argument(
+        "--noise", type=float, default=4.0, metavar="LEVELS", help="of each value, of 255"
     )
 
 

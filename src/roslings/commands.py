@@ -39,6 +39,8 @@ def exit_code_of(error: Exception) -> int | None:
     from roslings.arena import NoFreeDomain
     from roslings.devices.trouble import DeviceTrouble
     from roslings.experiment import MeasuringFailed
+    from roslings.jupyter.trouble import NoLessonToOpen
+    from roslings.lessons import BadLessons
     from roslings.ros2.problem import Problem
     from roslings.saving import NoBagWriter, NothingToSave
 
@@ -48,7 +50,7 @@ def exit_code_of(error: Exception) -> int | None:
         return WRONG_USE
     if isinstance(error, BadEvidence | CannotKeepThere | NothingToSave | NoBagWriter):
         return WRONG_USE
-    if isinstance(error, DeviceTrouble | Problem):
+    if isinstance(error, DeviceTrouble | Problem | NoLessonToOpen | BadLessons):
         return WRONG_USE
     if isinstance(error, FileExistsError | NotADirectoryError):
         return WRONG_USE
@@ -295,15 +297,17 @@ def today(options: argparse.Namespace) -> int:
 
 def graph(options: argparse.Namespace) -> int:
     """Show the running graph, or save a picture of it."""
-    from roslings.probe import live_graph
     from roslings.report import draw_graph, graph_text
     from roslings.report.graph_picture import NotAPng
+    from roslings.ros2.rqt_graph import seen_graph
+    from roslings.ros2.surroundings import prepare
 
     if options.save and options.save.exists() and not options.force:
         print(f"roslings: {options.save} is there already. Nothing was changed.", file=sys.stderr)
         print("To replace it, add --force.", file=sys.stderr)
         return WRONG_USE
-    seen = live_graph()
+    prepare()
+    seen = seen_graph()  # complete: a fixed wait misses nodes, by luck, that run all the time
     print(graph_text(seen, show_hidden=options.all))
     if options.save:
         try:
@@ -313,6 +317,24 @@ def graph(options: argparse.Namespace) -> int:
             return WRONG_USE
         print(f"\nSaved {options.save}")
     return OK if seen.nodes else FAILED
+
+
+# --- the notebooks -----------------------------------------------------------------------------
+
+
+def lab(options: argparse.Namespace) -> int:
+    """Open the day's lesson in JupyterLab, until Ctrl-C."""
+    from roslings.jupyter.choosing import place_for
+    from roslings.jupyter.copies import Copies
+    from roslings.jupyter.server import open_lab
+    from roslings.lessons import read_lessons
+
+    days = read_lessons(course.root()).days
+    copies = Copies(course.root(), workspace_root())
+    place = place_for(options.day, days, copies, options.port, not options.no_browser)
+    for told in copies.copy_all(days):
+        print(told)
+    return open_lab(place)
 
 
 # --- the rover ---------------------------------------------------------------------------------
@@ -335,6 +357,14 @@ def board(options: argparse.Namespace) -> int:
     from roslings.devices.board.live import run, usual_port
 
     run(options.port or usual_port(), options.sketch)
+    return OK
+
+
+def camera(options: argparse.Namespace) -> int:
+    """Run the rover's camera until Ctrl-C."""
+    from roslings.devices.camera.live import run, usual_path
+
+    run(options.device or usual_path(), options.hue, options.noise)
     return OK
 
 

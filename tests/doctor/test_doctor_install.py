@@ -194,6 +194,18 @@ def test_well_empy(clinic: Clinic) -> None:
     assert_well(clinic.look("empy"))
 
 
+def test_ill_compiler(clinic: Clinic) -> None:
+    clinic.program("apt")
+    clinic.program("gcc")
+    assert_ill(clinic.look("compiler"), "advice", "no C++ compiler", "build-essential")
+
+
+def test_well_compiler(clinic: Clinic) -> None:
+    clinic.program("gcc")
+    clinic.program("g++")
+    assert_well(clinic.look("compiler"))
+
+
 def test_ill_colcon(clinic: Clinic) -> None:
     finding = clinic.apt(sourced=True).look("colcon")
     assert_ill(finding, "fault", "not installed", "python3-colcon-common-extensions")

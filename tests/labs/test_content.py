@@ -12,7 +12,8 @@ from pathlib import Path
 
 import pytest
 
-from roslings.course import Lab, Mutant, all_labs, lab
+from roslings.bootstrap.groups import names
+from roslings.course import Lab, Mutant, all_labs, lab, root
 from roslings.course.files import BadCourseFile
 from roslings.course.task import is_current, task_text, write_task
 from roslings.workspace.inspect import inspect_package
@@ -103,6 +104,12 @@ def test_a_damaged_section_is_named_by_its_line(
     with pytest.raises(BadCourseFile) as fault:
         task_text(lab("topics"))
     assert abs(fault.value.line - line) < LONGEST_LINE
+
+
+@every_lab
+def test_the_groups_of_a_card_exist(each: Lab) -> None:
+    """What its check needs besides is a group of pyproject.toml."""
+    assert set(each.card.groups) <= set(names(root() / "pyproject.toml"))
 
 
 # --- the packages ------------------------------------------------------------------------------

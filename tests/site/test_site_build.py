@@ -3,15 +3,10 @@
 from __future__ import annotations
 
 import json
-import os
 import re
-import subprocess
-import sys
 from pathlib import Path
 
 from two_days_site import build
-
-from roslings.course import root
 
 PAGE = "days/01-install/lesson.ipynb"
 
@@ -22,18 +17,6 @@ def change_lesson(course: Path, source: str, cell: int = 0) -> None:
     notebook = json.loads(path.read_text("utf-8"))
     notebook["cells"][cell]["source"] = source
     path.write_text(json.dumps(notebook), "utf-8")
-
-
-def test_the_course_as_it_is_builds_with_no_day_written(tmp_path: Path) -> None:
-    """Home is there and useful before the first lesson."""
-    command = [sys.executable, "-m", "roslings", "site", "--out", str(tmp_path)]
-    environment = {**os.environ, "ROSLINGS_COURSE": str(root())}
-    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stdout + done.stderr
-    home = tmp_path / "html" / "index.html"
-    assert str(home) in done.stdout
-    text = home.read_text("utf-8")
-    assert all(f"Day {number}" in text for number in range(1, 8))
 
 
 WRONG = {
@@ -80,6 +63,15 @@ def test_links_to_other_sites_are_listed(course: Path) -> None:
     done = build(course, "--links")
     assert done.returncode == 0
     assert "https://docs.ros.org/en/jazzy/  (days/03-topics/index.ipynb" in done.stdout
+
+
+def test_a_link_to_a_lesson_leads_to_its_page(site: Path) -> None:
+    """In JupyterLab a lesson is a file; here it is the first page of its day."""
+    days = site / "days"
+    third = (days / "03-topics" / "index.html").read_text("utf-8")
+    assert 'href="../01-install/index.html"' in third
+    assert 'href="../01-install/page.html"' in third
+    assert 'href="index.html"' in (days / "01-install" / "page.html").read_text("utf-8")
 
 
 def test_no_answer_lies_open_in_a_page(site: Path) -> None:

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from site_rules import Look, breaches, pages_of
 from two_days_site import Visit
 
 Axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe
@@ -19,12 +20,6 @@ MUST_BE_THERE = {
 }  # fmt: skip
 
 
-def pages_of(site: Path) -> list[str]:
-    """Every page that was built."""
-    files = (page.relative_to(site).with_suffix("") for page in site.rglob("*.html"))
-    return sorted(str(page) for page in files if page.parts[0] != "_static")
-
-
 def test_no_page_is_missing(site: Path) -> None:
     """The issue's list of pages, and those of the two days."""
     assert set(pages_of(site)) >= MUST_BE_THERE
@@ -36,25 +31,7 @@ def test_no_page_breaks_a_rule_of_accessibility(
     browser: Any, site: Path, width: int, scheme: str
 ) -> None:
     """axe-core's rules, best practices included; nothing wider than the screen; no other host."""
-    context = browser.new_context(viewport={"width": width, "height": 900}, color_scheme=scheme)
-    visit = Visit(context, site.as_uri())
-    # Colours are all that darkness changes; asking for them alone keeps the suite short.
-    options = (
-        {"runOnly": ["color-contrast"]} if scheme == "dark" else {"resultTypes": ["violations"]}
-    )
-    axe, broken = Axe(), list[str]()
-    for name in pages_of(site):
-        page = visit.go(f"{name}.html")
-        if name.endswith("quiz"):
-            page.locator("button.button").first.click()
-        found = axe.run(page, options=options)
-        broken += [f"{name}: {line}" for line in found.generate_snapshot().splitlines()]
-        if page.evaluate("document.documentElement.scrollWidth") > width:
-            broken.append(f"{name} is wider than the screen")
-    context.close()
-    assert broken == []
-    assert visit.errors == []
-    assert [url for url in visit.requests if not url.startswith(visit.base)] == []
+    assert breaches(browser, site, pages_of(site), Look(width, scheme)) == []
 
 
 def test_an_open_popover_and_a_checked_quiz_are_accessible(browser: Any, site: Path) -> None:

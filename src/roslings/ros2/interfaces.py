@@ -11,6 +11,7 @@ from roslings.ros2.packages import share_of
 from roslings.ros2.problem import Problem, did_you_mean
 
 KINDS = {"msg": "message", "srv": "service", "action": "action"}
+FEEDBACK = "_FeedbackMessage"
 
 
 class UnknownInterface(Problem):
@@ -60,9 +61,15 @@ def full_name(type_name: str, kind: str) -> str:
 
 
 def class_of(type_name: str, kind: str) -> Any:
-    """The Python class of a type of `kind` (msg, srv, action). Raises UnknownInterface."""
+    """The Python class of a type of `kind` (msg, srv, action). Raises UnknownInterface.
+
+    An action's feedback is a message too: `pkg/action/Name_FeedbackMessage`.
+    """
     try:
         package, folder, name = full_name(type_name, kind).split("/")
+        if (folder, kind) == ("action", "msg") and name.endswith(FEEDBACK):
+            action = class_of(type_name.removesuffix(FEEDBACK), "action")
+            return action.Impl.FeedbackMessage
         if folder != kind:
             raise ValueError
         return getattr(importlib.import_module(f"{package}.{folder}"), name)

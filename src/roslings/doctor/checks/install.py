@@ -22,6 +22,7 @@ from roslings.doctor.machine import Machine, exists, read_text
 from roslings.doctor.mends import (
     APT_SOURCE,
     install_package,
+    install_program,
     install_ros,
     new_terminal,
     quoted,
@@ -297,6 +298,24 @@ def empy(machine: Machine) -> Finding:
             if exists(path):
                 return _judge_em(path, ros)
     return not_applicable("em is not installed; only a build of messages needs it")
+
+
+@check(
+    "compiler",
+    "A C++ compiler is installed",
+    looks_at="the programs cc and c++ on PATH",
+    lesson="05-actions#an-interface-of-your-own",
+)
+def compiler(machine: Machine) -> Finding:
+    """A lab with message types of its own says that there is no C and C++ compiler."""
+    names = (("cc", "gcc", "clang"), ("c++", "g++", "clang++"))
+    found = [next(filter(None, map(machine.which, each)), None) for each in names]
+    if all(found):
+        return ok(f"{found[1]} is there.")
+    return advice(
+        "There is no C++ compiler. Only message types of your own need one (day 5).",
+        *install_program(machine, "build-essential" if machine.which("apt") else "gcc-c++"),
+    )
 
 
 def _user_packages(machine: Machine) -> list[Path]:

@@ -183,7 +183,7 @@ def syntax(machine: Machine) -> Finding:
     "ws-setup-cfg",
     "Each Python package has its setup.cfg",
     looks_at="setup.cfg, which tells where the programs are installed",
-    lesson="03-topics#setup-cfg",
+    lesson="03-topics#package-files",
     rows=(14,),
 )
 def setup_cfg(machine: Machine) -> Finding:
@@ -214,7 +214,7 @@ def setup_cfg(machine: Machine) -> Finding:
     "ws-marker",
     "Each package is announced to ROS by its marker file",
     looks_at="resource/NAME, and data_files in setup.py",
-    lesson="03-topics#setup-py",
+    lesson="03-topics#package-files",
     rows=(14,),
 )
 def marker(machine: Machine) -> Finding:
