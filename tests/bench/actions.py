@@ -18,7 +18,7 @@ from pathlib import Path
 
 from roslings.course import Lab, lab, root
 from roslings.evidence import ExperimentSeen
-from roslings.experiment import measure
+from roslings.experiment import Choices, measure
 from roslings.experiment.acting import cancelled_after_s, stopped_after_s
 from roslings.judge import judge
 from roslings.rates import measure_rate
@@ -35,7 +35,7 @@ def timed(course: Path, cancels: int) -> ExperimentSeen:
     os.environ |= {"ROSLINGS_COURSE": str(course), "ROSLINGS_BENCH_CANCELS": str(cancels)}
     each = lab("actions")
     files = inspect_package(each.solution, each.card)
-    evidence = measure(each.name, each.solution, files, 1, lambda step: None)
+    evidence = measure(each.name, each.solution, files, Choices(seed=1), lambda step: None)
     del os.environ["ROSLINGS_COURSE"]
     return evidence.experiments["timing"]
 
@@ -64,7 +64,7 @@ def show_verdict(each: Lab) -> None:
     """A whole grading."""
     began_s = time.monotonic()
     files = inspect_package(each.solution, each.card)
-    evidence = measure(each.name, each.solution, files, 1, lambda step: None)
+    evidence = measure(each.name, each.solution, files, Choices(seed=1), lambda step: None)
     verdict = judge(each, evidence, time.monotonic() - began_s)
     print(f"{'time to verdict':34} {verdict.seconds.total:.1f} s, {verdict.score:g} points")
 

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from roslings.course import all_labs
 from roslings.evidence import Evidence
-from roslings.experiment import measure
+from roslings.experiment import Choices, measure
 from roslings.judge import judge
 from roslings.verdict import Verdict
 from roslings.workspace.inspect import inspect_package
@@ -61,7 +61,7 @@ def grade(lab_name: str, package: Path) -> Run:
     lab = next(lab for lab in all_labs() if lab.name == lab_name)
     began_s, began_cpu_s = time.monotonic(), cpu_s()
     files = inspect_package(package, lab.card)
-    evidence = measure(lab.name, package, files, 1, lambda step: None)
+    evidence = measure(lab.name, package, files, Choices(seed=1), lambda step: None)
     verdict = judge(lab, evidence, time.monotonic() - began_s)
     return Run(verdict, evidence, cpu_s() - began_cpu_s)
 
