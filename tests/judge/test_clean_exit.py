@@ -80,3 +80,36 @@ def test_publishing_while_another_error_is_handled_is_the_students_fault() -> No
     second = ("Traceback (most recent call last):", '  File "drive.py", line 9, in main', INVALID)
     with pytest.raises(UncleanExit):
         exit_cleanly(ended(1, *first, *second))
+
+
+IGNORED = (
+    "Exception ignored in: <function Task.__del__ at 0x7f>",
+    "Traceback (most recent call last):",
+    '  File "/opt/ros/jazzy/lib/python3/rclpy/task.py", line 50, in __del__',
+    "KeyboardInterrupt: ",
+)
+
+
+@pytest.mark.parametrize(
+    "process",
+    [
+        ended(0, *IGNORED),
+        ended(1, *IGNORED, "Traceback (most recent call last):", EXECUTOR, NO_WAIT_SET),
+    ],
+)
+def test_ctrl_c_in_a_destructor_is_nobodys_fault(process: ProcessView) -> None:
+    """Python writes such a one down and goes on; whatever runs then, nobody chose."""
+    exit_cleanly(process)
+
+
+def test_an_error_that_is_printed_while_all_goes_on_is_a_fault() -> None:
+    """Exit code 0 does not hide it."""
+    with pytest.raises(UncleanExit):
+        exit_cleanly(ended(0, "Traceback (most recent call last):", "KeyError: 'x'"))
+
+
+def test_an_excused_traceback_does_not_excuse_the_next() -> None:
+    """The last one is what the node ended with."""
+    again = ("Traceback (most recent call last):", '  File "drive.py", line 9, in main', "KeyError")
+    with pytest.raises(UncleanExit):
+        exit_cleanly(ended(1, "Traceback (most recent call last):", EXECUTOR, NO_WAIT_SET, *again))

@@ -85,11 +85,11 @@ class FilmLooker:
     def _compare(self, thumb: Thumb, seen: PixelsSeen) -> None:
         for lighter, film in self._lit.items():
             offs = np.abs(film - thumb).mean(axis=(1, 2, 3))
-            best = int(offs.argmin())
+            best = int(np.argmin(offs))
             if seen.off is None or offs[best] < seen.off:
                 seen.shows, seen.off, seen.lighter = best, float(offs[best]), lighter
         swapped = np.abs(self._lit[seen.lighter] - thumb[:, :, ::-1]).mean(axis=(1, 2, 3))
-        seen.swapped_off = float(swapped.min())
+        seen.swapped_off = float(np.min(swapped))
         if seen.off is not None and seen.off > FAR_LEVELS:
             seen.round_off = min(map(float, self._beyond(thumb)))
 
@@ -98,7 +98,7 @@ class FilmLooker:
         for levels in self._lit:
             lit = np.rint(self._thumbs + levels).astype(np.int16)
             for wrong in (lit % 256, np.minimum(np.abs(lit), 255)):
-                yield np.abs(wrong - thumb).mean(axis=(1, 2, 3)).min()
+                yield np.min(np.abs(wrong - thumb).mean(axis=(1, 2, 3)))
 
 
 def _thumb(rgb: Pixels) -> Thumb:

@@ -115,6 +115,11 @@ def _signal(process: subprocess.Popen[str], number: signal.Signals) -> None:
         return  # all of it has ended
 
 
+def _stop(process: subprocess.Popen[str], stopped: threading.Event) -> None:
+    stopped.set()
+    _signal(process, signal.SIGINT)
+
+
 def terminal(command: str, *, timeout_s: float = 30.0) -> None:
     """Run a command that ends by itself, as a terminal would, and print what it says.
 
@@ -123,9 +128,9 @@ def terminal(command: str, *, timeout_s: float = 30.0) -> None:
     """
     settle_in()
     process = begin(command)
-    watch = threading.Timer(timeout_s, _signal, (process, signal.SIGINT))
+    stopped = threading.Event()
+    watch = threading.Timer(timeout_s, _stop, (process, stopped))
     watch.start()
-    began_s = time.monotonic()
     try:
         for line in read_lines(process):
             print(line, flush=True)
@@ -133,7 +138,7 @@ def terminal(command: str, *, timeout_s: float = 30.0) -> None:
     finally:
         watch.cancel()
         end(process)
-    if time.monotonic() - began_s >= timeout_s:
+    if stopped.is_set():
         print(f"(stopped after {timeout_s:g} s: it does not end by itself)")
     elif code:
         print(f"(exit code {code})")
