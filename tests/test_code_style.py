@@ -30,6 +30,12 @@ ROOMS_BELOW = {
     },
     "judge": {"evidence", "verdict", "near", "rates", "course", "experiment", "devices"},
     "report": {"evidence", "verdict", "near", "rates"},
+    "saving": {"course", "evidence", "experiment", "report", "verdict"},
+    "batch": {
+        "evidence", "verdict", "course", "arena", "workspace", "experiment", "judge", "report",
+        "saving",
+    },
+    "authoring": {"course", "workspace", "experiment", "judge", "batch"},
     "doctor": set[str](),
     "bootstrap": set[str](),
     "devices": set[str](),

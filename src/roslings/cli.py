@@ -15,6 +15,12 @@ from roslings import __version__
 
 OK, FAILED, WRONG_USE, INCONCLUSIVE, INTERRUPTED = 0, 1, 2, 3, 130
 EXIT_OF_OUTCOME = {"pass": OK, "fail": FAILED, "inconclusive": INCONCLUSIVE}
+SHAPES = {
+    "junit": "a continuous integration server",
+    "gradescope": "Gradescope (results.json)",
+    "check50": "tools that read check50's JSON",
+}
+"""Other shapes that a verdict is written in."""
 Command = Callable[[argparse.Namespace], int]
 
 
@@ -99,6 +105,8 @@ def parser() -> argparse.ArgumentParser:
     lab_options(add("start", "put a lab's starter into your workspace", "start"))
     check_options(add("check", "run what you built, and say what to do next", "check"))
     regrade_options(add("regrade", "judge saved evidence again; runs nothing", "regrade"))
+    grade_options(add("grade", "grade many submissions (for instructors)", "grade_all"))
+    override_options(add("override", "give a score by hand, with its reason", "override"))
     watch_options(add("watch", "check again at every save", "watch"))
     lab_options(add("diff", "what you changed since the starter", "diff"))
     pack_options(add("pack", "make the zip file to hand in", "pack"))
@@ -109,6 +117,10 @@ def parser() -> argparse.ArgumentParser:
     rover_options(add("rover", "a small robot to drive by ROS, and its map", "rover"))
     board_options(add("board", "the rover's Arduino board on a serial port", "board"))
     camera_options(add("camera", "the rover's camera, for a node to read", "camera"))
+    new_lab_options(add("new-lab", "make a small lab that works, to change it", "new_lab"))
+    prove_options(add("prove", "show that a lab's checks catch what they should", "prove"))
+    release_options(add("release", "make the students' edition, without solutions", "release"))
+    cluster_options(add("cluster", "a scheduler or worker for grade --dask", "cluster"))
     add("ros2", "the ros2 commands, where the real ones are not installed", None)
     add("wheels", "fetch every package into a folder, for a lab without a network", None)
     return top
@@ -176,10 +188,108 @@ def regrade_options(word: argparse.ArgumentParser) -> None:
     """What `regrade` takes."""
     lab_options(word)
     word.add_argument(
-        "evidence", metavar="EVIDENCE", type=Path, help="the folder that check --evidence made"
+        "evidence", metavar="EVIDENCE", type=Path,
+        help="the folder that check --evidence made, or the --out of ./roslings grade",
+    )  # fmt: skip
+    word.add_argument(
+        "--hidden", metavar="FILE", type=Path, help="a grader with checks that students do not have"
     )
     verdict_options(word)
     word.set_defaults(hint=None)
+
+
+def grade_options(word: argparse.ArgumentParser) -> None:
+    """What `grade` takes."""
+    lab_options(word)
+    word.add_argument(
+        "submissions", metavar="SUBMISSIONS", type=Path,
+        help="a folder of folders, .zip and .tar.gz files, or a CSV file with their paths",
+    )  # fmt: skip
+    word.add_argument(
+        "--out", metavar="DIR", type=Path, required=True,
+        help="where the gradebook goes; the same command goes on where it was ended",
+    )  # fmt: skip
+    word.add_argument(
+        "--jobs", metavar="N", type=whole_number, help="how many at once (default: measured)"
+    )
+    word.add_argument(
+        "--hidden", metavar="FILE", type=Path, help="a grader with checks that students do not have"
+    )
+    word.add_argument(
+        "--trust", action="store_true", help="run submissions although there is no sandbox"
+    )
+    word.add_argument("--clock", choices=("auto", "sim", "wall"), default="auto")
+    word.add_argument(
+        "--limit", metavar="SECONDS", type=whole_number, default=900,
+        help="the most that one grading may take (default: 900)",
+    )  # fmt: skip
+    word.add_argument(
+        "--dask", metavar="ADDRESS", help="grade on a Dask cluster, for example tcp://10.0.0.5:8786"
+    )
+    word.add_argument(
+        "--evidence", action="store_true", help="with --dask: bring the evidence back as well"
+    )
+    roster_options(word)
+
+
+def roster_options(word: argparse.ArgumentParser) -> None:
+    """Who is in the class, and what being late costs."""
+    word.add_argument(
+        "--roster", metavar="FILE", type=Path,
+        help="the class list, a CSV file with name, id, email; tells who is missing",
+    )  # fmt: skip
+    word.add_argument(
+        "--deadline", metavar="TIME", help="for example 2026-11-30T23:59; late days are counted"
+    )
+    word.add_argument(
+        "--late-points", metavar="P", type=float, default=0.0, help="what each day late costs"
+    )
+    word.add_argument(
+        "--late-free", metavar="N", type=int, default=0, help="late days that cost nothing"
+    )
+
+
+def override_options(word: argparse.ArgumentParser) -> None:
+    """What `override` takes."""
+    word.add_argument("folder", metavar="DIR", type=Path, help="the --out of ./roslings grade")
+    word.add_argument("submission", metavar="SUBMISSION", help="its name in grades.csv")
+    word.add_argument("score", metavar="SCORE", type=float, help="0 to 100")
+    word.add_argument("--reason", required=True, help="kept beside the score")
+    word.add_argument("--by", metavar="NAME", help="who says so (default: your user name)")
+
+
+def new_lab_options(word: argparse.ArgumentParser) -> None:
+    """What `new-lab` takes."""
+    word.add_argument("lab", metavar="NAME", help="for example: line-follower")
+    word.add_argument("--package", metavar="NAME", help="default: the lab's name, with _ for -")
+    word.add_argument("--day", metavar="DAY", help="a folder of days/ (default: the last)")
+
+
+def prove_options(word: argparse.ArgumentParser) -> None:
+    """What `prove` takes."""
+    lab_options(word)
+    word.add_argument(
+        "--jobs", metavar="N", type=whole_number, help="how many at once (default: measured)"
+    )
+
+
+def release_options(word: argparse.ArgumentParser) -> None:
+    """What `release` takes."""
+    word.add_argument("--to", metavar="DIR", type=Path, required=True, help="a new folder")
+
+
+def cluster_options(word: argparse.ArgumentParser) -> None:
+    """What `cluster` takes."""
+    word.add_argument("part", choices=("scheduler", "worker"))
+    word.add_argument("rest", nargs=argparse.REMAINDER, metavar="...", help="options for dask")
+
+
+def whole_number(text: str) -> int:
+    """A number from 1 on."""
+    number = int(text)
+    if number < 1:
+        raise argparse.ArgumentTypeError("give a number from 1 on")
+    return number
 
 
 def verdict_options(word: argparse.ArgumentParser) -> None:
@@ -190,6 +300,8 @@ def verdict_options(word: argparse.ArgumentParser) -> None:
     word.add_argument(
         "--html", metavar="FILE", type=Path, help="write a page for a browser, with pictures"
     )
+    for name, whose in SHAPES.items():
+        word.add_argument(f"--{name}", metavar="FILE", type=Path, help=f"write it for {whose}")
     word.add_argument("--only", metavar="ID", help="show one check only, by its short name")
 
 

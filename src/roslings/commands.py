@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from roslings import course
 from roslings.cli import EXIT_OF_OUTCOME, FAILED, INCONCLUSIVE, OK, WRONG_USE
-from roslings.course import CourseError, Lab
+from roslings.course import CourseError, Lab, NoSolution
 from roslings.report import (
     BadEvidence,
     BadVerdictFile,
@@ -27,6 +27,7 @@ from roslings.workspace.student import package_of, workspace_root
 from roslings.workspace.trouble import MachineTrouble, WorkspaceError, shown
 
 if TYPE_CHECKING:
+    from roslings.batch.grades import LateRule
     from roslings.experiment import Choices
     from roslings.saving import Graded
 
@@ -37,6 +38,8 @@ SITE_WORDS = ("open", "fresh", "links", "check_links")
 def exit_code_of(error: Exception) -> int | None:
     """The exit code for what went wrong; None for what nobody expected."""
     from roslings.arena import NoFreeDomain
+    from roslings.batch.crew import NurseryGone
+    from roslings.batch.trouble import BatchError
     from roslings.devices.trouble import DeviceTrouble
     from roslings.experiment import MeasuringFailed
     from roslings.jupyter.trouble import NoLessonToOpen
@@ -44,7 +47,9 @@ def exit_code_of(error: Exception) -> int | None:
     from roslings.ros2.problem import Problem
     from roslings.saving import NoBagWriter, NothingToSave
 
-    if isinstance(error, MeasuringFailed | NoFreeDomain | MachineTrouble | CannotWrite):
+    if isinstance(
+        error, MeasuringFailed | NurseryGone | NoFreeDomain | MachineTrouble | CannotWrite
+    ):
         return INCONCLUSIVE
     if isinstance(error, WorkspaceError | CourseError | NoSuchCheck | BadVerdictFile):
         return WRONG_USE
@@ -52,7 +57,7 @@ def exit_code_of(error: Exception) -> int | None:
         return WRONG_USE
     if isinstance(error, DeviceTrouble | Problem | NoLessonToOpen | BadLessons):
         return WRONG_USE
-    if isinstance(error, FileExistsError | NotADirectoryError):
+    if isinstance(error, BatchError | FileExistsError | NotADirectoryError):
         return WRONG_USE
     return None
 
@@ -70,7 +75,7 @@ def check(options: argparse.Namespace) -> int:
         if options.evidence or options.html:
             raise NothingToSave
         return _show(_read(_kept(lab)), options)
-    package = lab.solution if options.solution else package_of(lab, options.path)
+    package = _solution(lab) if options.solution else package_of(lab, options.path)
     quiet = _is_stdout(options.json)
     _try_port(lab, options.port)
     with place_for_bags(options.evidence, package) as bags:
@@ -82,6 +87,13 @@ def check(options: argparse.Namespace) -> int:
         code = _show(graded.verdict, options)
         _save(graded, options, bags)
     return code
+
+
+def _solution(lab: Lab) -> Path:
+    """The course's own package. Raises NoSolution in the students' edition."""
+    if not lab.solution.is_dir():
+        raise NoSolution(lab.name)
+    return lab.solution
 
 
 def _try_port(lab: Lab, port: Path | None) -> None:
@@ -127,18 +139,74 @@ def _save(graded: Graded, options: argparse.Namespace, bags: Path | None) -> Non
 
 
 def regrade(options: argparse.Namespace) -> int:
-    """Judge saved evidence again; nothing is run."""
+    """Judge saved evidence again, of one check or of a whole class; nothing is run."""
+    from roslings.batch.gradebook import lab_of
+    from roslings.batch.later import regrade_all
     from roslings.judge import judge
     from roslings.report import read_evidence
     from roslings.saving import Graded
 
+    if lab_of(options.evidence):
+        print("\n".join(regrade_all(options.evidence, options.lab, options.hidden)))
+        return OK
     began_s = time.monotonic()
-    lab = course.lab(options.lab)
+    lab = course.lab(options.lab, options.hidden)
     evidence = read_evidence(options.evidence, lab.name)
     verdict = judge(lab, evidence, time.monotonic() - began_s)
     if options.html:
         Graded(lab, verdict, evidence).write_page(options.html)
     return _show(verdict, options)
+
+
+def grade_all(options: argparse.Namespace) -> int:
+    """Grade many submissions; 3 where some are still inconclusive."""
+    from roslings.batch.command import Choices, grade
+
+    choices = Choices(
+        options.lab, options.submissions, options.out, jobs=options.jobs, hidden=options.hidden,
+        trust=options.trust, clock=options.clock, limit_s=options.limit,
+        roster=options.roster, rule=_late_rule(options), dask=options.dask,
+        keeps_evidence=not options.dask or options.evidence,
+    )  # fmt: skip
+    try:
+        report = grade(choices)
+    except KeyboardInterrupt:
+        print("\nWhat is graded is kept. The same command goes on from here.", file=sys.stderr)
+        raise
+    print("\n".join(report.lines))
+    return INCONCLUSIVE if report.unclear else OK
+
+
+def cluster(options: argparse.Namespace) -> int:
+    """Run a part of a Dask cluster, in this environment, until Ctrl-C."""
+    command = [sys.executable, "-m", "dask", options.part, *options.rest]
+    return subprocess.run(command, check=False).returncode
+
+
+def _late_rule(options: argparse.Namespace) -> LateRule | None:
+    from roslings.batch.grades import LateRule
+    from roslings.batch.submissions import as_time
+    from roslings.batch.trouble import BatchError
+
+    if not options.deadline:
+        return None
+    try:
+        deadline = as_time(options.deadline)
+    except ValueError:
+        problem = f"{options.deadline!r} is no date and time."
+        raise BatchError(problem, "Write it as 2026-11-30T23:59.") from None
+    return LateRule(
+        deadline=deadline, points_a_day=options.late_points, free_days=options.late_free
+    )
+
+
+def override(options: argparse.Namespace) -> int:
+    """Give a score by hand."""
+    from roslings.batch.later import override as give
+
+    told = give(options.folder, options.submission, options.score, options.reason, options.by)
+    print("\n".join(told))
+    return OK
 
 
 def _show(verdict: Verdict, options: argparse.Namespace) -> int:
@@ -148,9 +216,20 @@ def _show(verdict: Verdict, options: argparse.Namespace) -> int:
 
     if options.json:
         write_json(verdict, options.json)
+    _write_shapes(verdict, options)
     if not _is_stdout(options.json):
         print_verdict(verdict, console=Console(), hint_step=options.hint, only=options.only)
     return EXIT_OF_OUTCOME[verdict.outcome]
+
+
+def _write_shapes(verdict: Verdict, options: argparse.Namespace) -> None:
+    """Write the verdict for other tools, where that was asked for. Raises CannotWrite."""
+    from roslings.report import write_check50, write_gradescope, write_junit
+
+    writers = {"junit": write_junit, "gradescope": write_gradescope, "check50": write_check50}
+    for name, write in writers.items():
+        if path := getattr(options, name, None):
+            write(verdict, path)
 
 
 def _is_stdout(path: Path | None) -> bool:
@@ -210,6 +289,48 @@ def _names(saved: frozenset[Path], folder: Path) -> str:
     inside = (path for path in saved if path != folder.resolve())
     names = sorted(str(path.relative_to(folder.resolve())) for path in inside)
     return ", ".join(names[:3]) or "the package"
+
+
+# --- authors of labs ---------------------------------------------------------------------------
+
+
+def new_lab(options: argparse.Namespace) -> int:
+    """Make a small lab that works."""
+    from roslings.authoring.new_lab import new_lab as make
+
+    lab = make(options.lab, options.package, options.day)
+    print(f"The lab {lab.name!r} is in {_from_here(lab.folder)}.")
+    print(f"Its grader is {_from_here(lab.grader)}. Both work as they are; change them.")
+    print(f"Then prove it: ./roslings prove {lab.name}")
+    return OK
+
+
+def prove(options: argparse.Namespace) -> int:
+    """Grade a lab's solution, starter and mutants, and say what is not as it must be."""
+    from roslings.authoring.prove import prove as proofs_of
+    from roslings.batch.command import Teller
+    from roslings.report import Progress
+
+    lab = course.lab(options.lab)
+    with Progress() as progress:
+        proofs = list(proofs_of(lab, Teller(progress), options.jobs))
+    for proof in proofs:
+        print(proof.line)
+    wrong = [proof for proof in proofs if not proof.holds]
+    if not wrong:
+        print(f"The lab {lab.name!r} is proven.")
+        return OK
+    return INCONCLUSIVE if all(proof.is_open for proof in wrong) else FAILED
+
+
+def release(options: argparse.Namespace) -> int:
+    """Make the students' edition."""
+    from roslings.authoring.release import release as make
+
+    names = make(options.to)
+    print(f"The students' edition is in {_from_here(options.to)}: {len(names)} files.")
+    print("No solution, no mutant and no hidden check is in it.")
+    return OK
 
 
 # --- the workspace -----------------------------------------------------------------------------

@@ -10,6 +10,7 @@ from roslings.arena.environment import QUICK_DISCOVERY, base_environment, ros_en
 from roslings.arena.isolation import Isolation, Wall, choose_isolation
 from roslings.arena.lease import NoFreeDomain
 from roslings.arena.process import Launch, Process
+from roslings.arena.sandbox import sandbox_missing
 
 __all__ = [
     "QUICK_DISCOVERY",
@@ -25,4 +26,5 @@ __all__ = [
     "kernel",
     "opened",
     "ros_environment",
+    "sandbox_missing",
 ]

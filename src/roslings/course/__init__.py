@@ -20,7 +20,7 @@ from roslings.course.card import (
     ServiceContract,
     TopicContract,
 )
-from roslings.course.files import CourseError, NoSuchLab
+from roslings.course.files import CourseError, NoSolution, NoSuchLab
 from roslings.course.labs import Lab, all_labs, lab, root
 from roslings.course.mutants import Edit, Mutant
 
@@ -36,6 +36,7 @@ __all__ = [
     "Lab",
     "LaunchContract",
     "Mutant",
+    "NoSolution",
     "NoSuchLab",
     "NodeContract",
     "OutcomeContract",

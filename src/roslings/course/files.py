@@ -20,6 +20,17 @@ class NoSuchLab(CourseError):
     """The lab that was asked for does not exist."""
 
 
+class NoSolution(CourseError):
+    """This edition has no solutions."""
+
+    def __init__(self, lab: str) -> None:
+        super().__init__(
+            f"This is the students' edition: the solution of {lab!r} is not in it.\n"
+            "See a solution graded: ./roslings check example --solution\n"
+            f"Or begin your own: ./roslings start {lab}"
+        )
+
+
 class BadCourseFile(CourseError):
     """A file of the course says something that it may not say."""
 

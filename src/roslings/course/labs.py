@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -12,6 +12,7 @@ from pydantic import RootModel
 
 from roslings.course.card import Card, Hint
 from roslings.course.files import NoSuchLab, read_yaml
+from roslings.course.hidden import hidden_points
 from roslings.course.mutants import Mutant
 
 
@@ -24,6 +25,14 @@ def root() -> Path:
     return Path(os.environ.get("ROSLINGS_COURSE") or Path(__file__).parents[3])
 
 
+EXAMPLE = "example"
+
+
+def example_root() -> Path:
+    """A tiny course with one lab, the one from which new labs are made."""
+    return Path(__file__).parents[3] / EXAMPLE
+
+
 @dataclass(frozen=True)
 class Lab:
     """One lab: its name and the files that belong to it."""
@@ -31,11 +40,20 @@ class Lab:
     name: str
     folder: Path
     grader: Path
+    hidden: Path | None = None
+    """More checks, which students do not have; an instructor names them."""
 
     @cached_property
     def card(self) -> Card:
-        """The contract. Raises BadCourseFile."""
-        return read_yaml(self.folder / "card.yaml", Card)
+        """The contract, with the points of hidden checks. Raises BadCourseFile."""
+        card = read_yaml(self.folder / "card.yaml", Card)
+        more = hidden_points(self.hidden, card) if self.hidden else {}
+        return card.model_copy(update={"points": {**card.points, **more}})
+
+    @property
+    def graders(self) -> tuple[Path, ...]:
+        """The files with experiments and checks."""
+        return (self.grader, self.hidden) if self.hidden else (self.grader,)
 
     @cached_property
     def hints(self) -> dict[str, Hint]:
@@ -76,16 +94,18 @@ def all_labs() -> list[Lab]:
     return sorted(labs, key=lambda lab: (lab.card.day, len(lab.card.needs), lab.name))
 
 
-def lab(name: str) -> Lab:
+def lab(name: str, hidden: Path | None = None) -> Lab:
     """The lab called `name`. Raises NoSuchLab, with the nearest name there is."""
     folder = root() / "labs" / name
     if name and (folder / "card.yaml").is_file() and folder.parent == root() / "labs":
-        return _lab_in(folder)
+        return replace(_lab_in(folder), hidden=hidden)
+    if name == EXAMPLE:
+        return replace(_lab_in(example_root() / "labs" / EXAMPLE), hidden=hidden)
     raise NoSuchLab(_no_such_lab(name))
 
 
 def _lab_in(folder: Path) -> Lab:
-    grader = root() / "graders" / f"grade_{folder.name.replace('-', '_')}.py"
+    grader = folder.parents[1] / "graders" / f"grade_{folder.name.replace('-', '_')}.py"
     return Lab(folder.name, folder, grader)
 
 

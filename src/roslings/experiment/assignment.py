@@ -25,6 +25,11 @@ class Assignment(BaseModel):
     port: Path | None = None
     """Where a real board is, when it is to take the place of the one in Python."""
 
+    hidden: Path | None = None
+    """A grader's file that students do not have; its experiments are run as well."""
+    builds: Path | None = None
+    """Where builds are shared between packages of equal content."""
+
     @property
     def file(self) -> Path:
         """Where the assignment itself lies."""

@@ -42,6 +42,10 @@ class Choices:
     """A new folder for what was said, one bag an experiment."""
     port: Path | None = None
     """The serial port of a real board, in place of the one in Python."""
+    hidden: Path | None = None
+    """A grader's file that students do not have."""
+    builds: Path | None = None
+    """A folder in which packages of equal content share one build."""
 
 
 def measure(
@@ -56,6 +60,7 @@ def measure(
         assignment = Assignment(
             lab=lab, seed=choices.seed, wall=wall.wall, clock=choices.clock, folder=folder,
             package=seen, keeps_bags=choices.bags is not None, port=choices.port,
+            hidden=choices.hidden, builds=choices.builds,
         )  # fmt: skip
         assignment.home.mkdir()
         stage(package, folder / "src" / seen.name)

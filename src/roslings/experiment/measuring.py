@@ -25,11 +25,13 @@ from roslings.experiment.alongside import Alongside
 from roslings.experiment.assignment import Assignment
 from roslings.experiment.declare import Experiment, experiments_of, load_grader
 from roslings.experiment.machine import look_at_machine
+from roslings.experiment.run_folder import is_abandoned
 from roslings.experiment.scene import Scene
 from roslings.experiment.simulated import clock_publishers
 from roslings.probe import Probe
 from roslings.probe.bag import MOST_BYTES, fresh_folder, write_bag
 from roslings.workspace.build import BuildRoom, build
+from roslings.workspace.shared_build import shared_build
 
 MOST_RUNS = 3
 """A busy computer is given two more chances; then the verdict is inconclusive."""
@@ -44,6 +46,8 @@ def main(path: Path) -> None:
     kernel.die_with_parent()
     signal.signal(signal.SIGTERM, _stop)
     assignment = Assignment.model_validate_json(path.read_text("utf-8"))
+    if is_abandoned(assignment.folder):
+        return
     os.environ.update(ros_environment(assignment.wall))
     os.environ["ROS_LOG_DIR"] = str(assignment.home / "log")  # not in the student's ~/.ros
     try:
@@ -59,7 +63,7 @@ def _stop(number: int, frame: FrameType | None) -> None:
 
 def measure_here(assignment: Assignment) -> Evidence:
     """Build, and run the experiments in their order."""
-    task = lab(assignment.lab)
+    task = lab(assignment.lab, assignment.hidden)
     say(f"Building {task.card.package} with colcon")
     seen, installed = _build(assignment, task.card.package)
     evidence = Evidence(
@@ -71,7 +75,8 @@ def measure_here(assignment: Assignment) -> Evidence:
     )
     if installed:
         stage = Stage(installed, assignment, task.card.ends_within_s)
-        _run_all(stage, experiments_of(load_grader(task.grader)), evidence)
+        declared = [each for file in task.graders for each in experiments_of(load_grader(file))]
+        _run_all(stage, declared, evidence)
     evidence.advice.extend(advice_on_clocks(evidence))
     return evidence
 
@@ -121,7 +126,10 @@ def _would_have_spoken(seen: ExperimentSeen) -> bool:
 
 def _build(assignment: Assignment, package: str) -> tuple[BuildSeen, Installed | None]:
     room = BuildRoom(assignment.folder, package)
-    return build(room, assignment.home, namespaces=assignment.wall == "namespace")
+    namespaces = assignment.wall == "namespace"
+    if assignment.builds:
+        return shared_build(assignment.builds, room, assignment.home, namespaces)
+    return build(room, assignment.home, namespaces)
 
 
 @dataclass(frozen=True)

@@ -33,5 +33,17 @@ def sweep() -> None:
             shutil.rmtree(folder, ignore_errors=True)
 
 
+def is_abandoned(folder: Path) -> bool:
+    """Whether the process that made a run's folder is gone: nobody holds its lock."""
+    try:
+        with (folder / LOCK).open("r+") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    except OSError:
+        return True
+    return True
+
+
 def _prefix() -> str:
     return f"roslings-{os.getuid()}-"

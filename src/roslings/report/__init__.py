@@ -10,11 +10,14 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from roslings.report.check50 import write_check50
     from roslings.report.evidence_file import BadEvidence, read_evidence
     from roslings.report.evidence_folder import CannotKeepThere
+    from roslings.report.gradescope import write_gradescope
     from roslings.report.graph_picture import draw_graph
     from roslings.report.graph_words import describe_graph, graph_text
     from roslings.report.json_file import BadVerdictFile, read_json, write_json
+    from roslings.report.junit import write_junit
     from roslings.report.progress import Progress
     from roslings.report.terminal import NoSuchCheck, print_verdict
     from roslings.report.whole_file import CannotWrite
@@ -32,7 +35,10 @@ __all__ = [
     "print_verdict",
     "read_evidence",
     "read_json",
+    "write_check50",
+    "write_gradescope",
     "write_json",
+    "write_junit",
 ]
 
 _HOMES = {
@@ -48,7 +54,10 @@ _HOMES = {
     "graph_text": "graph_words",
     "print_verdict": "terminal",
     "read_json": "json_file",
+    "write_check50": "check50",
+    "write_gradescope": "gradescope",
     "write_json": "json_file",
+    "write_junit": "junit",
 }
 
 

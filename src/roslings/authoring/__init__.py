@@ -1,0 +1,1 @@
+"""For those who write labs: make a new one, prove it, release the students' edition."""

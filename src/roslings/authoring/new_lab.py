@@ -1,0 +1,93 @@
+"""`./roslings new-lab NAME`: a small lab that works, to be changed into another."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from roslings import course
+from roslings.course import CourseError, Lab
+from roslings.course.labs import EXAMPLE, example_root
+from roslings.workspace.sources import files
+
+LAB_NAME, PACKAGE_NAME = re.compile(r"[a-z][a-z0-9-]*"), re.compile(r"[a-z][a-z0-9_]*")
+PACKAGE, CLASS = "beacon", "Beacon"
+"""What the example calls its package, and the class in it."""
+
+
+class CannotMake(CourseError):
+    """The lab cannot be made like this."""
+
+
+@dataclass(frozen=True)
+class Names:
+    """What the new lab calls things."""
+
+    lab: str
+    package: str
+    day: str
+
+    def put_into(self, text: str) -> str:
+        """The example's text with these names."""
+        text = re.sub(rf"\b{EXAMPLE}\b(?!\.com)", self.lab, text)
+        text = text.replace("../../../pyproject", "../../pyproject")
+        text = re.sub(r"days/03-topics|(?<=day: )03-topics", self._day_for, text)
+        for word, name in self._words.items():
+            text = text.replace(word, name)
+        return text
+
+    @property
+    def _words(self) -> dict[str, str]:
+        """Package, class and constant of the example to the new ones."""
+        return {PACKAGE: self.package, CLASS: self._class, PACKAGE.upper(): self.package.upper()}
+
+    def _day_for(self, found: re.Match[str]) -> str:
+        return f"days/{self.day}" if found[0].startswith("days/") else self.day
+
+    @property
+    def _class(self) -> str:
+        return "".join(word.capitalize() for word in self.package.split("_"))
+
+
+def new_lab(name: str, package: str | None = None, day: str | None = None) -> Lab:
+    """Make the lab: card, task, hints, starter, solution, mutants, grader. Raises CannotMake."""
+    names = Names(name, package or name.replace("-", "_"), day or _last_day())
+    _insist_on(names)
+    folder = course.root() / "labs" / name
+    grader = course.root() / "graders" / f"grade_{name.replace('-', '_')}.py"
+    for path in (folder, grader):
+        if path.exists():
+            raise CannotMake(f"{path} is there already. Give another name, or remove it first.")
+    _copy(example_root() / "labs" / EXAMPLE, folder, names)
+    text = (example_root() / "graders" / f"grade_{EXAMPLE}.py").read_text("utf-8")
+    grader.parent.mkdir(exist_ok=True)
+    grader.write_text(names.put_into(text), "utf-8")
+    return course.lab(name)
+
+
+def _insist_on(names: Names) -> None:
+    if not LAB_NAME.fullmatch(names.lab) or names.lab == EXAMPLE:
+        raise CannotMake(
+            f"{names.lab!r} is no name for a lab.\nUse small letters, digits and -: line-follower"
+        )
+    if not PACKAGE_NAME.fullmatch(names.package):
+        raise CannotMake(
+            f"{names.package!r} is no name for a package.\n"
+            "Use small letters, digits and _, and begin with a letter: --package line_follower"
+        )
+    if not re.fullmatch(r"[0-9]{2}-[a-z0-9-]+", names.day):
+        raise CannotMake(f"{names.day!r} is no day. A day is a folder of days/: --day 03-topics")
+
+
+def _last_day() -> str:
+    days = sorted(path.name for path in (course.root() / "days").glob("[0-9][0-9]-*"))
+    return days[-1] if days else "03-topics"
+
+
+def _copy(example: Path, folder: Path, names: Names) -> None:
+    """Copy the folder with other names in texts and paths."""
+    for inside, source in files(example).items():
+        target = folder / inside.replace(PACKAGE, names.package)
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.write_text(names.put_into(source.read_text("utf-8")), "utf-8")

@@ -1,0 +1,116 @@
+"""`./roslings release --to DIR`: the students' edition, without what would give the answers away.
+
+Left out: solutions, mutants, hidden checks, and all tests but those of `TESTS`, because most
+tests hold packages that would pass.
+"""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+from collections.abc import Iterator
+from pathlib import Path, PurePosixPath
+
+from roslings import course
+from roslings.course import CourseError, Lab, all_labs
+from roslings.course.labs import EXAMPLE
+from roslings.workspace.sources import files
+
+TESTS = ("conftest.py", "arena", "report")
+"""Parts of tests/ that students get: they show that the installation works."""
+MAINTAINERS_ONLY = (".ci", ".github")
+SOLUTION_COMMAND = re.compile(r"(\./roslings check )[\w-]+( --solution)")
+"""The first command of the README: in this edition it grades the example's solution."""
+REWRITTEN = ("README.md", "CONTRIBUTING.md", "src/roslings/doctor/mends.py")
+LEAST_LINE = 20
+LIKE_THE_ANSWER = 0.5
+
+
+class CannotRelease(CourseError):
+    """The edition cannot be made like this."""
+
+
+def release(to: Path) -> list[str]:
+    """Make the students' edition in the new folder `to`; the names of its files.
+
+    Raises CannotRelease where `to` holds something, or where an answer would leak.
+    """
+    if to.exists() and (not to.is_dir() or any(to.iterdir())):
+        raise CannotRelease(f"{to} holds something already. Give a new folder: --to DIR")
+    names = [name for name in _course_files() if is_for_students(name)]
+    for name in names:
+        _copy(course.root() / name, to / name)
+    for name in REWRITTEN:
+        _rewrite(to / name)
+    if leaking := list(leaks(to, all_labs())):
+        shutil.rmtree(to)
+        told = "\n".join(leaking)
+        raise CannotRelease(f"An answer would leak. Nothing was released.\n{told}")
+    return names
+
+
+def is_for_students(name: str) -> bool:
+    """Whether a file of the course goes to students."""
+    path = PurePosixPath(name)
+    if path.parts[0] == "tests":
+        return len(path.parts) > 1 and path.parts[1] in TESTS
+    if path.parts[0] == "labs" and len(path.parts) > 2:
+        return path.parts[2] not in ("solution", "mutants")
+    hidden = path.parts[0] == "graders" and path.name.startswith("hidden_")
+    return not hidden and path.parts[0] not in MAINTAINERS_ONLY
+
+
+def _course_files() -> list[str]:
+    """The files that git keeps; all but the hidden and made ones where there is no git."""
+    root = course.root()
+    listed = subprocess.run(
+        ["git", "ls-files", "-z"], cwd=root, capture_output=True, text=True, check=False
+    )
+    if listed.returncode == 0:
+        return [name for name in listed.stdout.split("\0") if name and (root / name).is_file()]
+    return sorted(name for name, path in files(root).items() if path.is_file())
+
+
+def _copy(source: Path, target: Path) -> None:
+    target.parent.mkdir(parents=True, exist_ok=True)
+    shutil.copy(source, target)
+
+
+def _rewrite(path: Path) -> None:
+    """Commands that need a solution name the example, which is in every edition."""
+    if path.is_file():
+        text = path.read_text("utf-8")
+        path.write_text(SOLUTION_COMMAND.sub(rf"\g<1>{EXAMPLE}\g<2>", text), "utf-8")
+
+
+# --- what would give an answer away ------------------------------------------------------------
+
+
+def leaks(edition: Path, labs: list[Lab]) -> Iterator[str]:
+    """Files of the edition that hold half of a solution's own lines, or what a mutant is."""
+    answers = [(f"{lab.name}: {name}", lines) for lab in labs for name, lines in _answers(lab)]
+    secrets = [(lab.name, mutant.what) for lab in labs for mutant in lab.mutants()]
+    for file in (path for path in sorted(edition.rglob("*")) if path.is_file()):
+        text = file.read_text("utf-8", "replace")
+        lines = {line.strip() for line in text.splitlines()}
+        name = file.relative_to(edition)
+        yield from (f"{name} holds the solution of {whose}" for whose, answer in answers
+                    if len(lines & answer) > LIKE_THE_ANSWER * len(answer))  # fmt: skip
+        yield from (f"{name} tells a mutant of {lab}" for lab, what in secrets if what in text)
+
+
+def _answers(lab: Lab) -> Iterator[tuple[str, set[str]]]:
+    """Each Python file of the solution, as the lines that the starter has not."""
+    if not lab.solution.is_dir():
+        return
+    given = {line for path in files(lab.starter).values() for line in _lines(path)}
+    for name, path in files(lab.solution).items():
+        own = _lines(path) - given if path.suffix == ".py" else set()
+        if len(own) >= 3:
+            yield name, own
+
+
+def _lines(path: Path) -> set[str]:
+    lines = (line.strip() for line in path.read_text("utf-8", "replace").splitlines())
+    return {line for line in lines if len(line) >= LEAST_LINE}

@@ -1,0 +1,90 @@
+"""How many gradings at once: measured, because most of a grading is waiting.
+
+It begins with one for each core. While the processors have time to spare and there is memory for
+one more, one more is let in; when nothing is left to spare, one fewer.
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+SPARE, BUSY = 0.25, 0.05
+"""Idle part of the processors above which one more is let in, and below which one fewer."""
+LOOK_EVERY_S = 3.0
+MOST_PER_CORE = 4
+NEEDS_BYTES = 500_000_000
+"""Memory that one grading may come to need: grader, probe, colcon and nodes."""
+
+
+@dataclass(frozen=True)
+class Look:
+    """The machine at one moment."""
+
+    at_s: float
+    idle_s: float
+    """Since it was started, over all processors."""
+    free_bytes: int
+
+
+def look() -> Look:
+    """Look at this machine."""
+    return Look(time.monotonic(), _idle_s(), _free_bytes())
+
+
+def _idle_s() -> float:
+    words = Path("/proc/stat").read_text("ascii").splitlines()[0].split()
+    return (int(words[4]) + int(words[5])) / os.sysconf("SC_CLK_TCK")
+
+
+def _free_bytes() -> int:
+    for line in Path("/proc/meminfo").read_text("ascii").splitlines():
+        if line.startswith("MemAvailable:"):
+            return int(line.split()[1]) * 1024
+    return os.sysconf("SC_AVPHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+
+
+def cores() -> int:
+    """The processors that this process may use."""
+    return len(os.sched_getaffinity(0))
+
+
+@dataclass
+class Capacity:
+    """How many may work at once, by what was seen of the machine so far."""
+
+    fixed: int | None = None
+    """What `--jobs` says; then nothing is measured."""
+    cores: int = field(default_factory=cores)
+    look: Callable[[], Look] = look
+    allowed: int = 0
+    _last: Look | None = None
+
+    def __post_init__(self) -> None:
+        self.allowed = self.fixed or self.cores
+
+    def now(self, working: int) -> int:
+        """How many may work now, of whom `working` do already; at least one."""
+        if self.fixed:
+            return self.fixed
+        seen = self.look()
+        if self._last is None:
+            self._last = seen
+        elif seen.at_s - self._last.at_s >= LOOK_EVERY_S:
+            self._adjust(self._idle_part(seen), working)
+            self._last = seen
+        return max(1, min(self.allowed, working + seen.free_bytes // NEEDS_BYTES))
+
+    def _idle_part(self, seen: Look) -> float:
+        assert self._last is not None
+        passed_s = seen.at_s - self._last.at_s
+        return (seen.idle_s - self._last.idle_s) / (passed_s * (os.cpu_count() or 1))
+
+    def _adjust(self, idle: float, working: int) -> None:
+        if idle > SPARE and working >= self.allowed:
+            self.allowed = min(self.allowed + 1, MOST_PER_CORE * self.cores)
+        elif idle < BUSY:
+            self.allowed = max(self.allowed - 1, self.cores)

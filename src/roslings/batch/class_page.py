@@ -1,0 +1,231 @@
+"""The class on one page: what most have to mend, how their rates spread, who is alike."""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+
+from roslings.batch.grades import Class, Grade
+from roslings.batch.result import Result
+from roslings.batch.similar import Pair, alike, equal_groups
+from roslings.batch.student_pages import folder_name
+from roslings.course import Lab
+from roslings.report.html.document import POLICY, STYLE
+from roslings.report.html.markup import Markup, prose, tag
+from roslings.report.whole_file import write_whole
+from roslings.saving import asked_rates
+
+OWN_STYLE = """
+main { overflow-x: auto; }
+table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; }
+th, td { padding: .3rem .6rem .3rem 0; text-align: left; vertical-align: top; }
+th { border-bottom: 1px solid var(--edge); }
+th, td code { overflow-wrap: normal; white-space: nowrap; }
+td.number, th.number { text-align: right; }
+svg.part { width: 8rem; height: .7rem; vertical-align: middle; }
+svg.part rect { fill: var(--link); }
+svg.spread { display: block; width: 100%; height: 5rem; }
+svg.spread rect.right { fill: var(--band); }
+svg.spread line { stroke: var(--edge); }
+svg.spread ellipse { fill: var(--dot); fill-opacity: .5; }
+"""
+STEPS = 10
+WIDTH, HEIGHT = 720.0, 60.0
+
+
+def write_class_page(lab: Lab, found: Class, common: Iterable[int], path: Path) -> None:
+    """Write the page; `common` are the marks of the starter. Raises CannotWrite."""
+    page = tag("html", _head(lab), _body(lab, found, common), lang="en")
+    write_whole(path, f"<!DOCTYPE html>\n{page}\n".encode())
+
+
+def _head(lab: Lab) -> Markup:
+    return tag(
+        "head",
+        tag("meta", charset="utf-8"),
+        tag("meta", http_equiv="Content-Security-Policy", content=POLICY),
+        tag("meta", name_="viewport", content="width=device-width, initial-scale=1"),
+        tag("title", f"The class: {lab.card.title}"),
+        tag("style", Markup(STYLE.read_text("utf-8") + OWN_STYLE)),
+    )
+
+
+def _body(lab: Lab, found: Class, common: Iterable[int]) -> Markup:
+    results = [grade.result for grade in found.grades if grade.result]
+    parts = (
+        *_overview(found), *_scores(found.grades), *_checks(results),
+        *_rates(lab, results), *_alike(results, common), *_loose_ends(found),
+        *_everybody(found.grades),
+    )  # fmt: skip
+    header = tag("header", tag("p", f"Lab {lab.name}", class_="over"), tag("h1", lab.card.title))
+    return tag("body", header, tag("main", *parts))
+
+
+def _overview(found: Class) -> Iterator[Markup]:
+    counts = Counter(grade.outcome for grade in found.grades)
+    items = [tag("li", f"{count} {word}") for word, count in counts.most_common()]
+    yield tag("ul", *items, class_="counts")
+
+
+def _scores(grades: Sequence[Grade]) -> Iterator[Markup]:
+    scores = [grade.final for grade in grades if grade.final is not None]
+    if not scores:
+        return
+    counts = Counter(min(int(score // STEPS), STEPS - 1) for score in scores)
+    rows = [
+        _row((f"{step * STEPS} to {step * STEPS + STEPS}", _part(counts[step] / len(scores)),
+              str(counts[step])))
+        for step in range(STEPS)
+    ]  # fmt: skip
+    yield tag("section", tag("h2", "Scores"), _table(("score", "", "how many"), rows))
+
+
+def _checks(results: Sequence[Result]) -> Iterator[Markup]:
+    """Those that fail most come first."""
+    checks = [c for result in results if result.verdict for c in result.verdict.checks]
+    counts: defaultdict[str, Counter[str]] = defaultdict(Counter)
+    titles = {check.id: check.title for check in checks}
+    for check in checks:
+        counts[check.id][check.outcome] += 1
+    failing = [name for name in counts if counts[name]["fail"] or counts[name]["skip"]]
+    if not failing:
+        return
+    failing.sort(key=lambda name: (-counts[name]["fail"], -counts[name]["skip"]))
+    rows = [
+        _row((tag("code", name), prose(titles[name]), _part(_failed_part(counts[name])),
+              str(counts[name]["fail"]), str(counts[name]["skip"])))
+        for name in failing
+    ]  # fmt: skip
+    head = ("check", "what it asks", "", "fail", "skipped")
+    yield tag("section", tag("h2", "What most have to mend"), _table(head, rows))
+
+
+def _failed_part(counts: Counter[str]) -> float:
+    return counts["fail"] / max(1, sum(counts.values()))
+
+
+# --- rates -------------------------------------------------------------------------------------
+
+
+def _rates(lab: Lab, results: Sequence[Result]) -> Iterator[Markup]:
+    figures = []
+    for asked in asked_rates(lab):
+        rates = [result.rates[asked.topic] for result in results if asked.topic in result.rates]
+        if rates:
+            low, high = min(asked.low_hz, *rates), max(asked.high_hz, *rates)
+            words = (
+                f"{asked.topic}: {len(rates)} rates from {min(rates):.4g} to {max(rates):.4g} Hz;"
+                f" {asked.low_hz:.4g} to {asked.high_hz:.4g} Hz is right"
+            )
+            picture = _spread(rates, (asked.low_hz, asked.high_hz), (low, high))
+            figures.append(tag("figure", picture, tag("figcaption", words)))
+    if figures:
+        yield tag("section", tag("h2", "How the rates spread"), *figures)
+
+
+def _spread(
+    rates: Sequence[float], right: tuple[float, float], whole: tuple[float, float]
+) -> Markup:
+    """A dot a submission, on a line from the slowest to the fastest; the band is right."""
+    span = (whole[1] - whole[0]) or 1.0
+
+    def across(hz: float) -> float:
+        return 10.0 + (WIDTH - 20.0) * (hz - whole[0]) / span
+
+    left, end = across(right[0]), across(right[1])
+    band = tag("rect", x=left, y=0.0, width=max(end - left, 1.0), height=HEIGHT, class_="right")
+    line = tag("line", x1=0.0, x2=WIDTH, y1=HEIGHT / 2, y2=HEIGHT / 2)
+    dots = [
+        tag("ellipse", cx=across(hz), cy=HEIGHT / 2 + 7.0 * (number % 5 - 2), rx=4.0, ry=4.0)
+        for number, hz in enumerate(sorted(rates))
+    ]
+    return tag(
+        "svg", band, line, *dots, viewBox=f"0 0 {WIDTH:g} {HEIGHT:g}", class_="spread",
+        aria_hidden="true", preserveAspectRatio="none",
+    )  # fmt: skip
+
+
+# --- who is alike ------------------------------------------------------------------------------
+
+
+def _alike(results: Sequence[Result], common: Iterable[int]) -> Iterator[Markup]:
+    groups, pairs = equal_groups(results), alike(results, common)
+    if not groups and not pairs:
+        return
+    about = tag(
+        "p",
+        "Found by comparing the code with names, numbers and texts left out (winnowing). Only a"
+        " person can tell why two are alike: read both.",
+        class_="about",
+    )
+    equal = [tag("li", f"word for word the same: {', '.join(names)}") for names in groups]
+    near = [_row((_link(p.one), _link(p.other), _percent(p), str(p.marks))) for p in pairs]
+    table = [_table(("one", "other", "alike", "places"), near)] if near else []
+    lists = [tag("ul", *equal)] if equal else []
+    yield tag("section", tag("h2", "Nearly the same"), about, *lists, *table)
+
+
+def _percent(pair: Pair) -> str:
+    return f"{100 * pair.likeness:.0f} %"
+
+
+# --- everybody ---------------------------------------------------------------------------------
+
+
+def _loose_ends(found: Class) -> Iterator[Markup]:
+    items = [
+        *(tag("li", f"{grade.name} handed in nothing") for grade in found.missing),
+        *(tag("li", f"{name} is of nobody in the class list") for name in found.unknown),
+        *(tag("li", f"{name} may be of {' or '.join(names)}")
+          for name, names in found.unclear.items()),
+        *(tag("li", f"{name} handed in several: {', '.join(names)}; the newest counts")
+          for name, names in found.twice.items()),
+    ]  # fmt: skip
+    if items:
+        yield tag("section", tag("h2", "What does not fit the class list"), tag("ul", *items))
+
+
+def _everybody(grades: Sequence[Grade]) -> Iterator[Markup]:
+    rows = [
+        _row((grade.name, _link(grade.submission) if grade.submission else "", grade.outcome,
+              _score(grade), _remark(grade)))
+        for grade in grades
+    ]  # fmt: skip
+    head = ("who", "submission", "outcome", "score", "")
+    yield tag("section", tag("h2", "Everybody"), _table(head, rows))
+
+
+def _score(grade: Grade) -> str:
+    return "-" if grade.final is None else f"{grade.final:g}"
+
+
+def _remark(grade: Grade) -> str:
+    if grade.override:
+        measured = "none" if grade.measured is None else f"{grade.measured:g}"
+        who = f"{grade.override.by}: {grade.override.reason}"
+        return f"score given by a person (measured: {measured}). {who}"
+    late = f"{grade.late_days} days late, costs {grade.late_points:g}. " if grade.late_days else ""
+    return late + (grade.result.reason.split("\n")[0] if grade.result else "")
+
+
+def _link(submission: str) -> Markup:
+    return tag("a", submission, href=f"students/{folder_name(submission)}/report.html")
+
+
+def _table(head: Sequence[str], rows: Sequence[Markup]) -> Markup:
+    top = tag("tr", *(tag("th", cell, scope="col") for cell in head))
+    return tag("table", tag("thead", top), tag("tbody", *rows))
+
+
+def _row(cells: Sequence[str]) -> Markup:
+    return tag("tr", *(tag("td", cell) for cell in cells))
+
+
+def _part(part: float) -> Markup:
+    """A bar as long as the part of the class."""
+    bar = tag("rect", x=0.0, y=0.0, width=100.0 * part, height=10.0)
+    return tag(
+        "svg", bar, viewBox="0 0 100 10", preserveAspectRatio="none", aria_hidden="true",
+        class_="part",
+    )  # fmt: skip

@@ -1,0 +1,173 @@
+"""What `./roslings grade` does: find the submissions, grade them, hand out what came of it."""
+
+from __future__ import annotations
+
+import fcntl
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from roslings import course
+from roslings.arena import sandbox_missing
+from roslings.batch.capacity import Capacity
+from roslings.batch.crew import Limits
+from roslings.batch.far import FarCrew, far_crew
+from roslings.batch.gradebook import Gradebook, gradebook
+from roslings.batch.grades import LateRule
+from roslings.batch.handout import Settings, hand_out, keep
+from roslings.batch.roster import read_roster
+from roslings.batch.shift import Shift, Standing, Wish
+from roslings.batch.submissions import Submission, find_submissions
+from roslings.batch.trouble import BatchError
+from roslings.batch.words import standing_line, summary_lines
+from roslings.experiment.run_folder import LOCK, run_folder
+from roslings.report import Progress
+
+
+class NoSandbox(BatchError):
+    """Strangers' code would run as you."""
+
+    def __init__(self, reason: str) -> None:
+        super().__init__(
+            f"Submissions are strangers' code, and nothing would hold it: {reason}.",
+            "Where you trust every submission, or this is a machine with nothing else on it,"
+            " add: --trust",
+        )
+
+
+class AlreadyGrading(BatchError):
+    """Another command works on the same gradebook."""
+
+    def __init__(self, folder: Path) -> None:
+        super().__init__(
+            f"Another ./roslings grade works in {folder} now.",
+            "Wait for it, or give another folder: --out DIR",
+        )
+
+
+@dataclass(frozen=True)
+class Choices:
+    """The options of the command."""
+
+    lab: str
+    submissions: Path
+    out: Path
+    jobs: int | None = None
+    hidden: Path | None = None
+    trust: bool = False
+    clock: str = "auto"
+    keeps_evidence: bool = True
+    limit_s: float = Limits().seconds
+    roster: Path | None = None
+    rule: LateRule | None = None
+    dask: str | None = None
+    """The address of a cluster's scheduler."""
+
+
+@dataclass(frozen=True)
+class Report:
+    """What the command says at its end."""
+
+    lines: list[str]
+    unclear: int
+    """Submissions of which nobody could tell."""
+
+
+def grade(choices: Choices) -> Report:
+    """Grade all submissions, or go on where an earlier run was ended.
+
+    Raises BatchError, CourseError, and what the gradebook's disk refuses.
+    """
+    lab = course.lab(choices.lab, choices.hidden)
+    _ = lab.card, lab.hints  # a mistake in the course is told before anything is run
+    submissions = find_submissions(choices.submissions)
+    if not choices.dask and not choices.trust and (reason := sandbox_missing()):
+        raise NoSandbox(reason)
+    _make(choices)
+    with _alone_in(choices.out), gradebook(choices.out, lab.name) as book:
+        keep(book, _settings(choices, submissions))
+        _grade_all(choices, submissions, book)
+        names = [each.name for each in submissions]
+        latest = book.latest()
+        unclear = sum(latest[name].word == "inconclusive" for name in names)
+        lines = [*summary_lines(book, names), *hand_out(book, lab, choices.out)]
+        return Report(lines, unclear)
+
+
+def _make(choices: Choices) -> None:
+    """The folder of the gradebook. Raises BatchError."""
+    out = choices.out.absolute()
+    if out.is_relative_to(choices.submissions.absolute()):
+        problem = f"{choices.out} lies among the submissions: it would be graded as one."
+        raise BatchError(problem, "Give a place outside of that folder: --out ../grades")
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        problem = f"{choices.out} cannot be made: {error.strerror}."
+        raise BatchError(problem, "Give a place where you may write: --out ~/grades") from error
+
+
+def _settings(choices: Choices, submissions: list[Submission]) -> Settings:
+    """A class list that cannot be read is told before anything is run. Raises BadTable."""
+    if choices.roster:
+        read_roster(choices.roster)
+    times = {each.name: each.submitted for each in submissions if each.submitted}
+    roster = choices.roster.absolute() if choices.roster else None
+    hidden = choices.hidden.absolute() if choices.hidden else None
+    return Settings(roster=roster, rule=choices.rule, times=times, hidden=hidden)
+
+
+def _grade_all(choices: Choices, submissions: list[Submission], book: Gradebook) -> None:
+    with run_folder() as scratch, Progress() as progress:
+        wish = Wish(
+            lab=choices.lab, scratch=scratch, lock=scratch / LOCK, clock=choices.clock,
+            hidden=choices.hidden.absolute() if choices.hidden else None,
+            keeps_evidence=choices.keeps_evidence, limits=Limits(choices.limit_s),
+        )  # fmt: skip
+        teller = Teller(progress)
+        if choices.dask is None:
+            Shift(wish, book, Capacity(fixed=choices.jobs), teller).run(submissions)
+        else:
+            lab = course.lab(choices.lab, wish.hidden)
+            with far_crew(choices.dask, lab, choices.trust, wish.limits) as hands:
+                Shift(wish, book, FarCapacity(hands), teller).run(submissions, hands)
+
+
+@dataclass
+class FarCapacity:
+    """As many as the cluster has threads, workers that come later too."""
+
+    hands: FarCrew
+    fixed: int | None = None
+
+    def now(self, working: int) -> int:
+        """One more than there are threads waits on its way."""
+        return self.hands.threads() + 1
+
+
+@dataclass
+class Teller:
+    """Says how far the work is, when that has changed."""
+
+    progress: Progress
+    said: tuple[int, int] | None = None
+
+    def __call__(self, standing: Standing) -> None:
+        """Say it: always on a terminal, where the line is drawn anew, else only what is new."""
+        now = (standing.done, standing.unclear)
+        if sys.stderr.isatty() or now != self.said:
+            self.progress.step(standing_line(standing))
+            self.said = now
+
+
+@contextmanager
+def _alone_in(folder: Path) -> Iterator[None]:
+    """Two commands in one folder would grade everything twice. Raises AlreadyGrading."""
+    with (folder / ".lock").open("w") as lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise AlreadyGrading(folder) from None
+        yield

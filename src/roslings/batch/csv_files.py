@@ -1,0 +1,100 @@
+"""The grades as CSV: with all columns, and as Canvas and Moodle read them."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+from roslings.batch.grades import Grade
+from roslings.course import Lab
+from roslings.report.safe_text import harmless
+from roslings.report.whole_file import write_whole
+
+FORMULA = ("=", "+", "-", "@", "\t", "\r")
+"""A cell that begins so is run by a spreadsheet: a student's file may be called `=cmd|...`."""
+CANVAS = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
+MOODLE = ("Identifier", "Full name", "Email address", "Grade", "Feedback comments")
+Line = Sequence[str]
+
+
+def write_all(grades: Sequence[Grade], lab: Lab, folder: Path) -> None:
+    """Write grades.csv, canvas.csv and moodle.csv. Raises CannotWrite."""
+    _write(folder / "grades.csv", _plain(grades, list(lab.card.points)))
+    _write(folder / "canvas.csv", _canvas(grades, lab))
+    _write(folder / "moodle.csv", _moodle(grades))
+
+
+def _write(path: Path, lines: Iterable[Line]) -> None:
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows(
+        [_safe(cell) for cell in line] for line in lines
+    )
+    write_whole(path, text.getvalue().encode("utf-8", "replace"))
+
+
+def _safe(cell: str) -> str:
+    text = harmless(cell)
+    return f"'{text}" if text.startswith(FORMULA) else text
+
+
+def _plain(grades: Sequence[Grade], checks: Sequence[str]) -> Iterable[Line]:
+    yield (
+        "name", "id", "email", "submission", "outcome", "measured", "days late", "late points",
+        "final", "reason", *checks,
+    )  # fmt: skip
+    for each in grades:
+        student = each.student
+        points = _points(each)
+        yield (
+            each.name, student.id if student else "", student.email if student else "",
+            each.submission, each.outcome, _number(each.measured), _number(each.late_days),
+            _number(each.late_points or None), _number(each.final), _reason(each),
+            *(_number(points.get(check)) for check in checks),
+        )  # fmt: skip
+
+
+def _points(grade: Grade) -> dict[str, float]:
+    if not grade.result or not grade.result.verdict:
+        return {}
+    return {check.id: check.points for check in grade.result.verdict.checks}
+
+
+def _reason(grade: Grade) -> str:
+    """Why the final score is not the measured one, or why there is none."""
+    if grade.override:
+        return f"{grade.override.by}: {grade.override.reason}"
+    return " ".join(grade.result.reason.split()) if grade.result else ""
+
+
+def _canvas(grades: Sequence[Grade], lab: Lab) -> Iterable[Line]:
+    """A score that is not known stays empty: Canvas then leaves it as it is."""
+    yield (*CANVAS, f"{lab.card.title} ({lab.name})")
+    yield ("    Points Possible", "", "", "", "", "100")
+    for each in (each for each in grades if each.student):
+        assert each.student
+        cells = each.student.cells
+        own = [cells.get(name.lower(), "") for name in CANVAS[1:]]
+        yield (each.student.name, *own, _number(each.final))
+
+
+def _moodle(grades: Sequence[Grade]) -> Iterable[Line]:
+    yield MOODLE
+    for each in (each for each in grades if each.student):
+        assert each.student
+        identifier = each.student.cells.get("identifier", each.student.id)
+        who = (identifier, each.student.name, each.student.email)
+        yield (*who, _number(each.final), _comment(each))
+
+
+def _comment(grade: Grade) -> str:
+    """What to mend first, in a line; the whole of it is on the student's page."""
+    if grade.override or not grade.result or not grade.result.verdict:
+        return _reason(grade)
+    failed = [check.title for check in grade.result.verdict.failed()]
+    return f"To mend: {'; '.join(failed)}" if failed else ""
+
+
+def _number(value: float | None) -> str:
+    return "" if value is None else f"{value:g}"

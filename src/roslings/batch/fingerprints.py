@@ -1,0 +1,85 @@
+"""Fingerprints of a package's code, to find submissions that are nearly the same.
+
+Winnowing, after S. Schleimer, D. S. Wilkerson and A. Aiken, "Winnowing: Local Algorithms for
+Document Fingerprinting", SIGMOD 2003: of the hashes of all runs of K tokens, the smallest in each
+window of W hashes is kept. Whatever two texts share in W + K - 1 tokens leaves a common mark, and
+no run shorter than K tokens ever does.
+
+Names, numbers and texts each count as one kind of token, so that renaming hides nothing; comments
+and blank lines do not count.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import keyword
+import tokenize
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from roslings.workspace.sources import files
+
+K, W = 12, 8
+LARGEST_FILE_BYTES = 500_000
+MOST_TOKENS = 100_000
+KINDS = {tokenize.NAME: "n", tokenize.NUMBER: "0", tokenize.STRING: "s"}
+UNSEEN = {
+    tokenize.COMMENT, tokenize.NL, tokenize.ENCODING, tokenize.ENDMARKER, tokenize.NEWLINE,
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Fingerprint:
+    """What is kept of a package's code."""
+
+    whole: str
+    """Of all tokens, names and texts included: equal where the code is equal."""
+    marks: frozenset[int]
+
+
+def fingerprint(package: Path) -> Fingerprint:
+    """The fingerprint of the Python files of a package, setup.py and tests left out."""
+    code = [path for name, path in sorted(files(package).items()) if _counts(name)]
+    texts = [path.read_bytes() for path in code if path.stat().st_size <= LARGEST_FILE_BYTES]
+    exact, marks = hashlib.sha256(), set[int]()
+    for text in texts:
+        tokens = list(_tokens(text))[:MOST_TOKENS]
+        exact.update("\0".join(token.string for token in tokens).encode("utf-8", "replace"))
+        marks |= set(winnowed([_kind(token) for token in tokens]))
+    return Fingerprint(exact.hexdigest()[:32], frozenset(marks))
+
+
+def _counts(name: str) -> bool:
+    return name.endswith(".py") and name != "setup.py" and not name.startswith(("test/", "tests/"))
+
+
+def _tokens(text: bytes) -> Iterator[tokenize.TokenInfo]:
+    """The tokens up to the first place that is no Python."""
+    try:
+        for token in tokenize.tokenize(io.BytesIO(text).readline):
+            if token.type not in UNSEEN:
+                yield token
+    except (SyntaxError, ValueError, tokenize.TokenError):
+        return
+
+
+def _kind(token: tokenize.TokenInfo) -> str:
+    if token.type == tokenize.NAME and keyword.iskeyword(token.string):
+        return token.string
+    if token.type in (tokenize.INDENT, tokenize.DEDENT):
+        return tokenize.tok_name[token.type]
+    return KINDS.get(token.type, token.string)
+
+
+def winnowed(tokens: Sequence[str]) -> Iterator[int]:
+    """The marks of a run of tokens, the rightmost of the smallest in each window."""
+    hashes = [_hash(tokens[start : start + K]) for start in range(len(tokens) - K + 1)]
+    for start in range(max(len(hashes) - W + 1, min(len(hashes), 1))):
+        yield min(hashes[start : start + W])
+
+
+def _hash(run: Iterable[str]) -> int:
+    digest = hashlib.blake2b("\0".join(run).encode("utf-8", "replace"), digest_size=6)
+    return int.from_bytes(digest.digest(), "big")

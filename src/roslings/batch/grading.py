@@ -1,0 +1,144 @@
+"""Grade one submission, in a process of its own: unpack, measure, judge, answer."""
+
+from __future__ import annotations
+
+import hashlib
+import signal
+import time
+import zlib
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from types import FrameType
+
+import roslings
+from roslings import course
+from roslings.arena import NoFreeDomain
+from roslings.batch.fingerprints import Fingerprint, fingerprint
+from roslings.batch.opening import package_in
+from roslings.batch.result import Order, Result, broken
+from roslings.batch.trouble import Refused
+from roslings.course import Lab
+from roslings.evidence import Evidence
+from roslings.experiment import Choices, MeasuringFailed, measure
+from roslings.judge import judge
+from roslings.report.html.intervals import watched
+from roslings.report.whole_file import write_whole
+from roslings.saving import asked_rates
+from roslings.verdict import Verdict
+from roslings.workspace.inspect import inspect_package
+from roslings.workspace.trouble import MachineTrouble
+
+NO_FINGERPRINT = Fingerprint("", frozenset())
+
+
+class Stopped(BaseException):
+    """The command wants this process to end: leave every block, and end what it started."""
+
+
+@dataclass(frozen=True)
+class Measured:
+    """A verdict, the evidence for it, and the code's fingerprint."""
+
+    verdict: Verdict
+    evidence: Evidence
+    fingerprint: Fingerprint
+
+
+def main(order: Order) -> None:
+    """The process's whole life."""
+    signal.signal(signal.SIGTERM, _stop)
+    answer(order)
+
+
+def _stop(number: int, frame: FrameType | None) -> None:
+    raise Stopped
+
+
+def answer(order: Order) -> Result:
+    """Grade, and put the answer into the order's room: evidence first, then the result, whole."""
+    result, evidence = grade(order)
+    if evidence and order.keeps_evidence:
+        order.evidence.write_bytes(packed(evidence))
+    write_whole(order.answer, result.model_dump_json(by_alias=True).encode())
+    return result
+
+
+def packed(evidence: Evidence) -> bytes:
+    """The evidence as the gradebook keeps it."""
+    return zlib.compress(evidence.model_dump_json(by_alias=True).encode(), 6)
+
+
+def unpacked(content: bytes) -> Evidence:
+    """The same evidence."""
+    return Evidence.model_validate_json(zlib.decompress(content))
+
+
+def grade(order: Order) -> tuple[Result, Evidence | None]:
+    """Grade one submission; what goes wrong with it is a result as well."""
+    began_s = time.monotonic()
+    try:
+        lab = course.lab(order.lab, order.hidden)
+        found = _measured(order, lab)
+    except Refused as refusal:
+        return _refused(order, refusal, time.monotonic() - began_s), None
+    except (MeasuringFailed, MachineTrouble, NoFreeDomain) as trouble:
+        return broken(order, str(trouble), time.monotonic() - began_s), None
+    result = Result(
+        submission=order.submission, digest=order.digest, attempt=order.attempt, state="graded",
+        verdict=found.verdict, seconds=time.monotonic() - began_s, lab_version=version_of(lab),
+        source=found.fingerprint.whole, marks=tuple(sorted(found.fingerprint.marks)),
+        rates=rates_of(found.evidence, lab),
+    )  # fmt: skip
+    return result, found.evidence
+
+
+def _measured(order: Order, lab: Lab) -> Measured:
+    """The way of `check`: read, measure, judge."""
+    began_s = time.monotonic()
+    package = package_in(order.path, lab.card.package, order.room)
+    files = inspect_package(package, lab.card)
+    choices = Choices(order.seed, order.clock, hidden=order.hidden, builds=order.builds)
+    evidence = measure(lab.name, package, files, choices, _silent)
+    verdict = judge(lab, evidence, time.monotonic() - began_s)
+    return Measured(verdict, evidence, _fingerprint(package))
+
+
+def _silent(step: str) -> None:
+    """Many gradings at once: nobody reads their steps."""
+
+
+def _fingerprint(package: Path) -> Fingerprint:
+    """A package that cannot be tokenised is graded all the same."""
+    return _or_none(lambda: fingerprint(package)) or NO_FINGERPRINT
+
+
+def _or_none(make: Callable[[], Fingerprint]) -> Fingerprint | None:
+    try:
+        return make()
+    except (OSError, RecursionError):
+        return None
+
+
+def rates_of(evidence: Evidence, lab: Lab) -> dict[str, float]:
+    """Topic of the card to the rate that was measured, in Hz; the first experiment counts."""
+    found: dict[str, float] = {}
+    for each in watched(evidence, asked_rates(lab)):
+        if each.asked and each.rate:
+            found.setdefault(each.asked.topic, round(each.rate.hz, 4))
+    return found
+
+
+def _refused(order: Order, refusal: Refused, seconds: float) -> Result:
+    return Result(
+        submission=order.submission, digest=order.digest, attempt=order.attempt, state="refused",
+        reason=refusal.reason, next_step=refusal.next_step, seconds=seconds,
+    )  # fmt: skip
+
+
+def version_of(lab: Lab) -> str:
+    """Changes when the card, the grader, the hidden checks or roslings itself change."""
+    content = hashlib.sha256(roslings.__version__.encode())
+    for file in (lab.folder / "card.yaml", *lab.graders):
+        content.update(file.read_bytes())
+    return content.hexdigest()[:16]

@@ -1,0 +1,99 @@
+"""What is asked of one grading, and what comes of it: both cross from process to process."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Literal
+
+from pydantic import BaseModel, ConfigDict
+
+from roslings.verdict import Verdict
+
+State = Literal["graded", "refused", "broken"]
+"""Judged; not gradable as it was handed in; the grading itself broke off (the machine's fault)."""
+
+
+class Order(BaseModel):
+    """One submission to grade, once."""
+
+    model_config = ConfigDict(frozen=True)
+
+    lab: str
+    submission: str
+    digest: str
+    attempt: int
+    path: Path
+    room: Path
+    """A private folder for this grading; the answer is put there."""
+    seed: int
+    clock: Literal["auto", "sim", "wall"] = "auto"
+    hidden: Path | None = None
+    builds: Path | None = None
+    keeps_evidence: bool = True
+
+    @property
+    def answer(self) -> Path:
+        """Where the result is put, whole."""
+        return self.room / "result.json"
+
+    @property
+    def evidence(self) -> Path:
+        """Where the packed evidence is put."""
+        return self.room / "evidence.zlib"
+
+    @property
+    def errors(self) -> Path:
+        """What the process wrote when it broke off."""
+        return self.room / "errors"
+
+
+class Result(BaseModel):
+    """What came of one grading."""
+
+    model_config = ConfigDict(frozen=True)
+
+    submission: str
+    digest: str
+    attempt: int
+    state: State
+    verdict: Verdict | None = None
+    reason: str = ""
+    """Why it was refused, or broke off."""
+    next_step: str = ""
+    seconds: float = 0.0
+    lab_version: str = ""
+    """Of the card and the grader that judged it."""
+    source: str = ""
+    """Equal where two submissions have equal code."""
+    marks: tuple[int, ...] = ()
+    """Fingerprints of its code."""
+    rates: dict[str, float] = {}
+    """Topic of the card to the rate that was measured, in Hz."""
+
+    @property
+    def is_conclusive(self) -> bool:
+        """It need not be tried again."""
+        if self.state == "refused":
+            return True
+        return self.verdict is not None and self.verdict.outcome != "inconclusive"
+
+    @property
+    def score(self) -> float | None:
+        """0 to 100; None where nobody could tell."""
+        return self.verdict.score if self.verdict else None
+
+    @property
+    def word(self) -> str:
+        """Its outcome in one word: pass, fail, inconclusive or refused."""
+        if self.state == "refused":
+            return "refused"
+        return self.verdict.outcome if self.verdict else "inconclusive"
+
+
+def broken(order: Order, reason: str, seconds: float = 0.0) -> Result:
+    """A grading that ended without an answer: never the student's fault, never a zero."""
+    return Result(
+        submission=order.submission, digest=order.digest, attempt=order.attempt, state="broken",
+        reason=reason, seconds=seconds,
+        next_step="Look at this one yourself: ./roslings check LAB PATH",
+    )  # fmt: skip

@@ -1,0 +1,104 @@
+"""A folder for each submission: the page, the verdict, and the shapes that other tools read."""
+
+from __future__ import annotations
+
+import re
+import zlib
+from collections.abc import Iterator
+from pathlib import Path
+
+from roslings.batch.gradebook import Gradebook
+from roslings.batch.grades import Grade
+from roslings.batch.grading import unpacked
+from roslings.batch.result import Result
+from roslings.course import Lab
+from roslings.report import write_check50, write_gradescope, write_json, write_junit
+from roslings.report.html.document import POLICY, STYLE
+from roslings.report.html.markup import Markup, prose, tag
+from roslings.report.whole_file import write_whole
+from roslings.saving import Graded
+from roslings.verdict import Verdict
+
+LONGEST_NAME = 60
+STAMP = "made-from"
+"""Holds the name of the result that a folder was made from, so that it is made once."""
+_UNSAFE = re.compile(r"[^\w-]+", re.ASCII)
+
+
+def folder_name(submission: str) -> str:
+    """The folder of a submission; one of its own, whatever the submission is called."""
+    safe = _UNSAFE.sub("_", submission).strip("_")[:LONGEST_NAME]
+    if safe == submission:
+        return safe
+    return f"{safe or 'submission'}-{zlib.crc32(submission.encode('utf-8', 'replace')):08x}"
+
+
+def write_pages(book: Gradebook, lab: Lab, grades: list[Grade], folder: Path) -> None:
+    """Bring the folder of each submission up to date. Raises CannotWrite."""
+    for grade in (grade for grade in grades if grade.result):
+        assert grade.result
+        place = folder / folder_name(grade.result.submission)
+        stamp = f"{grade.result.digest} {grade.result.attempt}\n"
+        if _stamp_of(place) == stamp:
+            continue
+        place.mkdir(parents=True, exist_ok=True)
+        _write(book, lab, grade.result, place)
+        write_whole(place / STAMP, stamp.encode())
+
+
+def _stamp_of(place: Path) -> str:
+    stamp = place / STAMP
+    return stamp.read_text("utf-8") if stamp.is_file() else ""
+
+
+def _write(book: Gradebook, lab: Lab, result: Result, place: Path) -> None:
+    verdict = result.verdict
+    if verdict is None:
+        write_whole(place / "report.html", _page_without(result).encode())
+        return
+    write_json(verdict, place / "verdict.json")
+    write_gradescope(verdict, place / "results.json")
+    write_junit(verdict, place / "junit.xml")
+    write_check50(verdict, place / "check50.json")
+    _write_report(book, lab, result, verdict, place / "report.html")
+
+
+def _write_report(book: Gradebook, lab: Lab, result: Result, verdict: Verdict, path: Path) -> None:
+    content = book.evidence(result)
+    if content is not None:
+        Graded(lab, verdict, unpacked(content)).write_page(path)
+    else:
+        lines = [f"{check.outcome}: {check.title}" for check in verdict.checks]
+        score = "no score" if verdict.score is None else f"{verdict.score:g} of 100"
+        write_whole(path, _page(result.submission, score, lines).encode())
+
+
+def _page_without(result: Result) -> str:
+    words = {
+        "refused": "This could not be graded as it was handed in",
+        "inconclusive": "No verdict: the computer that graded is at fault, not the package",
+    }
+    return _page(result.submission, words[result.word], _told(result))
+
+
+def _told(result: Result) -> Iterator[str]:
+    yield from result.reason.splitlines()
+    if result.state == "refused":  # the next step of a broken grading is the instructor's
+        yield from result.next_step.splitlines()
+
+
+def _page(submission: str, heading: str, lines: Iterator[str] | list[str]) -> str:
+    """A short page, where there is no evidence to show."""
+    head = tag(
+        "head",
+        tag("meta", charset="utf-8"),
+        tag("meta", http_equiv="Content-Security-Policy", content=POLICY),
+        tag("meta", name_="viewport", content="width=device-width, initial-scale=1"),
+        tag("title", f"{submission}: {heading}"),
+        tag("style", Markup(STYLE.read_text("utf-8"))),
+    )
+    over = tag("p", submission, class_="over")
+    body = tag(
+        "body", tag("header", over, tag("h1", heading)), *(tag("p", prose(x)) for x in lines)
+    )
+    return f"<!DOCTYPE html>\n{tag('html', head, body, lang='en')}\n"

@@ -1,0 +1,50 @@
+"""What can go wrong with many submissions: the instructor's mistakes, and one submission's own."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+
+class BatchError(Exception):
+    """Something that the instructor can mend; `next_step` says how."""
+
+    def __init__(self, problem: str, next_step: str) -> None:
+        self.problem, self.next_step = problem, next_step
+        super().__init__(f"{problem}\n{next_step}")
+
+
+class NoSubmissions(BatchError):
+    """The path leads to nothing that could be graded."""
+
+    def __init__(self, path: Path, problem: str) -> None:
+        step = "Give a folder of submissions (folders, .zip, .tar.gz), or a CSV file of them."
+        super().__init__(f"{path}: {problem}", step)
+
+
+class BadTable(BatchError):
+    """A CSV file that the instructor gave says something that it may not say."""
+
+    def __init__(self, path: Path, line: int, problem: str, next_step: str) -> None:
+        super().__init__(f"{path}:{line}: {problem}", next_step)
+
+
+class BadGradebook(BatchError):
+    """The gradebook in the folder cannot be used."""
+
+
+class Refused(Exception):
+    """A submission that cannot be graded as it was handed in; both texts are for its author."""
+
+    def __init__(self, reason: str, next_step: str) -> None:
+        self.reason, self.next_step = reason, next_step
+        super().__init__(f"{reason}\n{next_step}")
+
+
+PACK_AGAIN = "Hand in the file that ./roslings pack LAB makes."
+
+
+class HostileArchive(Refused):
+    """The archive holds what no archive of a package holds."""
+
+    def __init__(self, reason: str) -> None:
+        super().__init__(reason, PACK_AGAIN)

@@ -1,0 +1,67 @@
+"""A verdict as Gradescope's autograder reads it from results/results.json.
+
+Source of the fields: Gradescope's autograder documentation, "Autograder Specifications".
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+from roslings.report.junit import lines_of
+from roslings.report.safe_text import harmless
+from roslings.report.whole_file import write_whole
+from roslings.verdict import CheckResult, Verdict
+
+INCONCLUSIVE = (
+    "The computer that graded was at fault, not the package. This is no grade:"
+    " submit again, or tell your instructor."
+)
+STATUS = {"pass": "passed", "fail": "failed"}
+
+
+def write_gradescope(verdict: Verdict, path: Path) -> None:
+    """Write `verdict` to `path`. Raises CannotWrite."""
+    text = json.dumps(gradescope_of(verdict), indent=2, ensure_ascii=True)
+    write_whole(path, f"{text}\n".encode())
+
+
+def gradescope_of(verdict: Verdict) -> dict[str, Any]:
+    """The file as a table.
+
+    An inconclusive verdict has no score at all: Gradescope then calls the run failed, and puts
+    no zero into its gradebook.
+    """
+    output = "\n".join(harmless(remark) for remark in verdict.advice)
+    if verdict.outcome == "inconclusive":
+        output = f"{INCONCLUSIVE}\n{output}".rstrip()
+    known = verdict.outcome != "inconclusive"
+    return {
+        **({"score": verdict.score} if known else {}),
+        "output": output,
+        "output_format": "text",
+        "execution_time": round(verdict.seconds.total),
+        "visibility": "visible",
+        "stdout_visibility": "hidden",
+        "tests": [_test(check, known) for check in verdict.checks],
+        "extra_data": {"lab": verdict.lab, "outcome": verdict.outcome},
+    }
+
+
+def _test(check: CheckResult, known: bool) -> dict[str, Any]:
+    points = {"score": check.points, "max_score": check.max_points} if known else {}
+    words: dict[str, Any] = {
+        "name": harmless(check.title), "number": check.id, **points,
+        "output_format": "text", "visibility": "visible",
+        "output": harmless(_output(check), keep_newlines=True),
+    }  # fmt: skip
+    if check.outcome in STATUS:
+        words["status"] = STATUS[check.outcome]
+    return words
+
+
+def _output(check: CheckResult) -> str:
+    if check.outcome == "fail":
+        return "\n".join(lines_of(check)[1:])
+    return check.why or ""

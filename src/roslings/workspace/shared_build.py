@@ -1,0 +1,85 @@
+"""One build for packages of equal content: colcon costs most of what a grading costs."""
+
+from __future__ import annotations
+
+import fcntl
+import hashlib
+import os
+import shutil
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from pydantic import BaseModel
+
+from roslings.arena import Installed, base_environment
+from roslings.evidence import BuildSeen
+from roslings.workspace.build import BuildRoom, build
+from roslings.workspace.sources import sources
+
+OF_ONE_RUN = ("HOME", "TMPDIR", "ROS_LOG_DIR")
+"""Variables that name a run's own folders; the rest of a build's environment can be shared."""
+
+
+class Built(BaseModel):
+    """What came of a build, kept beside it."""
+
+    seen: BuildSeen
+    programs: Path
+    environment: dict[str, str]
+
+    def installed(self, home: Path) -> Installed:
+        """The same installation, for nodes whose home is another."""
+        own = {name: base_environment(home)[name] for name in OF_ONE_RUN}
+        return Installed(self.programs, {**self.environment, **own})
+
+
+def shared_build(
+    builds: Path, room: BuildRoom, home: Path, namespaces: bool
+) -> tuple[BuildSeen, Installed | None]:
+    """Build what lies in `room`, or take the build of the same content from the folder `builds`.
+
+    The build lies there, not in `room`: an installation must not be moved.
+    """
+    place = builds / content_of(room.source)
+    with _held(place):
+        kept = place / "built.json"
+        if kept.is_file():
+            built = Built.model_validate_json(kept.read_text("utf-8"))
+            built.seen.seconds = 0.0
+            return built.seen, built.installed(home)
+        shutil.rmtree(place / room.package, ignore_errors=True)
+        seen, installed = _build_in(place, room, home, namespaces)
+        if installed:  # what failed may have failed by chance: it is not passed on
+            built = Built(seen=seen, programs=installed.programs, environment=installed.environment)
+            kept.write_text(built.model_dump_json(), "utf-8")
+        return seen, installed
+
+
+def _build_in(
+    place: Path, room: BuildRoom, home: Path, namespaces: bool
+) -> tuple[BuildSeen, Installed | None]:
+    own = BuildRoom(place / room.package, room.package)
+    shutil.copytree(room.source, own.source, symlinks=True)
+    return build(own, home, namespaces)
+
+
+def content_of(package: Path) -> str:
+    """A name for the content of a staged package, and for what it is built with."""
+    content = hashlib.sha256(f"{sys.executable} {os.environ.get('AMENT_PREFIX_PATH')}".encode())
+    for source in sources(package):
+        runs = source.path.is_file() and os.access(source.path, os.X_OK)
+        content.update(f"\0{source.name!r} {source.link_to!r} {runs}\0".encode())
+        if source.link_to is None and source.path.is_file():
+            content.update(source.path.read_bytes())
+    return content.hexdigest()[:32]
+
+
+@contextmanager
+def _held(place: Path) -> Iterator[None]:
+    """Nobody else builds the same meanwhile; who comes second finds it built."""
+    place.mkdir(parents=True, exist_ok=True)
+    with (place / "lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield

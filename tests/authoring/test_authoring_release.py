@@ -1,0 +1,114 @@
+"""The students' edition: no answer leaks, and its README's commands work as they stand."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from roslings import course
+from roslings.authoring.release import CannotRelease, is_for_students, leaks, release
+from roslings.course import all_labs
+
+
+@pytest.fixture(scope="module")
+def edition(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The students' edition of this course."""
+    folder = tmp_path_factory.mktemp("release") / "roslings"
+    release(folder)
+    return folder
+
+
+def test_no_solution_mutant_or_hidden_check_is_in_it(edition: Path) -> None:
+    """Neither as a file nor as text; each lab is there without them."""
+    names = [path.relative_to(edition).as_posix() for path in edition.rglob("*")]
+    assert not [name for name in names if re.match(r"labs/[^/]+/(solution|mutants)", name)]
+    assert not [name for name in names if re.match(r"graders/hidden_", name)]
+    assert not [name for name in names if name.startswith(".git/")]
+    assert list(leaks(edition, all_labs())) == []
+    for lab in all_labs():
+        kept = {path.name for path in (edition / "labs" / lab.name).iterdir()}
+        assert kept >= {"card.yaml", "task.md", "hints.yaml", "starter"}
+
+
+def test_each_mutant_sentence_and_answer_line_is_kept_back(edition: Path) -> None:
+    """A grep over every file, apart from the one that `release` itself does."""
+    texts = [path.read_text("utf-8", "replace") for path in edition.rglob("*") if path.is_file()]
+    whole = "\n".join(texts)
+    for lab in all_labs():
+        for file in (path for path in lab.solution.rglob("*.py") if path.stat().st_size):
+            assert file.read_text("utf-8") not in whole or file.name == "setup.py", file
+        for mutant in lab.mutants():
+            assert mutant.what not in whole
+
+
+def test_a_planted_answer_is_found(edition: Path, tmp_path: Path) -> None:
+    """Also with other indents and between other words."""
+    lab = course.lab("topics")
+    answer = (lab.solution / "chatter" / "talker.py").read_text("utf-8")
+    (tmp_path / "lesson.md").write_text(re.sub("^", "    ", answer, flags=re.M), "utf-8")
+    (tmp_path / "notes.md").write_text(f"Wrong: {lab.mutants()[0].what}", "utf-8")
+    found = "\n".join(leaks(tmp_path, [lab]))
+    assert "lesson.md holds the solution of topics: chatter/talker.py" in found
+    assert "notes.md tells a mutant of topics" in found
+
+
+def test_what_goes_to_students_is_told_by_the_path() -> None:
+    """Also for files that do not exist yet."""
+    assert is_for_students("labs/new/starter/new/setup.py")
+    assert not is_for_students("labs/new/solution/new/setup.py")
+    assert not is_for_students("labs/new/mutants/x.yaml")
+    assert not is_for_students("graders/hidden_new.py")
+    assert not is_for_students("tests/labs/test_verdicts.py")
+    assert is_for_students("example/labs/example/solution/beacon/setup.py")
+
+
+def test_it_replaces_nothing(tmp_path: Path) -> None:
+    """A folder that holds something stays as it is."""
+    (tmp_path / "mine").write_text("")
+    with pytest.raises(CannotRelease):
+        release(tmp_path)
+    assert [path.name for path in tmp_path.iterdir()] == ["mine"]
+
+
+def commands_of(edition: Path) -> list[str]:
+    """The README's two commands, without the remarks behind them."""
+    block = (edition / "README.md").read_text("utf-8").partition("```bash\n")[2].partition("```")[0]
+    return [line.partition("#")[0].strip() for line in block.splitlines()]
+
+
+def test_the_first_command_works_without_a_solution(edition: Path, tmp_path: Path) -> None:
+    """With the Python of this environment, in the released course."""
+    first, second = commands_of(edition)
+    assert second == "./roslings test"
+    environment = {**os.environ, "PYTHONPATH": str(edition / "src"), "HOME": str(tmp_path)}
+    environment.pop("ROSLINGS_COURSE", None)
+    words = [sys.executable, "-m", "roslings", *first.split()[1:]]
+    done = subprocess.run(
+        words, cwd=edition, env=environment, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "100 of 100" in done.stdout
+    words = [sys.executable, "-m", "roslings", "check", "topics", "--solution"]
+    done = subprocess.run(
+        words, cwd=edition, env=environment, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 2
+    assert "students' edition" in done.stderr
+
+
+@pytest.mark.slow
+def test_both_commands_work_as_they_stand(edition: Path, tmp_path: Path) -> None:
+    """As a student types them: the first one makes the environment."""
+    own = {"HOME": str(tmp_path), "PATH": os.environ["PATH"]}
+    more = {name: text for name, text in os.environ.items() if name.startswith(("PIP_", "SSL_"))}
+    for command in commands_of(edition):
+        done = subprocess.run(
+            ["bash", "-c", command], cwd=edition, env={**more, **own}, capture_output=True,
+            text=True, check=False,
+        )  # fmt: skip
+        assert done.returncode == 0, done.stdout + done.stderr

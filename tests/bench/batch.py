@@ -1,0 +1,191 @@
+"""What many submissions cost; prints, and asserts nothing.
+
+    .venv/bin/python tests/bench/batch.py [LAB] [COUNT ...]
+
+For each count: submissions a minute beside the most that the processors allow (colcon and the
+nodes alone, measured in the same run), the grader's own CPU, and the memory of one submission.
+Each submission differs in a comment, so that every one is built. `0` in place of a count grades
+ten that are all the same: what sharing builds saves.
+"""
+
+from __future__ import annotations
+
+import platform
+import resource
+import shutil
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from roslings import course
+from roslings.batch.capacity import Capacity, cores
+from roslings.batch.gradebook import Gradebook, gradebook
+from roslings.batch.grading import unpacked
+from roslings.batch.result import Result
+from roslings.batch.shift import Shift, Standing, Wish
+from roslings.batch.submissions import find_submissions
+from roslings.experiment.run_folder import LOCK, run_folder
+
+LOOK_EVERY_S = 1.0
+ALIKE = 10
+
+
+def main(words: list[str]) -> None:
+    """Print a line for each count."""
+    lab = course.lab(words[0] if words else "topics")
+    print(f"{platform.platform()}, Python {platform.python_version()}, {cores()} cores")
+    print(
+        f"{lab.name:12} {'minutes':>8} {'a minute':>9} {'CPU floor':>10} {'part':>6}"
+        f" {'CPU each':>9} {'nodes+build':>12} {'ours':>6}"
+        f" {'at once':>8} {'MB each':>8} {'unclear':>8}"
+    )
+    for count in map(int, words[1:] or ["10"]):
+        show(count, grade(lab, count))
+
+
+@dataclass
+class Run:
+    """One grading of many, and what it took."""
+
+    seconds: float
+    cpu_s: float
+    floor_s: float
+    """CPU seconds of colcon and the nodes alone, for one submission."""
+    results: list[Result]
+    watcher: Watcher
+
+
+@dataclass
+class Watcher:
+    """Looks at the memory of all that works, again and again."""
+
+    most_at_once: int = 0
+    peak_each: float = 0.0
+    working: int = 0
+    _over: threading.Event = field(default_factory=threading.Event)
+
+    def __call__(self, standing: Standing) -> None:
+        """What the shift tells."""
+        self.working = standing.working
+        self.most_at_once = max(self.most_at_once, standing.working)
+
+    @contextmanager
+    def looking(self) -> Iterator[None]:
+        """Look until the block ends."""
+        thread = threading.Thread(target=self._look)
+        thread.start()
+        try:
+            yield
+        finally:
+            self._over.set()
+            thread.join()
+
+    def _look(self) -> None:
+        while not self._over.wait(LOOK_EVERY_S):
+            if self.working:
+                self.peak_each = max(self.peak_each, memory_below() / self.working)
+
+
+def memory_below() -> float:
+    """Bytes of all processes that this one started, each page counted once."""
+    parents = dict(filter(None, map(parent_of, Path("/proc").glob("[0-9]*"))))
+    own = int(Path("/proc/self").resolve().name)
+    below = [pid for pid in parents if own in ancestors(pid, parents)]
+    return sum(map(share_of, below))
+
+
+def parent_of(process: Path) -> tuple[int, int] | None:
+    """A process and its parent."""
+    try:
+        words = (process / "stat").read_text().rpartition(")")[2].split()
+    except OSError:
+        return None
+    return int(process.name), int(words[1])
+
+
+def ancestors(pid: int, parents: dict[int, int]) -> Iterator[int]:
+    """The parent, its parent, and so on."""
+    while pid := parents.get(pid, 0):
+        yield pid
+
+
+def share_of(pid: int) -> float:
+    """Proportional share of memory, in bytes."""
+    try:
+        lines = Path(f"/proc/{pid}/smaps_rollup").read_text().splitlines()
+    except OSError:
+        return 0.0
+    return next((int(line.split()[1]) * 1024.0 for line in lines if line.startswith("Pss:")), 0.0)
+
+
+def grade(lab: course.Lab, count: int) -> Run:
+    """Grade `count` different copies of the solution; 0 for ten equal ones."""
+    watcher = Watcher()
+    with tempfile.TemporaryDirectory() as name:
+        handed_in = Path(name) / "in"
+        for number in range(count or ALIKE):
+            package = handed_in / f"s{number:04}" / lab.card.package
+            shutil.copytree(lab.solution, package)
+            with (package / "setup.py").open("a") as setup:
+                setup.write(f"# {number if count else 0}\n")
+        with run_folder() as scratch, gradebook(Path(name), lab.name) as book, watcher.looking():
+            began_s, began_cpu_s = time.monotonic(), cpu_s()
+            wish = Wish(lab.name, scratch, scratch / LOCK)
+            Shift(wish, book, Capacity(), watcher).run(find_submissions(handed_in))
+            seconds, used_s = time.monotonic() - began_s, cpu_s() - began_cpu_s
+            results = list(book.latest().values())
+            floor_s = build_cpu_s(lab, Path(name)) + nodes_cpu_s(book, results)
+    return Run(seconds, used_s, floor_s, results, watcher)
+
+
+def cpu_s() -> float:
+    """CPU seconds of this process and of all that it has waited for."""
+    whose = resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN
+    return sum(u.ru_utime + u.ru_stime for u in map(resource.getrusage, whose))
+
+
+def build_cpu_s(lab: course.Lab, folder: Path) -> float:
+    """CPU of one build with colcon, nothing else."""
+    from roslings.workspace.build import BuildRoom, build
+
+    room = BuildRoom(folder / "floor", lab.card.package)
+    shutil.copytree(lab.solution, room.source)
+    (folder / "home").mkdir()
+    before_s = cpu_s()
+    build(room, folder / "home", namespaces=False)
+    return cpu_s() - before_s
+
+
+def nodes_cpu_s(book: Gradebook, results: list[Result]) -> float:
+    """CPU of the nodes of one submission, as the kernel counted it."""
+    kept = [unpacked(content) for result in results if (content := book.evidence(result))]
+    whole = sum(
+        process.cpu_s
+        for evidence in kept
+        for seen in evidence.experiments.values()
+        for process in seen.processes.values()
+    )
+    return whole / max(1, len(kept))
+
+
+def show(count: int, run: Run) -> None:
+    """One line of the table."""
+    many = len(run.results)
+    a_minute, floor = 60 * many / run.seconds, 60 * cores() / run.floor_s
+    each_s = run.cpu_s / many
+    unclear = sum(result.word == "inconclusive" for result in run.results)
+    print(
+        f"{count or f'{ALIKE} alike':<12} {run.seconds / 60:8.2f} {a_minute:9.2f} {floor:10.2f}"
+        f" {a_minute / floor:6.0%} {each_s:9.2f} {run.floor_s:12.2f} {each_s - run.floor_s:6.2f}"
+        f" {run.watcher.most_at_once:8} {run.watcher.peak_each / 1e6:8.0f} {unclear:8}",
+        flush=True,
+    )
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
