@@ -113,6 +113,10 @@ class ProcessSeen(Record):
         " free; None where the kernel does not tell",
     )
     peak_memory_bytes: int = 0
+    bounds_met: list[Literal["pids", "memory"]] = Field(
+        default_factory=list,
+        description="What it wanted more of than a sandbox has: processes, memory",
+    )
 
 
 class Spoken(Record):

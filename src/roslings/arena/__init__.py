@@ -5,26 +5,34 @@ with each other, so they live together.
 """
 
 from roslings.arena import kernel
-from roslings.arena.arena import Arena, Installed, opened
-from roslings.arena.environment import QUICK_DISCOVERY, base_environment, ros_environment
-from roslings.arena.isolation import Isolation, Wall, choose_isolation
+from roslings.arena.arena import Arena, Installed, Place, opened
+from roslings.arena.environment import (
+    QUICK_DISCOVERY,
+    Wall,
+    base_environment,
+    ros_environment,
+)
+from roslings.arena.isolation import Isolation, Lack, choose_isolation
 from roslings.arena.lease import NoFreeDomain
-from roslings.arena.process import Launch, Process
-from roslings.arena.sandbox import sandbox_missing
+from roslings.arena.process import CannotStart, Launch, Process
+from roslings.arena.sandbox import Sandbox
 
 __all__ = [
     "QUICK_DISCOVERY",
     "Arena",
+    "CannotStart",
     "Installed",
     "Isolation",
+    "Lack",
     "Launch",
     "NoFreeDomain",
+    "Place",
     "Process",
+    "Sandbox",
     "Wall",
     "base_environment",
     "choose_isolation",
     "kernel",
     "opened",
     "ros_environment",
-    "sandbox_missing",
 ]

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-from roslings.arena.environment import ros_environment
-from roslings.arena.isolation import Wall
+from roslings.arena.environment import Wall, ros_environment
 from roslings.arena.lease import leased_domain
 from roslings.arena.process import Launch, Process
+from roslings.arena.sandbox import Sandbox
 from roslings.arena.shared_memory import swept_shared_memory
 
 
@@ -20,6 +20,27 @@ class Installed:
 
     programs: Path
     environment: dict[str, str]
+    folder: Path
+    """Where all of it lies."""
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where processes live: behind which walls, with which folders."""
+
+    wall: Wall
+    home: Path
+    """The processes' HOME; in a sandbox each has an empty one of its own here."""
+    devices: Path
+    """Where devices appear that the processes may use."""
+    sandbox: Sandbox | None = None
+
+    def around(self, installed: Installed, shown: Sequence[Path]) -> Sandbox | None:
+        """What stands around one process."""
+        if self.sandbox is None:
+            return None
+        seen = self.sandbox.showing(installed.folder, self.devices, *shown)
+        return replace(seen, home=self.home)
 
 
 class Arena:
@@ -28,35 +49,39 @@ class Arena:
     def __init__(
         self,
         installed: Installed,
-        wall: Wall,
+        place: Place,
         domain_id: int,
-        home: Path,
         on_change: Callable[[], None] = lambda: None,
     ) -> None:
         self.domain_id = domain_id
         self.processes: list[Process] = []
         self.on_change = on_change
         self._installed = installed
-        self._wall = wall
-        self._home = home
+        self._place = place
 
     @contextmanager
-    def run(self, executable: str, arguments: Sequence[str] = ()) -> Iterator[Process]:
-        """Run one of the package's executables until the block ends."""
+    def run(
+        self, executable: str, arguments: Sequence[str] = (), shown: Sequence[Path] = ()
+    ) -> Iterator[Process]:
+        """Run one of the package's executables until the block ends.
+
+        `shown` is what it needs to see besides, where there is a sandbox.
+        """
         launch = Launch(
             command=[str(self._installed.programs / executable), *arguments],
             environment=self._environment(),
-            folder=self._home,
-            namespaces=self._wall == "namespace",
+            folder=self._place.home,
+            namespaces=self._place.wall == "namespace",
+            sandbox=self._place.around(self._installed, shown),
         )
         with Process(executable, launch, lambda: self.on_change()) as process:
             self.processes.append(process)
             yield process
 
     @property
-    def home(self) -> Path:
-        """The processes' home folder, gone when the run ends."""
-        return self._home
+    def devices(self) -> Path:
+        """Where a device must appear for the processes to see it."""
+        return self._place.devices
 
     def all_alive(self) -> bool:
         """Every process that was started still runs."""
@@ -65,18 +90,18 @@ class Arena:
     def _environment(self) -> dict[str, str]:
         return {
             **self._installed.environment,
-            **ros_environment(self._wall),
+            **ros_environment(self._place.wall),
             "ROS_DOMAIN_ID": str(self.domain_id),
         }
 
 
 @contextmanager
-def opened(installed: Installed, wall: Wall, home: Path) -> Iterator[Arena]:
+def opened(installed: Installed, place: Place) -> Iterator[Arena]:
     """An arena with a domain that nobody else uses. Raises NoFreeDomain.
 
     A domain of its own for each experiment: a node that was killed stays in its graph for 20 s.
     """
     with ExitStack() as stack:
-        if wall == "domain":
+        if place.wall == "domain":
             stack.enter_context(swept_shared_memory())
-        yield Arena(installed, wall, stack.enter_context(leased_domain()), home)
+        yield Arena(installed, place, stack.enter_context(leased_domain()))

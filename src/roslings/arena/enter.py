@@ -2,6 +2,9 @@
 
     python -I -S enter.py COMMAND ...    become COMMAND inside
     python -I -S enter.py --try          say `ok`, or why this machine refuses (exit 97)
+    python -I -S enter.py --room FOLDER BYTES COMMAND ...
+                                         become COMMAND inside, with terminals of its own, and a
+                                         FOLDER that holds so much and is gone with the last process
 
 It runs in a bare interpreter, because a process with threads may not make a user namespace.
 """
@@ -17,13 +20,19 @@ import guardian  # type: ignore[import-not-found]
 import kernel  # type: ignore[import-not-found]
 
 REFUSED = 97
+BYTES_A_FILE = 16384
+"""On average; a file takes memory of the kernel even where it is empty."""
 MULTICAST_GROUP = "239.255.0.1"
 
 
 def main(arguments: list[str]) -> None:
     """Enter, then try it or become the command."""
     try:
-        enter()
+        if arguments[0] == "--room":
+            enter_with_room(arguments[1], int(arguments[2]))
+            arguments = arguments[3:]
+        else:
+            enter()
         if arguments == ["--try"]:
             try_namespaces()
             print("ok")
@@ -34,10 +43,18 @@ def main(arguments: list[str]) -> None:
     os.execvp(arguments[0], arguments)
 
 
-def enter() -> None:
-    """Take a user and a network namespace of one's own. Raises OSError."""
+def enter_with_room(folder: str, most_bytes: int) -> None:
+    """Besides: a mount namespace, with a room for what strangers build. Raises OSError."""
+    enter(kernel.CLONE_NEWNS)
+    kernel.keep_mounts_private()
+    kernel.mount_terminals()
+    kernel.mount_room(folder, most_bytes, most_bytes // BYTES_A_FILE)
+
+
+def enter(besides: int = 0) -> None:
+    """Take a user and a network namespace of one's own, and `besides`. Raises OSError."""
     uid, gid = os.getuid(), os.getgid()
-    kernel.unshare(kernel.CLONE_NEWUSER | kernel.CLONE_NEWNET)
+    kernel.unshare(kernel.CLONE_NEWUSER | kernel.CLONE_NEWNET | besides)
     kernel.map_identity(uid, gid)
     kernel.raise_loopback()
 

@@ -9,8 +9,10 @@ from __future__ import annotations
 import os
 import sys
 from pathlib import Path
+from typing import Literal
 
-from roslings.arena.isolation import HERE, Wall
+Wall = Literal["namespace", "domain"]
+HERE = Path(__file__).parent
 
 INHERITED = (
     "PATH",

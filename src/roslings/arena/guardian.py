@@ -10,9 +10,10 @@ an event:
     {"exited": STATUS, "at": NS, ...}      {"refused": REASON}
     {"waits": {THREAD: NS}}                ready to run, and no processor free, since it began
 
-Where the order asks for it, the process lives in a pid namespace whose first process is this
-guardian: when the guardian goes, the kernel ends all that the process started. Elsewhere the
-guardian adopts orphans and ends them one by one. When the arena's end of the socket closes,
+Where the order says `namespaces`, the process lives in a pid namespace whose first process is
+this guardian: when the guardian goes, the kernel ends all that the process started. So it is
+where the order says `sandbox`: then this guardian was started inside of it. Elsewhere it adopts
+orphans and ends them one by one. When the arena's end of the socket closes,
 for whatever reason, everything ends. Times are nanoseconds of the monotonic clock.
 """
 
@@ -38,6 +39,7 @@ import kernel  # type: ignore[import-not-found]
 READ_BYTES = 65536
 LATEST_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGQUIT, signal.SIGPIPE, signal.SIGHUP)
 GRACE_S = 0.2
+LOOK_AT_MEMORY_EVERY_S = 0.2
 
 
 @dataclass
@@ -47,10 +49,12 @@ class Order:
     command: list[str]
     environment: dict[str, str]
     folder: str
-    namespaces: bool
+    walls: str
     head_bytes: int
     tail_bytes: int
     limits: dict[str, int]
+    most_memory_bytes: int | None
+    """Of all that it starts, where no control group bounds that."""
 
 
 class Spout:
@@ -101,6 +105,8 @@ class Guardian:
         self.waked = waked
         self.pid, self.terminal = start(order)
         self.exited: dict[str, object] | None = None
+        self.took_too_much = False
+        self.looked_s = 0.0
 
     def run(self) -> None:
         """Watch until the process ended or the arena let go; then end whatever is left."""
@@ -118,19 +124,37 @@ class Guardian:
                 "left_behind": left,
                 "output_bytes": self.spout.total,
                 "dropped_bytes": self.spout.dropped,
+                "took_too_much": self.took_too_much,
             }
         )
 
     def turn(self) -> bool:
         """One round: output, orders, ended children. False when the arena let go."""
         sources: list[int | socket.socket] = [self.terminal, self.channel, self.waker]
-        ready, _, _ = select.select(sources, [], [])
+        ready, _, _ = select.select(sources, [], [], self.look_again_s())
+        if self.order.most_memory_bytes:
+            self.bound_memory(self.order.most_memory_bytes)
         if self.terminal in ready:
             self.read_terminal()
         if self.waker in ready:
             self.waker.recv(4096)
             self.reap()
         return self.channel not in ready or self.obey()
+
+    def look_again_s(self) -> float | None:
+        """When to look at the memory again; never where the kernel does it."""
+        return LOOK_AT_MEMORY_EVERY_S if self.order.most_memory_bytes else None
+
+    def bound_memory(self, most_bytes: int) -> None:
+        """End everything when it takes too much; not more often than so many times a second."""
+        now_s = time.monotonic()
+        if now_s - self.looked_s < LOOK_AT_MEMORY_EVERY_S:
+            return
+        self.looked_s = now_s
+        others = descendants()
+        if sum(map(memory_of, others)) > most_bytes:
+            self.took_too_much = True
+            kill_all(others)
 
     def read_terminal(self) -> bool:
         """Pass on what the process wrote. False when nobody holds the terminal any more."""
@@ -193,8 +217,7 @@ class Guardian:
     def end_all(self) -> None:
         """Kill whatever is left, until nothing is left."""
         while others := descendants():
-            for pid in others:
-                kill(pid)
+            kill_all(others)
             select.select([self.waker], [], [], GRACE_S)
             self.reap()
 
@@ -293,6 +316,23 @@ def living() -> list[tuple[int, int]]:
     return pairs
 
 
+def memory_of(pid: int) -> int:
+    """Resident bytes of a process: proc_pid_statm(5)."""
+    try:
+        pages = int(Path(f"/proc/{pid}/statm").read_bytes().split()[1])
+    except (OSError, IndexError):
+        return 0
+    return pages * os.sysconf("SC_PAGE_SIZE")
+
+
+def kill_all(pids: list[int]) -> None:
+    """End processes; the first one of a namespace ends all others at once, born ones too."""
+    if os.getpid() == 1:
+        kill(-1)
+    for pid in pids:
+        kill(pid)
+
+
 def kill(pid: int) -> None:
     """End a process that may be gone already."""
     with contextlib.suppress(ProcessLookupError):
@@ -330,8 +370,10 @@ def main(descriptor: int) -> None:
     for number in LATEST_SIGNALS:
         signal.signal(number, signal.SIG_IGN)
     try:
-        if order.namespaces:
+        if order.walls == "namespaces":
             enter_namespaces()
+        elif order.walls == "sandbox":
+            kernel.be_unreadable()
         else:
             kernel.adopt_orphans()
         Guardian(channel, order).run()

@@ -2,53 +2,137 @@
 
 `namespace`: a network of its own, where only loopback exists: nothing can come in or go out.
 `domain`: a leased ROS domain with discovery kept on this machine; for kernels that refuse more.
+Behind the first, and where bubblewrap is installed, a sandbox stands around each process too.
 """
 
 from __future__ import annotations
 
 import os
+import shutil
 import subprocess
 import sys
+import tempfile
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
-from typing import Literal
 
-Wall = Literal["namespace", "domain"]
+from roslings.arena import cgroup
+from roslings.arena.bounds import MB, kernel_counts_by_namespace
+from roslings.arena.environment import HERE, Wall
+from roslings.arena.sandbox import Sandbox
 
-HERE = Path(__file__).parent
 ENTER = HERE / "enter.py"
 GUARDIAN = HERE / "guardian.py"
 BARE = (sys.executable, "-I", "-S")
 """A Python without site packages: quick to start, and without the threads that forbid unshare."""
 
+ROOM_BYTES = 512 * MB
+"""For one package's build and installation."""
+TRIED_WITHIN_S = 60
+USERS_FORBIDDEN = Path("/proc/sys/kernel/apparmor_restrict_unprivileged_userns")
+
+
+@dataclass(frozen=True)
+class Lack:
+    """Why strangers' code cannot be held here, and what to do."""
+
+    reason: str
+    next_step: str
+
 
 @dataclass(frozen=True)
 class Isolation:
-    """The wall that is used, and why it is not the better one."""
+    """The walls that are used, and why they are not better ones."""
 
     wall: Wall
     because: str = ""
+    sandbox: Sandbox | None = None
+    lack: Lack | None = None
+    """None where each process is in a sandbox, and all that it can take is bounded."""
 
-    def command(self, inner: list[str]) -> list[str]:
-        """The command that runs `inner` behind this wall."""
-        return [*BARE, str(ENTER), *inner] if self.wall == "namespace" else inner
+    def command(self, inner: Sequence[str], room: Path | None = None) -> list[str]:
+        """The command that runs `inner` behind this wall.
+
+        With a sandbox, `room` is an empty folder, which then holds ROOM_BYTES at most, is seen
+        by `inner` and its children only, and is gone with them.
+        """
+        if self.wall == "domain":
+            return list(inner)
+        roomy = ["--room", str(room), str(ROOM_BYTES)] if self.sandbox and room else []
+        return [*BARE, str(ENTER), *roomy, *inner]
 
 
 def choose_isolation() -> Isolation:
     """Namespaces where the kernel allows them; `ROSLINGS_ISOLATION=domain` does without."""
     if os.environ.get("ROSLINGS_ISOLATION") == "domain":
-        return Isolation("domain", "ROSLINGS_ISOLATION asks for it")
-    refusal = _refusal()
-    return Isolation("domain", refusal) if refusal else Isolation("namespace")
+        because = "ROSLINGS_ISOLATION asks for it"
+        return Isolation("domain", because, lack=Lack(because, "Leave that variable out."))
+    return _best()
+
+
+@cache
+def _best() -> Isolation:
+    if refusal := _refusal():
+        return Isolation("domain", refusal, lack=_lack_of_namespaces(refusal))
+    program = shutil.which("bwrap")
+    if program is None:
+        step = "Install it: sudo apt install bubblewrap"
+        return Isolation("namespace", lack=Lack("bubblewrap is not installed", step))
+    best = Isolation("namespace", sandbox=Sandbox(Path(program), cgroup.trees()))
+    if refusal := _refusal_of_sandbox(best):
+        return Isolation("namespace", lack=Lack(f"bubblewrap cannot work: {refusal}", OTHER_USER))
+    return Isolation("namespace", sandbox=best.sandbox, lack=_lack_of_bounds(best.sandbox))
+
+
+OTHER_USER = "Run the command as an ordinary user, or on a machine that is not a container."
+
+
+def _lack_of_namespaces(refusal: str) -> Lack:
+    """The mend is known on Ubuntu 24.04: AppArmor forbids them to ordinary users."""
+    try:
+        forbidden = USERS_FORBIDDEN.read_text("ascii").strip() == "1"
+    except OSError:
+        forbidden = False
+    step = (
+        f"Allow them: sudo sysctl -w kernel.{USERS_FORBIDDEN.name}=0" if forbidden else OTHER_USER
+    )
+    return Lack(f"this system allows no namespaces of one's own ({refusal})", step)
+
+
+def _lack_of_bounds(sandbox: Sandbox | None) -> Lack | None:
+    """A process of root's is bounded by a control group only: RLIMIT_NPROC leaves root alone."""
+    controlled = {name for tree in (sandbox.trees if sandbox else ()) for name in tree.controllers}
+    if "pids" in controlled or (os.getuid() != 0 and kernel_counts_by_namespace()):
+        return None
+    return Lack("nothing here bounds the number of processes", OTHER_USER)
 
 
 def _refusal() -> str:
     """Why this machine refuses namespaces; empty where it does not."""
     if sys.platform != "linux":
         return "only Linux has them"
+    return _tried([*BARE, str(ENTER), "--try"])
+
+
+def _refusal_of_sandbox(isolation: Isolation) -> str:
+    """Why no sandbox stands up here; empty where one does."""
+    assert isolation.sandbox
+    try:
+        with (
+            tempfile.TemporaryDirectory() as room,
+            isolation.sandbox.around(["/bin/sh", "-c", "exit 0"]) as (command, _),
+        ):
+            return _tried(isolation.command(command, Path(room)))
+    except OSError as error:
+        return str(error)
+
+
+def _tried(command: Sequence[str]) -> str:
     tried = subprocess.run(
-        [*BARE, str(ENTER), "--try"], capture_output=True, text=True, check=False, timeout=60
+        command, capture_output=True, text=True, check=False, timeout=TRIED_WITHIN_S
     )
     if tried.returncode == 0:
         return ""
-    return tried.stderr.strip().splitlines()[-1] if tried.stderr.strip() else "the kernel refused"
+    words = tried.stderr.strip().splitlines()
+    return words[-1] if words else "the kernel refused"

@@ -19,8 +19,10 @@ CLONE_NEWPID = 0x20000000
 CLONE_NEWNET = 0x40000000
 
 _PR_SET_PDEATHSIG = 1
+_PR_SET_DUMPABLE = 4
 _PR_SET_CHILD_SUBREAPER = 36
 _MS_NOSUID_NODEV = 0x2 | 0x4
+_MS_NOSUID_NOEXEC = 0x2 | 0x8
 _MS_REC_PRIVATE = 0x4000 | 0x40000
 _SIOCSIFFLAGS = 0x8914
 _SIOCADDRT = 0x890B
@@ -98,6 +100,23 @@ def _address(dotted: str) -> bytes:
 def mount_private(kind: str, place: str) -> None:
     """Mount a fresh `proc` or `tmpfs` that only this mount namespace sees. Raises OSError."""
     _call("mount", kind.encode(), place.encode(), kind.encode(), _MS_NOSUID_NODEV, None)
+
+
+def mount_room(place: str, most_bytes: int, most_files: int) -> None:
+    """Mount an empty folder that can be filled so far and no further. Raises OSError."""
+    options = f"size={most_bytes},nr_inodes={most_files},mode=0700"
+    _call("mount", b"tmpfs", place.encode(), b"tmpfs", _MS_NOSUID_NODEV, options.encode())
+
+
+def mount_terminals() -> None:
+    """Pseudo-terminals of one's own at /dev/pts: whoever sees them sees no others."""
+    options = b"newinstance,ptmxmode=0666,mode=0620"
+    _call("mount", b"devpts", b"/dev/pts", b"devpts", _MS_NOSUID_NOEXEC, options)
+
+
+def be_unreadable() -> None:
+    """Let no process of the same user trace this one, or open what it has open: ptrace(2)."""
+    _call("prctl", _PR_SET_DUMPABLE, 0, 0, 0, 0)
 
 
 def keep_mounts_private() -> None:

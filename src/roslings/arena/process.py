@@ -7,12 +7,16 @@ import socket
 import subprocess
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import TracebackType
+from typing import Literal
 
+from roslings.arena.cgroup import Group
 from roslings.arena.isolation import BARE, GUARDIAN
+from roslings.arena.sandbox import Sandbox
 from roslings.evidence import Ending, LogLine, ProcessSeen
 
 Listener = Callable[[], None]
@@ -27,6 +31,9 @@ PATIENCE = {"SIGINT": 2.0, "SIGTERM": 1.0, "SIGKILL": 10.0}
 class CannotStart(Exception):
     """The machine refused to start a process; no fault of the student's."""
 
+    def __init__(self, reason: str | None) -> None:
+        super().__init__(f"No process can be started here: {reason or 'its walls do not stand'}.")
+
 
 @dataclass(frozen=True)
 class Launch:
@@ -36,7 +43,9 @@ class Launch:
     environment: dict[str, str]
     folder: Path
     namespaces: bool
+    """Whether the guardian takes namespaces for it; a sandbox has its own."""
     limits: dict[str, int] = field(default_factory=dict)
+    sandbox: Sandbox | None = None
 
     def order(self) -> bytes:
         """The line that the guardian reads."""
@@ -44,12 +53,29 @@ class Launch:
             "command": self.command,
             "environment": self.environment,
             "folder": str(self.folder),
-            "namespaces": self.namespaces,
+            "walls": self.walls,
             "head_bytes": HEAD_BYTES,
             "tail_bytes": TAIL_BYTES,
-            "limits": self.limits,
+            "limits": {**(self.sandbox.bounds.limits() if self.sandbox else {}), **self.limits},
+            "most_memory_bytes": self.sandbox.watched_bytes if self.sandbox else None,
         }
         return json.dumps(words).encode() + b"\n"
+
+    @property
+    def walls(self) -> Literal["none", "namespaces", "sandbox"]:
+        """What stands around it."""
+        if self.sandbox:
+            return "sandbox"
+        return "namespaces" if self.namespaces else "none"
+
+    @contextmanager
+    def command_of(self, guardian: list[str]) -> Iterator[tuple[list[str], Group]]:
+        """The guardian's command within what stands around both, and what counts their use."""
+        if self.sandbox:
+            with self.sandbox.around(guardian) as found:
+                yield found
+        else:
+            yield guardian, Group(())
 
 
 class Process:
@@ -68,12 +94,16 @@ class Process:
         self._gone = False
         self._refused: str | None = None
         self._waits: dict[str, int] | None = None
+        self._around = ExitStack()
 
     def __enter__(self) -> Process:
         ours, theirs = socket.socketpair()
         with theirs:
+            guardian = [*BARE, str(GUARDIAN), str(theirs.fileno())]
+            around = self._launch.command_of(guardian)
+            command, self._group = self._around.enter_context(around)
             self._guardian = subprocess.Popen(
-                [*BARE, str(GUARDIAN), str(theirs.fileno())],
+                command,
                 pass_fds=[theirs.fileno()],
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.DEVNULL,
@@ -86,6 +116,9 @@ class Process:
         self._reader.start()
         with self._changed:
             self._changed.wait_for(lambda: self._started or self._gone)
+        if not self._started:
+            self.__exit__(CannotStart, None, None)
+            raise CannotStart(self._refused)
         return self
 
     def __exit__(
@@ -102,16 +135,13 @@ class Process:
             self._reader.join()
             self._channel.close()
             self._guardian.wait()
+            self.seen.bounds_met += self._group.reached()
+            self._around.close()
 
     @property
     def alive(self) -> bool:
         """Has not ended yet, as far as we were told."""
         return not self._gone and self.seen.ended_ns is None
-
-    @property
-    def refused(self) -> str | None:
-        """Why the machine could not even start it."""
-        return self._refused
 
     def interrupt(self, within_s: float) -> bool:
         """Press Ctrl-C: SIGINT to the process itself. True when it ended within `within_s`."""
@@ -223,3 +253,5 @@ class Process:
         seen.left_behind = int(str(event["left_behind"]))
         seen.output_bytes = int(str(event["output_bytes"]))
         seen.output_dropped_bytes = int(str(event["dropped_bytes"]))
+        if event["took_too_much"]:
+            seen.bounds_met.append("memory")

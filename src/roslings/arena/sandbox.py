@@ -1,8 +1,127 @@
-"""Whether strangers' code can be kept away from the rest of this machine."""
+"""A sandbox for strangers' code, made by bubblewrap: what may be seen is listed, nothing is hidden.
+
+Inside are the system's programs, Python with its packages, and the one submission; no home, no
+course, no grader, no other submission. Of the network only the loopback of the arena exists.
+"""
 
 from __future__ import annotations
 
+import os
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
+from pathlib import Path
 
-def sandbox_missing() -> str | None:
-    """Why there is no sandbox here; None where there is one."""
-    return "this installation of roslings has no sandbox"
+from roslings.arena import cgroup
+from roslings.arena.bounds import MB, Bounds
+from roslings.arena.environment import HERE, base_environment
+
+USER = "1000"
+"""The same for everybody, as in arena/etc."""
+
+SYSTEM = ("/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32")
+"""Beside /usr; most systems have them as symbolic links into it."""
+SETTINGS = ("ld.so.cache", "ld.so.conf", "ld.so.conf.d", "alternatives", "localtime", "fonts")
+OWN_SETTINGS = {name: HERE / "etc" / name for name in ("passwd", "group")}
+ENGINE_SHOWN = ("guardian.py", "kernel.py", "quick_discovery.xml")
+SHARED_MEMORY_BYTES = 64 * MB
+LISTS_OF_FOLDERS = ("AMENT_PREFIX_PATH", "LD_LIBRARY_PATH", "PYTHONPATH")
+
+
+@dataclass(frozen=True)
+class Sandbox:
+    """What one process, and all that it starts, may see, write and take."""
+
+    program: Path
+    """bubblewrap itself."""
+    trees: tuple[cgroup.Tree, ...] = ()
+    shown: tuple[Path, ...] = ()
+    written: tuple[tuple[Path, Path], ...] = ()
+    """Folders that it may write: where each lies, and where the process sees it."""
+    home: Path | None = None
+    """A folder of its own, empty at first and gone at its end."""
+    bounds: Bounds = field(default_factory=Bounds)
+
+    def showing(self, *paths: Path) -> Sandbox:
+        """The same, with more to be seen."""
+        return replace(self, shown=(*self.shown, *paths))
+
+    def writing(self, lies: Path, seen: Path) -> Sandbox:
+        """The same, with a folder that may be written."""
+        return replace(self, written=(*self.written, (lies, seen)))
+
+    @property
+    def watched_bytes(self) -> int | None:
+        """The memory that the guardian must watch; None where a group does it."""
+        controlled = any("memory" in tree.controllers for tree in self.trees)
+        return None if controlled else self.bounds.memory_bytes
+
+    @contextmanager
+    def around(self, inner: Sequence[str]) -> Iterator[tuple[list[str], cgroup.Group]]:
+        """The command that runs `inner` inside, and the group that counts what it takes."""
+        with cgroup.group(self.trees, self.bounds) as group:
+            yield group.command([*self._walls(), *self._view(), "--", *inner]), group
+
+    def _walls(self) -> list[str]:
+        return [
+            str(self.program), "--unshare-user", "--uid", USER, "--gid", USER, "--unshare-pid",
+            "--unshare-ipc", "--unshare-uts", "--unshare-cgroup-try", "--hostname", "roslings",
+            "--cap-drop", "ALL", "--new-session", "--die-with-parent", "--as-pid-1",
+        ]  # fmt: skip
+
+    def _view(self) -> Iterator[str]:
+        """The mounts, in their order: what comes later lies over what comes earlier."""
+        yield from ("--proc", "/proc", "--dev", "/dev", "--dev-bind", "/dev/pts", "/dev/pts")
+        yield from _empty(Path("/dev/shm"), SHARED_MEMORY_BYTES)
+        yield from _empty(Path("/tmp"), self.bounds.home_bytes)
+        for path in [*_system(), *self.shown]:
+            yield from ("--ro-bind", str(path), str(path))
+        for name, file in OWN_SETTINGS.items():
+            yield from ("--ro-bind", str(file), f"/etc/{name}")
+        for link, target in _links():
+            yield from ("--symlink", target, link)
+        for lies, seen in self.written:
+            yield from ("--bind", str(lies), str(seen))
+        if self.home:
+            yield from _empty(self.home, self.bounds.home_bytes)
+        yield from ("--remount-ro", "/dev", "--remount-ro", "/")
+
+
+def _empty(place: Path, most_bytes: int) -> Iterator[str]:
+    yield from ("--size", str(most_bytes), "--tmpfs", str(place))
+
+
+def _system() -> Iterator[Path]:
+    yield Path("/usr")
+    yield from (
+        Path(name) for name in SYSTEM if Path(name).is_dir() and not Path(name).is_symlink()
+    )
+    yield from filter(Path.exists, (Path("/etc", name) for name in SETTINGS))
+    yield from (HERE / name for name in ENGINE_SHOWN)
+    yield from installations(base_environment(Path("/tmp")))
+
+
+def _links() -> list[tuple[str, str]]:
+    return [(name, str(Path(name).readlink())) for name in SYSTEM if Path(name).is_symlink()]
+
+
+def installations(environment: Mapping[str, str]) -> list[Path]:
+    """Where Python, its packages and ROS lie, as far as that is not within /usr.
+
+    Each is a whole prefix, or a folder that a variable of `environment` names: ours, never one
+    that a build has made.
+    """
+    named = [environment.get(name, "").split(os.pathsep) for name in LISTS_OF_FOLDERS]
+    folders = [Path(part) for parts in named for part in parts if part]
+    python = [
+        Path(sys.base_prefix),
+        Path(sys.prefix),
+        Path(os.path.realpath(sys.executable)).parent,
+    ]
+    found: list[Path] = []
+    for path in [*python, *folders]:
+        inside = any(path.is_relative_to(other) for other in (Path("/usr"), *found))
+        if path.is_absolute() and path.is_dir() and not inside:
+            found.append(path)
+    return found

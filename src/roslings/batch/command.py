@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from roslings import course
-from roslings.arena import sandbox_missing
+from roslings.arena import Lack, choose_isolation
 from roslings.batch.capacity import Capacity
 from roslings.batch.crew import Limits
 from roslings.batch.far import FarCrew, far_crew
@@ -29,11 +29,10 @@ from roslings.report import Progress
 class NoSandbox(BatchError):
     """Strangers' code would run as you."""
 
-    def __init__(self, reason: str) -> None:
+    def __init__(self, lack: Lack) -> None:
         super().__init__(
-            f"Submissions are strangers' code, and nothing would hold it: {reason}.",
-            "Where you trust every submission, or this is a machine with nothing else on it,"
-            " add: --trust",
+            f"Submissions are strangers' code, and nothing would hold it: {lack.reason}.",
+            f"{lack.next_step}\nOr trust every submission with this machine: --trust",
         )
 
 
@@ -83,8 +82,8 @@ def grade(choices: Choices) -> Report:
     lab = course.lab(choices.lab, choices.hidden)
     _ = lab.card, lab.hints  # a mistake in the course is told before anything is run
     submissions = find_submissions(choices.submissions)
-    if not choices.dask and not choices.trust and (reason := sandbox_missing()):
-        raise NoSandbox(reason)
+    if not choices.dask and not choices.trust and (lack := choose_isolation().lack):
+        raise NoSandbox(lack)
     _make(choices)
     with _alone_in(choices.out), gradebook(choices.out, lab.name) as book:
         keep(book, _settings(choices, submissions))

@@ -17,7 +17,7 @@ from typing import Any
 
 import roslings
 from roslings import course
-from roslings.arena import sandbox_missing
+from roslings.arena import choose_isolation
 from roslings.batch.crew import Ended, Limits, crew
 from roslings.batch.grading import version_of
 from roslings.batch.result import Order, Result, broken
@@ -72,8 +72,8 @@ class Parcel:
 
 def fitness(lab: str, version: str, hidden: bytes | None, trust: bool) -> str:
     """Why this machine must not grade the lab; empty where it may."""
-    if not trust and (missing := sandbox_missing()):
-        return f"no sandbox: {missing}"
+    if not trust and (lack := choose_isolation().lack):
+        return f"no sandbox: {lack.reason}"
     try:
         with run_folder() as room:
             mine = version_of(course.lab(lab, _unpacked_hidden(hidden, room)))

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from pydantic import BaseModel
 
-from roslings.arena import Wall
+from roslings.arena import Place, Sandbox, Wall
 from roslings.evidence import PackageSeen
 from roslings.experiment.declare import Clock
 
@@ -17,6 +17,8 @@ class Assignment(BaseModel):
     lab: str
     seed: int
     wall: Wall
+    sandbox: Sandbox | None = None
+    """What stands around each process of the student's, where the machine allows it."""
     clock: Clock = "auto"
     folder: Path
     """The run's own folder: the staged source, the build, the nodes' home, the evidence."""
@@ -49,3 +51,23 @@ class Assignment(BaseModel):
     def home(self) -> Path:
         """The nodes' HOME."""
         return self.folder / "home"
+
+    @property
+    def devices(self) -> Path:
+        """Where the boards and cameras are that nodes may use."""
+        return self.folder / "devices"
+
+    @property
+    def room(self) -> Path:
+        """Where the package is built; behind a sandbox's walls it holds so much and no more."""
+        return self.folder / "room"
+
+    @property
+    def place(self) -> Place:
+        """Where the nodes live."""
+        return Place(self.wall, self.home, self.devices, self.sandbox)
+
+    def make_folders(self) -> None:
+        """Those that all of this needs. Raises OSError."""
+        for folder in (self.home, self.devices, self.room):
+            folder.mkdir()

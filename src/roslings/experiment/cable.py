@@ -26,6 +26,7 @@ SETTLES_LINES = 10
 
 COMES_BACK_WITHIN_S = 40.0
 LONGEST_LINE = 200
+PORT = "ttyROVER"
 FLOOR = World(room=Box(-100.0, -100.0, 100.0, 100.0))
 
 
@@ -41,7 +42,8 @@ def board_beside(
     >>> with board_beside(scene) as cable, scene.run(BRIDGE, start=cable.start()):
     ...     cable.drive("straight", CMD_VEL, forward_m_s=0.3, for_s=1.5)
     """
-    with _chip(scene.port, body or Body()) as chip, Board(chip) as board:
+    port = scene.arena.devices / PORT
+    with _chip(scene.port, body or Body()) as chip, Board(chip, port) as board:
         if not plugged_in:
             board.unplug()
         with board.running():

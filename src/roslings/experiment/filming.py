@@ -42,7 +42,7 @@ def camera_beside(
     film = _film(scene)
     looker = FilmLooker(film)
     scene.probe.read_as_it_comes(IMAGE, looker.read)
-    path = scene.arena.home / "camera"
+    path = scene.arena.devices / "camera"
     with SocketCamera(path, lambda number: film[number % PICTURES]) as camera:
         if plugged_in:
             camera.plug_in()

@@ -11,7 +11,8 @@ from roslings.arena import Process
 from roslings.course import LaunchContract
 from roslings.experiment.scene import COMES_UP_WITHIN_S, Scene
 
-ROS2 = Path(__file__).parents[1] / "ros2" / "start.py"
+ENGINE = Path(__file__).parents[1]
+ROS2 = ENGINE / "ros2" / "start.py"
 LABEL = "ros2 launch"
 CREW_ENDS_WITHIN_S = 8.0
 """The launch waits 5 s for its nodes before it becomes stern with them."""
@@ -21,7 +22,7 @@ CREW_ENDS_WITHIN_S = 8.0
 def launched(scene: Scene, package: str, contract: LaunchContract) -> Iterator[Process]:
     """Launch the file, wait for its nodes; press Ctrl-C when the block ends."""
     words = [str(ROS2), "ros2", "launch", package, contract.name]
-    with scene.arena.run(sys.executable, words) as process:
+    with scene.arena.run(sys.executable, words, [ENGINE]) as process:
         process.seen.executable = f"{LABEL} {package} {contract.name}"
         scene.seen.processes[LABEL] = process.seen
         count = len(contract.starts)

@@ -58,15 +58,16 @@ def measure(
     with run_folder() as folder:
         wall = choose_isolation()
         assignment = Assignment(
-            lab=lab, seed=choices.seed, wall=wall.wall, clock=choices.clock, folder=folder,
+            lab=lab, seed=choices.seed, wall=wall.wall, sandbox=wall.sandbox,
+            clock=choices.clock, folder=folder,
             package=seen, keeps_bags=choices.bags is not None, port=choices.port,
             hidden=choices.hidden, builds=choices.builds,
         )  # fmt: skip
-        assignment.home.mkdir()
+        assignment.make_folders()
         stage(package, folder / "src" / seen.name)
         assignment.file.write_text(assignment.model_dump_json(), "utf-8")
         module = [sys.executable, "-m", "roslings.experiment.measuring", str(assignment.file)]
-        _follow(wall.command(module), folder, on_step)
+        _follow(wall.command(module, assignment.room), folder, on_step)
         evidence = Evidence.model_validate_json(assignment.evidence.read_text("utf-8"))
         if choices.bags is not None and assignment.bags.is_dir():
             shutil.copytree(assignment.bags, choices.bags)

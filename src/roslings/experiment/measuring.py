@@ -8,6 +8,7 @@ It writes one line of text a step to standard output, for the command to show.
 from __future__ import annotations
 
 import os
+import shutil
 import signal
 import sys
 from collections.abc import Iterator, Sequence
@@ -17,7 +18,7 @@ from pathlib import Path
 from types import FrameType
 from typing import Literal
 
-from roslings.arena import Installed, kernel, opened, ros_environment
+from roslings.arena import CannotStart, Installed, kernel, opened, ros_environment
 from roslings.course import lab
 from roslings.devices.trouble import DeviceTrouble
 from roslings.evidence import BuildSeen, Evidence, ExperimentSeen
@@ -52,7 +53,7 @@ def main(path: Path) -> None:
     os.environ["ROS_LOG_DIR"] = str(assignment.home / "log")  # not in the student's ~/.ros
     try:
         evidence = measure_here(assignment)
-    except DeviceTrouble as trouble:
+    except (DeviceTrouble, CannotStart) as trouble:
         sys.exit(str(trouble))
     assignment.evidence.write_text(evidence.model_dump_json(by_alias=True), "utf-8")
 
@@ -125,11 +126,12 @@ def _would_have_spoken(seen: ExperimentSeen) -> bool:
 
 
 def _build(assignment: Assignment, package: str) -> tuple[BuildSeen, Installed | None]:
-    room = BuildRoom(assignment.folder, package)
-    namespaces = assignment.wall == "namespace"
+    source = assignment.folder / "src" / package
     if assignment.builds:
-        return shared_build(assignment.builds, room, assignment.home, namespaces)
-    return build(room, assignment.home, namespaces)
+        return shared_build(assignment.builds, source, assignment.room, assignment.place)
+    room = BuildRoom(assignment.room, package)
+    shutil.copytree(source, room.source, symlinks=True)
+    return build(room, assignment.place)
 
 
 @dataclass(frozen=True)
@@ -180,9 +182,8 @@ class Stage:
         """Run an experiment once, in a fresh arena."""
         seen = ExperimentSeen(name=each.name, clock=clock)
         large_bytes = MOST_BYTES if self.assignment.keeps_bags else 0
-        wall = self.assignment.wall
         with (
-            opened(self.installed, wall, self.assignment.home) as arena,
+            opened(self.installed, self.assignment.place) as arena,
             Probe(arena.domain_id, seen, large_bytes=large_bytes) as probe,
             self._watching(probe),
         ):

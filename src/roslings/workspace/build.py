@@ -5,11 +5,12 @@ from __future__ import annotations
 import shlex
 import shutil
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-from roslings.arena import Installed, Launch, Process, base_environment
+from roslings.arena import Installed, Launch, Place, Process, Sandbox, base_environment
 from roslings.evidence import BuildSeen, ProcessSeen
+from roslings.workspace.foreign import read_foreign
 
 BUILD_BOUND_S = 180.0
 LAST_LINES = 40
@@ -20,49 +21,67 @@ class BuildRoom:
     """The folders of one build: a copy of the source goes in, an installation comes out."""
 
     folder: Path
+    """Where the build takes place, and where what it installs will be used."""
     package: str
+    lies_at: Path | None = None
+    """Where the folder lies while a sandbox shows it at its place; None where that is the same."""
+
+    @property
+    def lies(self) -> Path:
+        """Where we read and write what the build finds in its folder."""
+        return self.lies_at or self.folder
 
     @property
     def source(self) -> Path:
         """Where the copy of the package lies."""
-        return self.folder / "src" / self.package
+        return self.lies / "src" / self.package
 
     @property
     def installed(self) -> Path:
         """colcon's install folder of this package."""
-        return self.folder / "install" / self.package
+        return self.lies / "install" / self.package
 
     @property
     def programs(self) -> Path:
-        """Where `ros2 run` looks for executables."""
-        return self.installed / "lib" / self.package
+        """Where `ros2 run` will look for executables."""
+        return self.folder / "install" / self.package / "lib" / self.package
 
     @property
     def complaint(self) -> Path:
         """What Python says of setup.py, where the build failed."""
-        return self.folder / "complaint"
+        return self.lies / "complaint"
 
     @property
     def sourced(self) -> Path:
         """The environment after `source install/setup.bash`, as `env -0` writes it."""
-        return self.folder / "environment"
+        return self.lies / "environment"
+
+    def around(self, place: Place) -> Sandbox | None:
+        """What stands around the build."""
+        if place.sandbox is None:
+            return None
+        return replace(place.sandbox.writing(self.lies, self.folder), home=place.home)
 
 
-def build(room: BuildRoom, home: Path, namespaces: bool) -> tuple[BuildSeen, Installed | None]:
+def build(room: BuildRoom, place: Place) -> tuple[BuildSeen, Installed | None]:
     """Build the package in `room` and source the result; None where nothing was installed."""
-    environment = base_environment(home, hidden_package=room.package)
+    environment = base_environment(place.home, hidden_package=room.package)
     shell = ["bash", "--noprofile", "--norc", "-c", _script(room)]
-    with Process("colcon", Launch(shell, environment, room.folder, namespaces)) as process:
+    namespaces, around = place.wall == "namespace", room.around(place)
+    launch = Launch(shell, environment, room.folder, namespaces, sandbox=around)
+    with Process("colcon", launch) as process:
         process.wait_ended(BUILD_BOUND_S)
-    succeeded = process.seen.status == 0 and room.sourced.is_file()
+    sourced = read_foreign(room.sourced) if process.seen.status == 0 else None
     seen = BuildSeen(
-        succeeded=succeeded,
+        succeeded=sourced is not None,
         recognised_as=_recognised(room),
         seconds=_seconds(process.seen),
         output=_last_words(room, process),
-        executables=executables(room.programs),
+        executables=executables(room),
     )
-    return seen, Installed(room.programs, read_environment(room.sourced)) if succeeded else None
+    if sourced is None:
+        return seen, None
+    return seen, Installed(room.programs, environment_in(sourced), room.folder / "install")
 
 
 def _seconds(seen: ProcessSeen) -> float:
@@ -71,11 +90,9 @@ def _seconds(seen: ProcessSeen) -> float:
 
 def _last_words(room: BuildRoom, process: Process) -> list[str]:
     """What tells most about a failure: Python's own words on setup.py, else colcon's."""
-    if process.refused:
-        return [process.refused]
     lines = [line.text for line in process.seen.lines]
-    if room.complaint.is_file():
-        lines = room.complaint.read_text("utf-8", errors="replace").splitlines() or lines
+    if complaint := read_foreign(room.complaint):
+        lines = complaint.decode("utf-8", errors="replace").splitlines() or lines
     if not process.seen.ended_by_itself:
         lines.append(f"The build did not end within {BUILD_BOUND_S:g} s.")
     return lines[-LAST_LINES:]
@@ -90,12 +107,13 @@ def _script(room: BuildRoom) -> str:
     words = [colcon(), "--log-base", "log", "build", "--base-paths", "src", "--packages-select"]
     handlers = ["--event-handlers", "console_direct+", "desktop_notification-"]
     python = shlex.join([sys.executable, "setup.py", "--name"])
-    complaint = shlex.quote(str(room.complaint))
+    complaint = shlex.quote(str(room.folder / room.complaint.name))
+    source = room.folder / room.source.relative_to(room.lies)
     return f"""
         if {shlex.join([*words, room.package, *handlers])}; then
             source install/setup.bash && env -0 > {room.sourced.name}
         else
-            cd {shlex.quote(str(room.source))}
+            cd {shlex.quote(str(source))}
             {python} > {complaint} 2>&1 && rm {complaint}
             exit 1
         fi"""
@@ -115,13 +133,17 @@ def _recognised(room: BuildRoom) -> str | None:
     return "python" if room.installed.is_dir() else None
 
 
-def executables(programs: Path) -> list[str]:
+def executables(room: BuildRoom) -> list[str]:
     """Names of the executables that `ros2 run` would find."""
-    return sorted(path.name for path in programs.iterdir()) if programs.is_dir() else []
+    programs = room.lies / room.programs.relative_to(room.folder)
+    leads_out = not programs.resolve().is_relative_to(room.lies.resolve())
+    if leads_out or not programs.is_dir():
+        return []
+    return sorted(path.name for path in programs.iterdir())
 
 
-def read_environment(path: Path) -> dict[str, str]:
-    """The variables in a file of `env -0`, without those that belong to the shell."""
-    pairs = (pair.partition("=") for pair in path.read_bytes().decode(errors="replace").split("\0"))
+def environment_in(text: bytes) -> dict[str, str]:
+    """The variables in what `env -0` writes, without those that belong to the shell."""
+    pairs = (pair.partition("=") for pair in text.decode(errors="replace").split("\0"))
     own = {"_", "SHLVL", "PWD", "OLDPWD", "COLCON_CURRENT_PREFIX"}
     return {name: value for name, _, value in pairs if name and name not in own}

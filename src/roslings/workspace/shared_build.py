@@ -13,9 +13,10 @@ from pathlib import Path
 
 from pydantic import BaseModel
 
-from roslings.arena import Installed, base_environment
+from roslings.arena import Installed, Place, base_environment
 from roslings.evidence import BuildSeen
 from roslings.workspace.build import BuildRoom, build
+from roslings.workspace.foreign import copy_foreign
 from roslings.workspace.sources import sources
 
 OF_ONE_RUN = ("HOME", "TMPDIR", "ROS_LOG_DIR")
@@ -28,41 +29,48 @@ class Built(BaseModel):
     seen: BuildSeen
     programs: Path
     environment: dict[str, str]
+    folder: Path
 
     def installed(self, home: Path) -> Installed:
         """The same installation, for nodes whose home is another."""
         own = {name: base_environment(home)[name] for name in OF_ONE_RUN}
-        return Installed(self.programs, {**self.environment, **own})
+        return Installed(self.programs, {**self.environment, **own}, self.folder)
 
 
 def shared_build(
-    builds: Path, room: BuildRoom, home: Path, namespaces: bool
+    builds: Path, source: Path, room: Path, place: Place
 ) -> tuple[BuildSeen, Installed | None]:
-    """Build what lies in `room`, or take the build of the same content from the folder `builds`.
+    """Build the package at `source`, or take the build of the same content from `builds`.
 
-    The build lies there, not in `room`: an installation must not be moved.
+    It is built in `room`, as if that were its place in `builds`: an installation must not be
+    moved, and what a stranger's build writes is bounded in `room` only.
     """
-    place = builds / content_of(room.source)
-    with _held(place):
-        kept = place / "built.json"
+    shared = builds / content_of(source)
+    with _held(shared):
+        kept = shared / "built.json"
         if kept.is_file():
             built = Built.model_validate_json(kept.read_text("utf-8"))
             built.seen.seconds = 0.0
-            return built.seen, built.installed(home)
-        shutil.rmtree(place / room.package, ignore_errors=True)
-        seen, installed = _build_in(place, room, home, namespaces)
-        if installed:  # what failed may have failed by chance: it is not passed on
-            built = Built(seen=seen, programs=installed.programs, environment=installed.environment)
-            kept.write_text(built.model_dump_json(), "utf-8")
-        return seen, installed
+            return built.seen, built.installed(place.home)
+        return _build_in(shared, source, room, place)
 
 
 def _build_in(
-    place: Path, room: BuildRoom, home: Path, namespaces: bool
+    shared: Path, source: Path, room: Path, place: Place
 ) -> tuple[BuildSeen, Installed | None]:
-    own = BuildRoom(place / room.package, room.package)
-    shutil.copytree(room.source, own.source, symlinks=True)
-    return build(own, home, namespaces)
+    own = BuildRoom(shared / source.name, source.name, lies_at=room if place.sandbox else None)
+    shutil.rmtree(own.folder, ignore_errors=True)
+    shutil.copytree(source, own.source, symlinks=True)
+    seen, installed = build(own, place)
+    if installed:  # what failed may have failed by chance: it is not passed on
+        if own.lies_at:
+            copy_foreign(own.lies / "install", installed.folder)
+        built = Built(
+            seen=seen, programs=installed.programs, environment=installed.environment,
+            folder=installed.folder,
+        )  # fmt: skip
+        (shared / "built.json").write_text(built.model_dump_json(), "utf-8")
+    return seen, installed
 
 
 def content_of(package: Path) -> str:
