@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from roslings.arena.environment import Wall, ros_environment
 from roslings.arena.lease import leased_domain
@@ -104,4 +105,6 @@ def opened(installed: Installed, place: Place) -> Iterator[Arena]:
     with ExitStack() as stack:
         if place.wall == "domain":
             stack.enter_context(swept_shared_memory())
-        yield Arena(installed, place, stack.enter_context(leased_domain()))
+        devices = stack.enter_context(TemporaryDirectory(dir=place.devices))
+        own = replace(place, devices=Path(devices))  # another arena may be open beside it
+        yield Arena(installed, own, stack.enter_context(leased_domain()))

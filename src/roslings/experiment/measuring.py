@@ -50,7 +50,7 @@ def main(path: Path) -> None:
     if is_abandoned(assignment.folder):
         return
     os.environ.update(ros_environment(assignment.wall))
-    os.environ["ROS_LOG_DIR"] = str(assignment.home / "log")  # not in the student's ~/.ros
+    os.environ["ROS_LOG_DIR"] = str(assignment.folder / "log")  # not in the student's ~/.ros
     try:
         evidence = measure_here(assignment)
     except (DeviceTrouble, CannotStart) as trouble:

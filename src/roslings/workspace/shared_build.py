@@ -62,15 +62,26 @@ def _build_in(
     shutil.rmtree(own.folder, ignore_errors=True)
     shutil.copytree(source, own.source, symlinks=True)
     seen, installed = build(own, place)
-    if installed:  # what failed may have failed by chance: it is not passed on
+    if not installed:  # what failed may have failed by chance: it is not passed on
+        return seen, installed
+    try:
         if own.lies_at:
             copy_foreign(own.lies / "install", installed.folder)
-        built = Built(
-            seen=seen, programs=installed.programs, environment=installed.environment,
-            folder=installed.folder,
-        )  # fmt: skip
-        (shared / "built.json").write_text(built.model_dump_json(), "utf-8")
+    except (OSError, shutil.Error, RecursionError):
+        return _build_alone(source, room, place)
+    built = Built(
+        seen=seen, programs=installed.programs, environment=installed.environment,
+        folder=installed.folder,
+    )  # fmt: skip
+    (shared / "built.json").write_text(built.model_dump_json(), "utf-8")
     return seen, installed
+
+
+def _build_alone(source: Path, room: Path, place: Place) -> tuple[BuildSeen, Installed | None]:
+    """Build in `room` for one run only: what came of it cannot be kept (no rights, too deep)."""
+    alone = BuildRoom(room / "alone", source.name)
+    shutil.copytree(source, alone.source, symlinks=True)
+    return build(alone, place)
 
 
 def content_of(package: Path) -> str:
