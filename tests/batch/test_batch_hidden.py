@@ -7,13 +7,13 @@ from pathlib import Path
 
 import pytest
 
+from roslings.arena import Place, choose_isolation
 from roslings.cli import SHAPES, main
 from roslings.course import lab
 from roslings.course.files import BadCourseFile
 from roslings.evidence import BuildSeen, Evidence, MachineSeen
 from roslings.judge import judge
 from roslings.report.evidence_file import evidence_bytes
-from roslings.workspace.build import BuildRoom
 from roslings.workspace.inspect import inspect_package
 from roslings.workspace.shared_build import shared_build
 
@@ -99,13 +99,14 @@ def test_equal_packages_share_a_build(tmp_path: Path) -> None:
     builds = tmp_path / "builds"
     found = []
     for name in ("anna", "ben", "cleo"):
-        room = BuildRoom(tmp_path / name, "chatter")
-        shutil.copytree(TOPICS.solution, room.source)
+        source, home, room = (tmp_path / name / part for part in ("chatter", "home", "room"))
+        shutil.copytree(TOPICS.solution, source)
         if name == "cleo":
-            (room.source / "setup.py").write_text("raise SystemExit('no')")
-        home = tmp_path / name / "home"
-        home.mkdir()
-        found.append(shared_build(builds, room, home, namespaces=False))
+            (source / "setup.py").write_text("raise SystemExit('no')")
+        for folder in (home, room):
+            folder.mkdir()
+        place = Place("domain", home, tmp_path, choose_isolation().sandbox)
+        found.append(shared_build(builds, source, room, place))
     (anna, first), (ben, second), (cleo, third) = found
     assert anna.succeeded and ben.succeeded and not cleo.succeeded
     assert first and second and third is None

@@ -14,7 +14,6 @@ from pathlib import Path
 
 import pytest
 
-from roslings.arena import sandbox_missing
 from roslings.course import lab
 
 TOPICS = lab("topics")
@@ -144,13 +143,12 @@ def test_ctrl_c_ends_all_that_was_started(place: Path) -> None:
 def test_without_a_sandbox_it_asks_for_trust(place: Path) -> None:
     """And runs nothing until it has it."""
     words = ["grade", "topics", "handed in", "--out", "out"]
-    if not sandbox_missing():
-        pytest.skip("this machine has a sandbox")
     done = subprocess.run(
         [sys.executable, "-m", "roslings", *words], cwd=place, capture_output=True, text=True,
-        check=False,
+        env={**os.environ, "ROSLINGS_ISOLATION": "domain"}, check=False,
     )  # fmt: skip
     assert done.returncode == 2
+    assert "Leave that variable out" in done.stderr
     assert "--trust" in done.stderr
     assert not (place / "out").exists()
 

@@ -23,6 +23,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from roslings import course
+from roslings.arena import Place
 from roslings.batch.capacity import Capacity, cores
 from roslings.batch.gradebook import Gradebook, gradebook
 from roslings.batch.grading import unpacked
@@ -157,7 +158,7 @@ def build_cpu_s(lab: course.Lab, folder: Path) -> float:
     shutil.copytree(lab.solution, room.source)
     (folder / "home").mkdir()
     before_s = cpu_s()
-    build(room, folder / "home", namespaces=False)
+    build(room, Place("domain", folder / "home", folder))
     return cpu_s() - before_s
 
 

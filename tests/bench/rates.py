@@ -21,7 +21,7 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
-from roslings.arena import Arena, Wall, choose_isolation, opened, ros_environment
+from roslings.arena import Arena, Place, Wall, choose_isolation, opened, ros_environment
 from roslings.course import NodeContract
 from roslings.evidence import ExperimentSeen
 from roslings.experiment import Scene
@@ -190,9 +190,9 @@ def discovery() -> None:
 @contextmanager
 def stage(script: Path, folder: str) -> Iterator[tuple[Scene, Probe, Arena]]:
     """A scene in a fresh arena, where the script is the program `talker`."""
-    wall = our_wall()
+    home = Path(folder)
     with (
-        opened(installed(script, Path(folder)), wall, Path(folder)) as arena,
+        opened(installed(script, home), Place(our_wall(), home, home)) as arena,
         Probe(arena.domain_id, ExperimentSeen(name="bench", clock="wall")) as probe,
     ):
         yield Scene(arena, probe, 1, 2.0), probe, arena

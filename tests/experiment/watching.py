@@ -56,7 +56,7 @@ def main(script: Path, clock: Clock, wall: Wall, limit: RateContract) -> None:
         home = Path(folder)
         package = PackageSeen(name="p", folder="p", build_type="ament_python")
         order = Assignment(lab="p", seed=1, wall=wall, clock=clock, folder=home, package=package)
-        order.home.mkdir()
+        order.make_folders()
         os.environ.update(ros_environment(order.wall), ROS_LOG_DIR=str(home / "log"))
         stage = Stage(installed(script, home), order, 2.0)
         runs = list(stage.runs_of(talking, 0, []))
@@ -69,7 +69,7 @@ def installed(script: Path, home: Path) -> Installed:
     program.parent.mkdir()
     program.write_text(f"#!{sys.executable}\n{script.read_text('utf-8')}", "utf-8")
     program.chmod(program.stat().st_mode | stat.S_IXUSR)
-    return Installed(program.parent, base_environment(home / "home"))
+    return Installed(program.parent, base_environment(home / "home"), program.parent)
 
 
 if __name__ == "__main__":

@@ -16,8 +16,10 @@ class Bounds:
 
     memory_bytes: int = 2048 * MB
     """Of all processes of the sandbox together, their temporary files included."""
-    tasks: int = 512
+    tasks: int = 256
     """Processes and threads; a node of rclpy has about 10."""
+    weight: int = 2
+    """As many processes as this one's share of busy processors is worth, however many it starts."""
     home_bytes: int = 256 * MB
     file_bytes: int = 256 * MB
     open_files: int = 1024

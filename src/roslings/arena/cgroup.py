@@ -19,8 +19,13 @@ from typing import Literal
 from roslings.arena.bounds import Bounds
 
 Version = Literal[1, 2]
-Controller = Literal["pids", "memory"]
-CONTROLLERS: tuple[Controller, ...] = ("pids", "memory")
+Bound = Literal["pids", "memory"]
+BOUNDS: tuple[Bound, ...] = ("pids", "memory")
+Controller = Literal["pids", "memory", "cpu"]
+CONTROLLERS: tuple[Controller, ...] = ("pids", "memory", "cpu")
+NEEDED = {"pids", "memory"}
+WEIGHTS = {1: ("cpu.shares", 1024), 2: ("cpu.weight", 100)}
+"""What one process weighs when the processors are shared out."""
 PREFIX = "roslings-"
 GONE_WITHIN_S = 5.0
 _numbers = itertools.count()
@@ -50,10 +55,9 @@ class Group:
         places = [str(folder / "cgroup.procs") for folder in self.folders]
         return ["/bin/sh", "-c", script, "sh", *places, *inner]
 
-    def reached(self) -> tuple[Controller, ...]:
+    def reached(self) -> set[Bound]:
         """The bounds that somebody in the group has met so far."""
-        found = [name for folder in self.folders for name in CONTROLLERS if _met(folder, name)]
-        return tuple(dict.fromkeys(found))
+        return {name for folder in self.folders for name in BOUNDS if _met(folder, name)}
 
 
 @contextmanager
@@ -77,6 +81,9 @@ def group(trees: Sequence[Tree], bounds: Bounds) -> Iterator[Group]:
 def _bound(folder: Path, version: Version, controller: Controller, bounds: Bounds) -> None:
     if controller == "pids":
         _write(folder / "pids.max", bounds.tasks)
+    elif controller == "cpu":
+        name, one = WEIGHTS[version]
+        _write(folder / name, one * bounds.weight)
     elif version == 1:
         _write(folder / "memory.limit_in_bytes", bounds.memory_bytes)
     else:
@@ -90,9 +97,9 @@ def _write(file: Path, value: int) -> None:
         opened.write(str(value))
 
 
-def _met(folder: Path, controller: Controller) -> bool:
+def _met(folder: Path, bound: Bound) -> bool:
     """Whether the kernel refused a process, or ended one for want of memory."""
-    if controller == "pids":
+    if bound == "pids":
         return _number(folder / "pids.events", "max") > 0
     counts = (
         _number(folder / name, "oom_kill") for name in ("memory.events", "memory.oom_control")
@@ -150,8 +157,8 @@ def _beside(mount: Mount, own: str) -> Iterator[Tree]:
     folder = mount.folder_of(own)
     for each in (folder, *folder.parents):
         handed_down = _words(each / "cgroup.subtree_control")
-        if set(CONTROLLERS) <= handed_down and os.access(each, os.W_OK):
-            yield Tree(each, CONTROLLERS, 2)
+        if handed_down >= NEEDED and os.access(each, os.W_OK):
+            yield Tree(each, tuple(name for name in CONTROLLERS if name in handed_down), 2)
             return
         if each == mount.place:
             return

@@ -39,7 +39,9 @@ import kernel  # type: ignore[import-not-found]
 READ_BYTES = 65536
 LATEST_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGQUIT, signal.SIGPIPE, signal.SIGHUP)
 GRACE_S = 0.2
-LOOK_AT_MEMORY_EVERY_S = 0.2
+LOOK_EVERY_S = 0.2
+NEARLY = 0.95
+"""The kernel keeps it from reaching its bound, or ends one process only."""
 
 
 @dataclass
@@ -53,8 +55,8 @@ class Order:
     head_bytes: int
     tail_bytes: int
     limits: dict[str, int]
-    most_memory_bytes: int | None
-    """Of all that it starts, where no control group bounds that."""
+    watch: dict[str, int]
+    """The most of `memory`, in bytes, and of `pids`, threads too; with more, all is ended."""
 
 
 class Spout:
@@ -105,7 +107,7 @@ class Guardian:
         self.waked = waked
         self.pid, self.terminal = start(order)
         self.exited: dict[str, object] | None = None
-        self.took_too_much = False
+        self.bounds_met: list[str] = []
         self.looked_s = 0.0
 
     def run(self) -> None:
@@ -124,16 +126,17 @@ class Guardian:
                 "left_behind": left,
                 "output_bytes": self.spout.total,
                 "dropped_bytes": self.spout.dropped,
-                "took_too_much": self.took_too_much,
+                "bounds_met": self.bounds_met,
             }
         )
 
     def turn(self) -> bool:
         """One round: output, orders, ended children. False when the arena let go."""
         sources: list[int | socket.socket] = [self.terminal, self.channel, self.waker]
-        ready, _, _ = select.select(sources, [], [], self.look_again_s())
-        if self.order.most_memory_bytes:
-            self.bound_memory(self.order.most_memory_bytes)
+        again_s = LOOK_EVERY_S if self.order.watch else None
+        ready, _, _ = select.select(sources, [], [], again_s)
+        if self.order.watch and time.monotonic() - self.looked_s >= LOOK_EVERY_S:
+            self.insist_on_bounds()
         if self.terminal in ready:
             self.read_terminal()
         if self.waker in ready:
@@ -141,19 +144,14 @@ class Guardian:
             self.reap()
         return self.channel not in ready or self.obey()
 
-    def look_again_s(self) -> float | None:
-        """When to look at the memory again; never where the kernel does it."""
-        return LOOK_AT_MEMORY_EVERY_S if self.order.most_memory_bytes else None
-
-    def bound_memory(self, most_bytes: int) -> None:
-        """End everything when it takes too much; not more often than so many times a second."""
-        now_s = time.monotonic()
-        if now_s - self.looked_s < LOOK_AT_MEMORY_EVERY_S:
-            return
-        self.looked_s = now_s
+    def insist_on_bounds(self) -> None:
+        """End everything when it takes too much: what meets a bound does no honest work."""
+        self.looked_s = time.monotonic()
         others = descendants()
-        if sum(map(memory_of, others)) > most_bytes:
-            self.took_too_much = True
+        taken = {"memory": sum(map(memory_of, others)), "pids": sum(map(tasks_of, others))}
+        met = [name for name, most in self.order.watch.items() if taken[name] >= most * NEARLY]
+        if met:
+            self.bounds_met = met
             kill_all(others)
 
     def read_terminal(self) -> bool:
@@ -323,6 +321,14 @@ def memory_of(pid: int) -> int:
     except (OSError, IndexError):
         return 0
     return pages * os.sysconf("SC_PAGE_SIZE")
+
+
+def tasks_of(pid: int) -> int:
+    """The threads of a process."""
+    try:
+        return sum(1 for _ in Path(f"/proc/{pid}/task").iterdir())
+    except OSError:
+        return 0
 
 
 def kill_all(pids: list[int]) -> None:

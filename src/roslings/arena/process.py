@@ -14,7 +14,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Literal
 
-from roslings.arena.cgroup import Group
+from roslings.arena.cgroup import BOUNDS, Group
 from roslings.arena.isolation import BARE, GUARDIAN
 from roslings.arena.sandbox import Sandbox
 from roslings.evidence import Ending, LogLine, ProcessSeen
@@ -57,7 +57,7 @@ class Launch:
             "head_bytes": HEAD_BYTES,
             "tail_bytes": TAIL_BYTES,
             "limits": {**(self.sandbox.bounds.limits() if self.sandbox else {}), **self.limits},
-            "most_memory_bytes": self.sandbox.watched_bytes if self.sandbox else None,
+            "watch": self.sandbox.watch if self.sandbox else {},
         }
         return json.dumps(words).encode() + b"\n"
 
@@ -135,7 +135,8 @@ class Process:
             self._reader.join()
             self._channel.close()
             self._guardian.wait()
-            self.seen.bounds_met += self._group.reached()
+            met = {*self._group.reached(), *self.seen.bounds_met}
+            self.seen.bounds_met = [name for name in BOUNDS if name in met]
             self._around.close()
 
     @property
@@ -253,5 +254,4 @@ class Process:
         seen.left_behind = int(str(event["left_behind"]))
         seen.output_bytes = int(str(event["output_bytes"]))
         seen.output_dropped_bytes = int(str(event["dropped_bytes"]))
-        if event["took_too_much"]:
-            seen.bounds_met.append("memory")
+        seen.bounds_met = event["bounds_met"]  # type: ignore[assignment]  # the guardian's own

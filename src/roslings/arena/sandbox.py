@@ -41,6 +41,9 @@ class Sandbox:
     """Folders that it may write: where each lies, and where the process sees it."""
     home: Path | None = None
     """A folder of its own, empty at first and gone at its end."""
+    terminals: bool = False
+    """Whether it sees our pseudo-terminals, of which one may be a board's port. Only for a process
+    that Isolation.command() has put into a room: that one's /dev/pts holds nobody else's."""
     bounds: Bounds = field(default_factory=Bounds)
 
     def showing(self, *paths: Path) -> Sandbox:
@@ -52,10 +55,9 @@ class Sandbox:
         return replace(self, written=(*self.written, (lies, seen)))
 
     @property
-    def watched_bytes(self) -> int | None:
-        """The memory that the guardian must watch; None where a group does it."""
-        controlled = any("memory" in tree.controllers for tree in self.trees)
-        return None if controlled else self.bounds.memory_bytes
+    def watch(self) -> dict[str, int]:
+        """What the guardian watches: who meets these bounds is ended, all of it."""
+        return {"memory": self.bounds.memory_bytes, "pids": self.bounds.tasks}
 
     @contextmanager
     def around(self, inner: Sequence[str]) -> Iterator[tuple[list[str], cgroup.Group]]:
@@ -72,7 +74,9 @@ class Sandbox:
 
     def _view(self) -> Iterator[str]:
         """The mounts, in their order: what comes later lies over what comes earlier."""
-        yield from ("--proc", "/proc", "--dev", "/dev", "--dev-bind", "/dev/pts", "/dev/pts")
+        yield from ("--proc", "/proc", "--dev", "/dev")
+        if self.terminals:
+            yield from ("--dev-bind", "/dev/pts", "/dev/pts")
         yield from _empty(Path("/dev/shm"), SHARED_MEMORY_BYTES)
         yield from _empty(Path("/tmp"), self.bounds.home_bytes)
         for path in [*_system(), *self.shown]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 from pydantic import BaseModel
@@ -64,8 +65,9 @@ class Assignment(BaseModel):
 
     @property
     def place(self) -> Place:
-        """Where the nodes live."""
-        return Place(self.wall, self.home, self.devices, self.sandbox)
+        """Where the nodes live: in the room that the measuring process was put into."""
+        around = replace(self.sandbox, terminals=True) if self.sandbox else None
+        return Place(self.wall, self.home, self.devices, around)
 
     def make_folders(self) -> None:
         """Those that all of this needs. Raises OSError."""
