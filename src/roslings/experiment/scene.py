@@ -28,6 +28,7 @@ COMES_UP_WITHIN_S = 20.0
 HEARD_WITHIN_S = 10.0
 AFTER_THE_TURN_S = 1.0
 INTERRUPT_SLACK_S = 1.0
+SPINS_WITHIN_S = 3.0
 
 
 class Scene:
@@ -75,7 +76,9 @@ class Scene:
         with self._arena.run(node.executable, words) as process:
             self.seen.processes[start.label(node)] = process.seen
             self._wait_up(process, known)
+            up_s = time.monotonic()
             yield process
+            self._let_begin(process, Counter(self.seen.graph.nodes) - known, up_s)
             self._end(process)
 
     def watch(self, contract: TopicContract) -> None:
@@ -171,6 +174,16 @@ class Scene:
             COMES_UP_WITHIN_S,
         )
         self.seen.discovery_s += time.monotonic() - began_s
+
+    def _let_begin(self, process: Process, nodes: Counter[str], up_s: float) -> None:
+        """Wait until its nodes spin, as far as they ever do: no node ends well while it is made.
+
+        A node is in the graph before its constructor has ended.
+        """
+        for node in nodes:
+            left_s = up_s + SPINS_WITHIN_S - time.monotonic()
+            if left_s > 0 and process.alive:
+                self._probe.turned(node, left_s)
 
     def _end(self, process: Process) -> None:
         began_s = time.monotonic()

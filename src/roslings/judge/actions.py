@@ -33,7 +33,7 @@ from roslings.judge.faults import (
 from roslings.judge.faults import actions as faults
 from roslings.judge.services import end_by_itself, require_code, require_no_crash
 from roslings.judge.views import Demand, ExperimentView, ProcessView
-from roslings.judge.words import describe_status
+from roslings.judge.words import describe_end
 from roslings.near import nearest
 from roslings.rates import measure_rate
 
@@ -530,7 +530,7 @@ def send_goal(
 
 def _how_it_went(process: ProcessView) -> str:
     if process.seen.ended_by_itself:
-        return f"the program ended ({describe_status(process.seen.status)})"
+        return f"the program ended ({describe_end(process.seen)})"
     return "the program ran on"
 
 

@@ -21,7 +21,7 @@ from roslings.judge.views import (
     TopicView,
     text_pattern,
 )
-from roslings.judge.words import describe_status
+from roslings.judge.words import describe_end
 from roslings.near import own_endpoints
 from roslings.rates import LONGEST_STALL_S, Rate
 
@@ -107,7 +107,7 @@ def come_up(process: ProcessView) -> None:
     """It makes a node, and does not end before that node has done anything."""
     seen = process.seen
     if seen.ended_by_itself and not (process.shown and process.acted):
-        how = f"it ended by itself after {process.ran_s:.1f} s ({describe_status(seen.status)})"
+        how = f"it ended by itself after {process.ran_s:.1f} s ({describe_end(seen)})"
         raise faults.DidNotComeUp(seen.executable, how, log=process.last_lines())
     if not process.shown:
         how = "it runs, but no node of it appeared in the graph"
@@ -119,7 +119,7 @@ def stay_up(process: ProcessView) -> None:
     seen = process.seen
     if seen.ended_by_itself:
         raise faults.StoppedByItself(
-            seen.executable, process.ran_s, describe_status(seen.status), log=process.last_lines()
+            seen.executable, process.ran_s, describe_end(seen), log=process.last_lines()
         )
 
 
@@ -146,7 +146,7 @@ def exit_cleanly(process: ProcessView) -> None:
         raise faults.NothingToJudge("it did not end after Ctrl-C")
     traces = _tracebacks(process.texts)
     if (seen.status != 0 or traces) and not _is_race_in_rclpy(seen.status, traces):
-        how = describe_status(seen.status) + (", with a traceback" if traces else "")
+        how = describe_end(seen) + (", with a traceback" if traces else "")
         raise faults.UncleanExit(seen.executable, how, log=process.last_lines(6))
 
 

@@ -8,7 +8,7 @@ from roslings.experiment.launching import LABEL
 from roslings.judge.faults import NothingToJudge
 from roslings.judge.faults.launching import LaunchFailed, LaunchMissesNode
 from roslings.judge.views import Demand, ExperimentView, ProcessView
-from roslings.judge.words import describe_status
+from roslings.judge.words import describe_end
 
 
 def launch_of(experiment: ExperimentView) -> ProcessView:
@@ -24,7 +24,7 @@ def start_all(names: Sequence[str]) -> Demand[ExperimentView]:
     def demand(experiment: ExperimentView) -> None:
         process = launch_of(experiment)
         command, there = process.seen.executable, tuple(experiment.seen.graph.nodes)
-        how, log = describe_status(process.seen.status), process.last_lines()
+        how, log = describe_end(process.seen), process.last_lines()
         if process.seen.ended_by_itself and not there:
             raise LaunchFailed(command, how, log=log)
         for name in names:

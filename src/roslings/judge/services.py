@@ -21,7 +21,7 @@ from roslings.judge.demands import log_each, require_steady, written
 from roslings.judge.faults import DidNotComeUp, Inconclusive, NothingToJudge, NotLogged
 from roslings.judge.faults import services as faults
 from roslings.judge.views import Demand, ExperimentView, ProcessView, TopicView
-from roslings.judge.words import describe_status
+from roslings.judge.words import describe_end
 from roslings.near import nearest, nearest_endpoint
 
 NS_PER_S = 1e9
@@ -268,13 +268,13 @@ def require_no_crash(process: ProcessView) -> None:
     """Raises DidNotComeUp where it ended with a traceback."""
     seen = process.seen
     if seen.ended_by_itself and any(text.startswith("Traceback") for text in process.texts):
-        how = f"it ended with an error ({describe_status(seen.status)})"
+        how = f"it ended with an error ({describe_end(seen)})"
         raise DidNotComeUp(seen.executable, how, log=process.last_lines())
 
 
 def _how_it_went(seen: ProcessSeen) -> str:
     if seen.ended_by_itself:
-        return f"the program ended ({describe_status(seen.status)})"
+        return f"the program ended ({describe_end(seen)})"
     return "the program ran on"
 
 
@@ -331,5 +331,5 @@ def require_code(process: ProcessView, wanted: int, when: str) -> None:
     seen = process.seen
     if seen.status != wanted:
         raise faults.WrongExitCode(
-            seen.executable, when, wanted, describe_status(seen.status), log=process.last_lines(6)
+            seen.executable, when, wanted, describe_end(seen), log=process.last_lines(6)
         )

@@ -4,6 +4,20 @@ from __future__ import annotations
 
 import signal
 
+from roslings.evidence import ProcessSeen
+
+
+BOUNDS = {
+    "memory": "it took more memory than it may",
+    "pids": "it started more processes and threads than it may",
+}
+
+
+def describe_end(seen: ProcessSeen) -> str:
+    """How a process ended, in words: `exit code 1`, or which bound of its sandbox it met."""
+    met = [BOUNDS[name] for name in seen.bounds_met]
+    return "; ".join([describe_status(seen.status), *met])
+
 
 def describe_status(status: int | None) -> str:
     """A process's status in words: `exit code 1`, or `ended by SIGSEGV`."""
