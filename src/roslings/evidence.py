@@ -113,9 +113,9 @@ class ProcessSeen(Record):
         " free; None where the kernel does not tell",
     )
     peak_memory_bytes: int = 0
-    bounds_met: list[Literal["pids", "memory"]] = Field(
+    bounds_met: list[Literal["pids", "memory", "files"]] = Field(
         default_factory=list,
-        description="What it wanted more of than a sandbox has: processes, memory",
+        description="What it wanted more of than a sandbox has: processes, memory, files",
     )
 
 

@@ -21,6 +21,8 @@ class Bounds:
     weight: int = 2
     """As many processes as this one's share of busy processors is worth, however many it starts."""
     home_bytes: int = 256 * MB
+    files: int = 50_000
+    """In its home, /tmp and /dev/shm together; an empty one takes memory of the kernel too."""
     file_bytes: int = 256 * MB
     open_files: int = 1024
     cpu_s: int = 600

@@ -39,6 +39,7 @@ import kernel  # type: ignore[import-not-found]
 READ_BYTES = 65536
 LATEST_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGQUIT, signal.SIGPIPE, signal.SIGHUP)
 GRACE_S = 0.2
+TEMPORARY = ("/tmp", "/dev/shm")
 LOOK_EVERY_S = 0.2
 NEARLY = 0.95
 """The kernel keeps it from reaching its bound, or ends one process only."""
@@ -56,7 +57,8 @@ class Order:
     tail_bytes: int
     limits: dict[str, int]
     watch: dict[str, int]
-    """The most of `memory`, in bytes, and of `pids`, threads too; with more, all is ended."""
+    """The most of `memory`, in bytes, of `pids`, threads too, and of temporary `files`; with more,
+    all is ended."""
 
 
 class Spout:
@@ -148,7 +150,11 @@ class Guardian:
         """End everything when it takes too much: what meets a bound does no honest work."""
         self.looked_s = time.monotonic()
         others = descendants()
-        taken = {"memory": sum(map(memory_of, others)), "pids": sum(map(tasks_of, others))}
+        taken = {
+            "memory": sum(map(memory_of, others)),
+            "pids": sum(map(tasks_of, others)),
+            "files": sum(map(files_in, {self.order.environment.get("HOME", "/tmp"), *TEMPORARY})),
+        }
         met = [name for name, most in self.order.watch.items() if taken[name] >= most * NEARLY]
         if met:
             self.bounds_met = met
@@ -321,6 +327,15 @@ def memory_of(pid: int) -> int:
     except (OSError, IndexError):
         return 0
     return pages * os.sysconf("SC_PAGE_SIZE")
+
+
+def files_in(folder: str) -> int:
+    """How many files the file system of a folder holds."""
+    try:
+        system = os.statvfs(folder)
+    except OSError:
+        return 0
+    return system.f_files - system.f_ffree
 
 
 def tasks_of(pid: int) -> int:

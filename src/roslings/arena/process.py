@@ -14,7 +14,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Literal
 
-from roslings.arena.cgroup import BOUNDS, Group
+from roslings.arena.cgroup import Group
 from roslings.arena.isolation import BARE, GUARDIAN
 from roslings.arena.sandbox import Sandbox
 from roslings.evidence import Ending, LogLine, ProcessSeen
@@ -135,8 +135,7 @@ class Process:
             self._reader.join()
             self._channel.close()
             self._guardian.wait()
-            met = {*self._group.reached(), *self.seen.bounds_met}
-            self.seen.bounds_met = [name for name in BOUNDS if name in met]
+            self.seen.bounds_met = sorted({*self._group.reached(), *self.seen.bounds_met})
             self._around.close()
 
     @property

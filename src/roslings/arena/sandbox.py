@@ -57,7 +57,8 @@ class Sandbox:
     @property
     def watch(self) -> dict[str, int]:
         """What the guardian watches: who meets these bounds is ended, all of it."""
-        return {"memory": self.bounds.memory_bytes, "pids": self.bounds.tasks}
+        bounds = self.bounds
+        return {"memory": bounds.memory_bytes, "pids": bounds.tasks, "files": bounds.files}
 
     @contextmanager
     def around(self, inner: Sequence[str]) -> Iterator[tuple[list[str], cgroup.Group]]:

@@ -6,9 +6,9 @@ import signal
 
 from roslings.evidence import ProcessSeen
 
-
 BOUNDS = {
     "memory": "it took more memory than it may",
+    "files": "it made more files than it may",
     "pids": "it started more processes and threads than it may",
 }
 
