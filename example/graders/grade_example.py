@@ -83,7 +83,7 @@ def test_topic(telling: ExperimentView) -> None:
 
 @check(needs=["runs"])
 def test_rate(telling: ExperimentView) -> None:
-    """{ALIVE.topic} carries {ALIVE.rate.hz:g} messages a second, evenly."""
+    """{ALIVE.topic} comes at {ALIVE.rate.hz:g} Hz, evenly."""
     telling.topic(ALIVE).must(have_rate(ALIVE))
 
 

@@ -53,10 +53,10 @@ def change_the_contract(made: Lab) -> None:
     assert publishes
     card.write_text(text.replace(publishes[0], blocks("yaml")[0]), "utf-8")
     code = made.solution / "alarm" / "alarm.py"
-    replace(code, ("'alive', 10", "'alarm_level', 10"), ("(0.2,", "(0.1,"), ("f'alive", "f'level"))
+    replace(code, ("'alive', 10", "'alarm_level', 10"), ("(1.0,", "(0.1,"), ("f'alive", "f'level"))
     mutants = made.folder / "mutants"
     replace(mutants / "wrong_topic.yaml", ("'alive', 10", "'alarm_level', 10"))
-    replace(mutants / "rate_2_hz.yaml", ("(0.2,", "(0.1,"))
+    replace(mutants / "rate_2_hz.yaml", ("(1.0,", "(0.1,"))
 
 
 def add_a_check(made: Lab) -> None:

@@ -267,17 +267,17 @@ def test_20_seconds_of_robot_time_are_judged(tmp_path: Path) -> None:
         "-m",
         "roslings",
         "check",
-        "nodes",
+        "example",
         "--solution",
         "--evidence",
         str(kept),
     ]
     subprocess.run(words, cwd=root(), env={**os.environ, "HOME": str(tmp_path)}, check=False)
-    alone = json.loads((kept / "evidence.json").read_text("utf-8"))["experiments"]["alone"]
-    if alone["clock"] == "sim":
-        assert alone["ticks"][-1]["sim_ns"] > 20e9
+    telling = json.loads((kept / "evidence.json").read_text("utf-8"))["experiments"]["telling"]
+    if telling["clock"] == "sim":
+        assert telling["ticks"][-1]["sim_ns"] > 20e9
     else:
-        assert alone["not_believed"]
+        assert telling["not_believed"]
 
 
 def test_the_page_holds_what_it_promises(reader: Reader) -> None:
@@ -290,14 +290,14 @@ def test_the_page_holds_what_it_promises(reader: Reader) -> None:
     driver.is_free()
     reader.types().is_free()
     reader.edits_the_file()
-    reader.types().shows(r"there is no /robot_status, but /robot_staus[^$]*Score +\d\d of 100")
+    reader.types().shows(r"there is no /alive, but /alve[^$]*Score +\d\d of 100")
     driver.is_free()
     reader.takes_the_edit_back()
     reader.types().shows("100 of 100")
     driver.is_free()
     reader.edits_the_file()
     own = reader.types()
-    own.shows(r"\[maria\]: Publishing")
+    own.shows(r"\[maria\]: Telling")
     reader.types().shows(r"(?s)Nodes\s+/maria\s+/rover\s.*from  /maria")
     for terminal in (rover, own):
         terminal.press_ctrl_c()

@@ -22,7 +22,9 @@ TESTS = ("conftest.py", "arena", "report")
 MAINTAINERS_ONLY = (".ci", ".github")
 SOLUTION_COMMAND = re.compile(r"(\./roslings check )[\w-]+( --solution)")
 """The first command of the README: in this edition it grades the example's solution."""
-REWRITTEN = ("README.md", "CONTRIBUTING.md", "src/roslings/doctor/mends.py")
+REWRITTEN = ("README.md", "CONTRIBUTING.md", "src/roslings/doctor/mends.py", "days", "site/pages")
+"""Files, and folders of them, that tell students what to type."""
+TEXTS = (".md", ".ipynb", ".py")
 LEAST_LINE = 20
 LIKE_THE_ANSWER = 0.5
 
@@ -41,8 +43,8 @@ def release(to: Path) -> list[str]:
     names = [name for name in _course_files() if is_for_students(name)]
     for name in names:
         _copy(course.root() / name, to / name)
-    for name in REWRITTEN:
-        _rewrite(to / name)
+    for path in _texts_in(to):
+        _rewrite(path)
     if leaking := list(leaks(to, all_labs())):
         shutil.rmtree(to)
         told = "\n".join(leaking)
@@ -77,11 +79,16 @@ def _copy(source: Path, target: Path) -> None:
     shutil.copy(source, target)
 
 
+def _texts_in(edition: Path) -> Iterator[Path]:
+    for path in (edition / name for name in REWRITTEN):
+        inside = path.rglob("*") if path.is_dir() else [path]
+        yield from (each for each in inside if each.suffix in TEXTS and each.is_file())
+
+
 def _rewrite(path: Path) -> None:
     """Commands that need a solution name the example, which is in every edition."""
-    if path.is_file():
-        text = path.read_text("utf-8")
-        path.write_text(SOLUTION_COMMAND.sub(rf"\g<1>{EXAMPLE}\g<2>", text), "utf-8")
+    text = path.read_text("utf-8")
+    path.write_text(SOLUTION_COMMAND.sub(rf"\g<1>{EXAMPLE}\g<2>", text), "utf-8")
 
 
 # --- what would give an answer away ------------------------------------------------------------

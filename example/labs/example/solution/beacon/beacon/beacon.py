@@ -12,7 +12,7 @@ class Beacon(Node):
     def __init__(self):
         super().__init__('beacon')
         self.publisher = self.create_publisher(String, 'alive', 10)
-        self.timer = self.create_timer(0.2, self.tell)  # seconds
+        self.timer = self.create_timer(1.0, self.tell)  # seconds
         self.count = 0
 
     def tell(self):
@@ -20,6 +20,7 @@ class Beacon(Node):
         message = String()
         message.data = f'alive {self.count}'
         self.publisher.publish(message)
+        self.get_logger().info(f"Telling: '{message.data}'")
         self.count += 1
 
 
