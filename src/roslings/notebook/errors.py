@@ -52,8 +52,16 @@ def told(shell: Any, error: BaseException) -> list[str]:
         error = NoRos()
     if isinstance(error, Trouble) or _is_problem(error):
         return [*map(_where, frames[-1:]), f"{RED}{BOLD}{type(error).__name__}:{PLAIN} {error}"]
-    named = "".join(traceback.format_exception_only(type(error), error)).rstrip()
-    return [*map(_where, frames or _last(error)), f"{RED}{named}{PLAIN}"]
+    return [*map(_where, frames or _last(error)), _named(error)]
+
+
+def _named(error: BaseException) -> str:
+    """Python's own last lines. Only the kind is red: long red text is hard to read on pink."""
+    said = "".join(traceback.format_exception_only(type(error), error)).rstrip()
+    kind, colon, rest = said.partition(":")
+    if "\n" in kind:  # a SyntaxError shows its place first
+        return said
+    return f"{RED}{BOLD}{kind}{colon}{PLAIN}{rest}"
 
 
 def _is_problem(error: BaseException) -> bool:

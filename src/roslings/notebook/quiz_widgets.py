@@ -15,6 +15,12 @@ from roslings.lessons import One, Order, Prints, Question, Quiz, Several
 from roslings.notebook.quiz_text import as_text, shuffled, without_links
 
 WIDE = {"width": "auto", "max_width": "46em"}
+APART = {"margin": "0 0 1.4em 0"}
+ASKED = "max-width:46em;line-height:1.45;font-size:1.05em"
+CODE = (
+    "margin:.5em 0;padding:.5em .8em;line-height:1.4;background:var(--jp-layout-color2,#eee);"
+    "border-radius:4px;width:fit-content"
+)
 CHOOSE = "(choose)"
 Answer = Callable[[], tuple[bool, Sequence[str]]]
 """Looks at what was chosen: whether all of it is right, and a sentence for each part of it."""
@@ -49,19 +55,21 @@ def drawn(quiz: Quiz) -> Any:
 
 
 def _question(number: int, question: Question) -> Any:
-    from ipywidgets import HTML, Button, VBox
+    from ipywidgets import HTML, Button, Layout, VBox
 
     fields, answer = _fields(question)
     button = Button(description=f"Check answer {number}")
     said = HTML()
     button.on_click(lambda _: setattr(said, "value", _feedback(*answer())))
-    return VBox([HTML(_heading(number, question)), *fields, button, said])
+    parts = [HTML(_heading(number, question)), *fields, button, said]
+    return VBox(parts, layout=Layout(**APART))
 
 
 def _heading(number: int, question: Question) -> str:
-    code = f"<pre>{html.escape(question.code.rstrip())}</pre>" if question.code else ""
+    code = question.code.rstrip()
+    shown = f'<pre style="{CODE}">{html.escape(code)}</pre>' if code else ""
     more = " <em>One or more are right.</em>" if isinstance(question, Several) else ""
-    return f'<div style="max-width:46em"><b>{number}.</b> {_inline(question.ask)}{more}{code}</div>'
+    return f'<div style="{ASKED}"><b>{number}.</b> {_inline(question.ask)}{more}{shown}</div>'
 
 
 def _fields(question: Question) -> tuple[list[Any], Answer]:
@@ -146,7 +154,7 @@ def _feedback(right: bool, sentences: Sequence[str]) -> str:
     word, colour = ("Right.", "#1d6b2c") if right else ("Not yet.", "#a3261b")
     said = "<br>".join(_inline(sentence) for sentence in sentences)
     return (
-        '<div role="status" style="max-width:46em;padding:.3em .6em;margin-bottom:1em;'
+        '<div role="status" style="max-width:46em;padding:.4em .7em;line-height:1.45;'
         f'background:#fff;color:#14181f;border-left:4px solid {colour}">'
         f'<b style="color:{colour}">{word}</b> {said}</div>'
     )

@@ -63,7 +63,7 @@ def _drawn(places: Sequence[tuple[float, float]]) -> bytes:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    from roslings.devices.rover.picture import draw_world
+    from roslings.devices.rover.picture import draw_world, name_what_is_drawn
     from roslings.devices.rover.world import default_world
 
     figure = Figure(figsize=SIZE_IN, layout="constrained")
@@ -74,7 +74,7 @@ def _drawn(places: Sequence[tuple[float, float]]) -> bytes:
     axes.plot(xs, ys, ".-", color=PATH_COLOUR, label="path", zorder=5)
     axes.plot(xs[:1], ys[:1], "o", color=PATH_COLOUR, label="start", zorder=5)
     axes.plot(xs[-1:], ys[-1:], "s", color="#0b2f6b", label="end", zorder=5)
-    axes.legend(loc="upper left", framealpha=0.9)
+    name_what_is_drawn(axes)
     file = io.BytesIO()
     figure.savefig(file, format="png")
     return file.getvalue()

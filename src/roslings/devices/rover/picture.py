@@ -20,7 +20,12 @@ def draw(rover: Rover, axes: Any) -> None:
     start = rover.path[0]
     axes.plot([start.x_m], [start.y_m], "o", color=PATH, markersize=4, label="start")
     draw_rover(rover, axes)
-    axes.legend(loc="upper left", framealpha=0.9)
+    name_what_is_drawn(axes)
+
+
+def name_what_is_drawn(axes: Any) -> None:
+    """A legend above the room, so that it hides nothing of it."""
+    axes.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=4, frameon=False)
 
 
 def draw_world(world: World, axes: Any) -> None:
@@ -38,6 +43,7 @@ def draw_world(world: World, axes: Any) -> None:
         axes.add_patch(_patch(shape))
     for ball in world.balls:
         axes.add_patch(_ball(ball))
+        axes.plot([], [], "o", color=_colour(ball), label="ball")  # for the legend
 
 
 def draw_rover(rover: Rover, axes: Any) -> list[Any]:
@@ -80,11 +86,15 @@ def _box(box: Box, **style: Any) -> Any:
 
 
 def _ball(ball: Ball) -> Any:
-    from matplotlib.colors import hsv_to_rgb
     from matplotlib.patches import Circle as Disc
 
-    colour = hsv_to_rgb((ball.hue / 180, 0.9, 0.9))
-    return Disc((ball.x_m, ball.y_m), ball.radius_m, color=colour, zorder=3)
+    return Disc((ball.x_m, ball.y_m), ball.radius_m, color=_colour(ball), zorder=3)
+
+
+def _colour(ball: Ball) -> Any:
+    from matplotlib.colors import hsv_to_rgb
+
+    return hsv_to_rgb((ball.hue / 180, 0.9, 0.9))
 
 
 def describe(rover: Rover) -> str:

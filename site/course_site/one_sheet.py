@@ -1,0 +1,133 @@
+"""One style sheet for all pages, without the rules that no page can use.
+
+The theme and myst-nb bring rules for many extensions, widgets and terminal colours. A rule stays if
+every class that it needs stands on some page, or in some script: scripts add classes later. What is
+inside brackets, such as `:not(.wide)`, is not looked at, so rather too much stays than too little.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Set
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from sphinx.application import Sphinx
+
+SHEET = "all.css"
+STRING_OR_COMMENT = re.compile(r"""("(?:\\.|[^"\\])*"|'(?:\\.|[^'\\])*')|/\*.*?\*/""", re.DOTALL)
+PIECE = re.compile(r"""(?:"(?:\\.|[^"\\])*"|'(?:\\.|[^'\\])*'|url\([^"')]*\)|[^{};"'])*[{};]?""")
+HOLDS_RULES = ("@media", "@supports", "@layer", "@container")
+CLASS = re.compile(r"\.(-?[A-Za-z_][\w-]*)")
+ON_PAGES = re.compile(r'\bclass="([^"]*)"')
+INLINE_SCRIPT = re.compile(r"<script[^>]*>(.+?)</script>", re.DOTALL)
+WORD = re.compile(r"[A-Za-z_][\w-]*")
+
+
+def without_unused(css: str, known: Set[str]) -> str:
+    """The same sheet: no comments, no indents, and no rule that needs a class outside of `known`."""
+    plain = STRING_OR_COMMENT.sub(lambda found: found[1] or "", css)
+    pieces = [found[0] for found in PIECE.finditer(plain) if found[0].strip()]
+    return "\n".join(_rules(iter(pieces), known))
+
+
+def _rules(pieces: Iterator[str], known: Set[str]) -> Iterator[str]:
+    """What stands until the closing brace of this level, or the end."""
+    for piece in pieces:
+        if piece.endswith("}"):
+            return
+        if not piece.endswith("{"):
+            yield _tidy(piece)
+            continue
+        head = _tidy(piece.removesuffix("{"))
+        if head.startswith(HOLDS_RULES):
+            inside = "\n".join(_rules(pieces, known))
+        else:
+            inside = "".join(_block(pieces))
+            head = head if head.startswith("@") else ",".join(_useful(head, known))
+        if head and inside:
+            yield f"{head}{{{inside}}}"
+
+
+def _block(pieces: Iterator[str]) -> Iterator[str]:
+    """Everything of one block, as it is; also of blocks inside it, such as steps of keyframes."""
+    depth = 1
+    for piece in pieces:
+        depth += piece.endswith("{") - piece.endswith("}")
+        if not depth:
+            yield _tidy(piece.removesuffix("}"))
+            return
+        yield _tidy(piece)
+
+
+def _tidy(text: str) -> str:
+    return " ".join(line.strip() for line in text.strip().splitlines())
+
+
+def _useful(selectors: str, known: Set[str]) -> Iterator[str]:
+    for selector in _parts(selectors):
+        if set(CLASS.findall(_without_brackets(selector))) <= known or "\\" in selector:
+            yield selector.strip()
+
+
+def _parts(selectors: str) -> Iterator[str]:
+    """The selectors between the commas that stand in no bracket."""
+    depth, part = 0, ""
+    for letter in selectors:
+        depth += (letter in "([") - (letter in ")]")
+        if letter == "," and not depth:
+            yield part
+            part = ""
+        else:
+            part += letter
+    yield part
+
+
+def _without_brackets(selector: str) -> str:
+    inner = re.compile(r"\([^()]*\)|\[[^\[\]]*\]")
+    while inner.search(selector):
+        selector = inner.sub("", selector)
+    return selector
+
+
+def known_classes(site: Path) -> set[str]:
+    """Every class on the pages, and every word in a script, which may be a class."""
+    pages = [page.read_text("utf-8") for page in site.rglob("*.html")]
+    scripts = [script.read_text("utf-8") for script in (site / "_static").rglob("*.js")]
+    scripts += [text for page in pages for text in INLINE_SCRIPT.findall(page)]
+    found = {name for page in pages for names in ON_PAGES.findall(page) for name in names.split()}
+    return found.union(*(WORD.findall(script) for script in scripts))
+
+
+@dataclass
+class OneSheet:
+    """The sheets that pages ask for, until there is one in their place."""
+
+    names: dict[str, None] = field(default_factory=dict)
+
+    def ask_for_one(
+        self, app: Sphinx, page: str, template: str, context: dict[str, Any], doctree: Any
+    ) -> None:
+        """The page links the one sheet only."""
+        sheets = context["css_files"]
+        ours = [sheet for sheet in sheets if sheet.filename.endswith(SHEET)]
+        self.names.update(dict.fromkeys(sheet.filename for sheet in sheets if sheet not in ours))
+        context["css_files"] = ours
+
+    def write(self, app: Sphinx, error: Exception | None) -> None:
+        """Write it when all pages are there: then it is known what they use."""
+        if error or app.builder.format != "html":
+            return
+        known = known_classes(Path(app.outdir))
+        sheets = [Path(app.outdir, name).read_text("utf-8") for name in self.names]
+        text = "\n".join(without_unused(sheet, known) for sheet in sheets)
+        Path(app.outdir, "_static", SHEET).write_text(text, encoding="utf-8")
+
+
+def setup(app: Sphinx) -> None:
+    """Called by Sphinx."""
+    sheet = OneSheet()
+    app.add_css_file(SHEET, priority=900)
+    app.connect("html-page-context", sheet.ask_for_one, priority=950)  # after the theme looked
+    app.connect("build-finished", sheet.write, priority=900)  # after the theme wrote its colours
