@@ -8,9 +8,10 @@ from sphinx.application import Sphinx
 
 from course_site import (
     api,
-    code_colours,
     day_box,
     doctor_page,
+    few_scripts,
+    few_tags,
     glossary_page,
     maths,
     navigation,
@@ -31,6 +32,6 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_config_value("course_digest", "", "env")
     for part in (maths, words, tables, glossary_page, quizzes, path_of_days, day_box):
         part.setup(app)
-    for part in (doctor_page, api, navigation, code_colours, one_sheet):
+    for part in (doctor_page, api, navigation, few_scripts, few_tags, one_sheet):
         part.setup(app)
     return {"version": "1", "parallel_read_safe": False, "parallel_write_safe": True}

@@ -1,8 +1,9 @@
 """One style sheet for all pages, without the rules that no page can use.
 
 The theme and myst-nb bring rules for many extensions, widgets and terminal colours. A rule stays if
-every class that it needs stands on some page, or in some script: scripts add classes later. What is
-inside brackets, such as `:not(.wide)`, is not looked at, so rather too much stays than too little.
+every class and id that it needs stands on some page, or in some script: scripts add them later.
+What is inside brackets, such as `:not(.wide)`, is not looked at, but for the choices of `:is()`: so
+rather too much stays than too little. Of the variables, those stay that something asks for.
 """
 
 from __future__ import annotations
@@ -19,14 +20,19 @@ SHEET = "all.css"
 STRING_OR_COMMENT = re.compile(r"""("(?:\\.|[^"\\])*"|'(?:\\.|[^'\\])*')|/\*.*?\*/""", re.DOTALL)
 PIECE = re.compile(r"""(?:"(?:\\.|[^"\\])*"|'(?:\\.|[^'\\])*'|url\([^"')]*\)|[^{};"'])*[{};]?""")
 HOLDS_RULES = ("@media", "@supports", "@layer", "@container")
-CLASS = re.compile(r"\.(-?[A-Za-z_][\w-]*)")
-ON_PAGES = re.compile(r'\bclass="([^"]*)"')
+NAME = re.compile(r"[.#](-?[A-Za-z_][\w-]*)")
+CHOICES = re.compile(r":(?:is|where)\(([^()]*)\)")
+ON_PAGES = re.compile(r'\b(?:class|id)="([^"]*)"')
 INLINE_SCRIPT = re.compile(r"<script[^>]*>(.+?)</script>", re.DOTALL)
-WORD = re.compile(r"[A-Za-z_][\w-]*")
+VARIABLE = re.compile(
+    r"""(?<=[{;\s])(--[\w-]+)\s*:(?:"[^"]*"|'[^']*'|url\([^"')]*\)|[^;{}"'])*(?:;|(?=}))"""
+)
+ASKED = re.compile(r"--[\w-]+(?=\s*[,)])")
+WORD = re.compile(r"[A-Za-z_][\w-]{2,}")  # shorter ones are variables of a packed script
 
 
 def without_unused(css: str, known: Set[str]) -> str:
-    """The same sheet: no comments, no indents, and no rule that needs a class outside of `known`."""
+    """The same sheet: no comments, no indents, and no rule that needs a name outside of `known`."""
     plain = STRING_OR_COMMENT.sub(lambda found: found[1] or "", css)
     pieces = [found[0] for found in PIECE.finditer(plain) if found[0].strip()]
     return "\n".join(_rules(iter(pieces), known))
@@ -67,8 +73,14 @@ def _tidy(text: str) -> str:
 
 def _useful(selectors: str, known: Set[str]) -> Iterator[str]:
     for selector in _parts(selectors):
-        if set(CLASS.findall(_without_brackets(selector))) <= known or "\\" in selector:
+        if "\\" in selector or _possible(selector, known):
             yield selector.strip()
+
+
+def _possible(selector: str, known: Set[str]) -> bool:
+    needed = set(NAME.findall(_without_brackets(selector)))
+    choices = CHOICES.findall(selector)
+    return needed <= known and all(any(_useful(choice, known)) for choice in choices)
 
 
 def _parts(selectors: str) -> Iterator[str]:
@@ -91,8 +103,21 @@ def _without_brackets(selector: str) -> str:
     return selector
 
 
-def known_classes(site: Path) -> set[str]:
-    """Every class on the pages, and every word in a script, which may be a class."""
+def without_unasked(css: str, elsewhere: Set[str]) -> str:
+    """The same sheet without variables that neither it nor the pages use (`elsewhere`)."""
+    asked = elsewhere.union(ASKED.findall(css))
+    less = VARIABLE.sub(lambda found: found[0] if found[1] in asked else "", css)
+    return less if less == css else without_unasked(less, elsewhere)  # one may have asked another
+
+
+def variables_asked(site: Path) -> set[str]:
+    """The variables that pages and scripts use themselves."""
+    files = [*site.rglob("*.html"), *(site / "_static").rglob("*.js")]
+    return {name for file in files for name in ASKED.findall(file.read_text("utf-8"))}
+
+
+def known_names(site: Path) -> set[str]:
+    """Every class and id on the pages, and every word in a script, which may be one."""
     pages = [page.read_text("utf-8") for page in site.rglob("*.html")]
     scripts = [script.read_text("utf-8") for script in (site / "_static").rglob("*.js")]
     scripts += [text for page in pages for text in INLINE_SCRIPT.findall(page)]
@@ -119,10 +144,12 @@ class OneSheet:
         """Write it when all pages are there: then it is known what they use."""
         if error or app.builder.format != "html":
             return
-        known = known_classes(Path(app.outdir))
-        sheets = [Path(app.outdir, name).read_text("utf-8") for name in self.names]
+        site = Path(app.outdir)
+        known = known_names(site)
+        sheets = [(site / name).read_text("utf-8") for name in self.names]
         text = "\n".join(without_unused(sheet, known) for sheet in sheets)
-        Path(app.outdir, "_static", SHEET).write_text(text, encoding="utf-8")
+        less = without_unasked(text, variables_asked(site))
+        (site / "_static" / SHEET).write_text(less, encoding="utf-8")
 
 
 def setup(app: Sphinx) -> None:

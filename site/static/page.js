@@ -1,5 +1,6 @@
-// Small things that every page needs: wide parts that scroll can be reached by the keyboard, the
-// path of days shows how far the student is, and the glossary can be filtered.
+// Small things that every page needs: wide parts that scroll can be reached by the keyboard, words
+// that were searched for are marked, the path of days shows how far the student is, and the glossary
+// can be filtered.
 (function () {
   "use strict";
 
@@ -22,6 +23,30 @@
   addEventListener("resize", reachWideParts);
   document.addEventListener("toggle", reachWideParts, true);
   reachWideParts();
+
+  // --- words that were searched for -------------------------------------------------------------
+
+  // Sphinx's own scripts mark them; pages that nobody came to from a search do not load them.
+  function markSearched(here) {
+    const asked = new URLSearchParams(location.search).has("highlight");
+    if (window.Documentation || !(asked || remembered())) return;
+    for (const name of ["documentation_options", "doctools", "sphinx_highlight"]) {
+      const script = document.createElement("script");
+      script.src = new URL(`${name}.js`, here);
+      script.async = false;
+      document.head.append(script);
+    }
+  }
+
+  function remembered() {
+    try {
+      return localStorage.getItem("sphinx_highlight_terms");
+    } catch {
+      return null; // a browser that keeps nothing
+    }
+  }
+
+  markSearched(document.currentScript.src);
 
   // --- the path of days -------------------------------------------------------------------------
 

@@ -162,7 +162,8 @@ INSTALLERS = {
 def container_with(*options: str) -> Step:
     """Return the command that starts the course's container with these options."""
     lines = ["docker run -it --rm", *options, '-v "$PWD":/roslings -w /roslings', "ros:jazzy bash"]
-    return do(" \\\n  ".join(lines), "Outside, in the course's folder, start the container so:")
+    why = "Outside, in the course's folder, start the container like this:"
+    return do(" \\\n  ".join(lines), why)
 
 
 def new_terminal() -> Step:

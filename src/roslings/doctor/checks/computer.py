@@ -78,7 +78,7 @@ def python(machine: Machine) -> Finding:
         return ok(f"Python {text}.")
     return fault(
         f"This is Python {text}. The course needs 3.10, 3.11, 3.12 or 3.13.",
-        say("Install one of these versions beside yours. ./roslings then finds it by itself:"),
+        say("Install one of these versions beside yours. ./roslings then finds it by itself."),
         do(f"cd {quoted(machine.clone)}\n./roslings doctor"),
     )
 

@@ -1,11 +1,14 @@
-"""Coloured code in few tags: what looks the same on the page is the same in its markup.
+"""Code in few tags: what looks the same on the page is the same in its markup.
 
 Pygments marks every name, bracket and space. Most of them have the colour of plain text, in the
-light style and in the dark one; a lesson then has twice as many bytes of marks as of code.
+light style and in the dark one; a lesson then has twice as many bytes of marks as of code. And
+Sphinx wraps each word of `code in a line` once more, and names each part of a cell a container:
+the theme uses neither.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 from functools import lru_cache
 from typing import Any
@@ -13,10 +16,13 @@ from typing import Any
 from pygments.formatters import HtmlFormatter
 from pygments.style import Style
 from pygments.styles import get_style_by_name
-from pygments.token import STANDARD_TYPES, Generic, Text, _TokenType
+from pygments.token import STANDARD_TYPES, Generic, Operator, Text, _TokenType
 from sphinx.application import Sphinx
 from sphinx.highlighting import PygmentsBridge
 
+CODE_IN_A_LINE = re.compile(r'<code class="docutils literal notranslate">(.*?)</code>', re.DOTALL)
+PART_OF_A_CELL = re.compile(r'<div class="(cell_(?:in|out)put) docutils container">')
+WRAPPED = re.compile(r'<span class="pre">([^<]*)</span>')
 Look = tuple[tuple[tuple[str, Any], ...], ...]
 """How a kind of token looks, in each style."""
 
@@ -43,8 +49,11 @@ class FewTags(HtmlFormatter[str]):
 def plainest(kind: _TokenType, styles: tuple[type[Style], ...]) -> _TokenType:
     """The most general kind of token that looks like this one; plain text, where it does.
 
-    Prompts keep their kind (they are not copied), and so does what a terminal coloured.
+    Prompts keep their kind (they are not copied), and so does what a terminal coloured. Signs such
+    as the dot are told by their form, and there are more of them than of all else: no colour.
     """
+    if kind is Operator:
+        return Text
     if kind not in STANDARD_TYPES or kind in Generic:
         return kind
     wanted = _look(kind, styles)
@@ -63,7 +72,20 @@ def choose_styles(app: Sphinx) -> None:
         FewTags.styles = tuple(get_style_by_name(name) for name in names)
 
 
+def unwrap(app: Sphinx, page: str, template: str, context: dict[str, Any], doctree: Any) -> None:
+    """Leave out the tags that no style looks at."""
+    body = context.get("body", "").replace("<pre><span></span>", "<pre>")
+    body = PART_OF_A_CELL.sub(r'<div class="\1">', body)
+    context["body"] = CODE_IN_A_LINE.sub(_code, body)
+
+
+def _code(found: re.Match[str]) -> str:
+    inside = WRAPPED.sub(r"\1", found[1])
+    return f'<code class="literal notranslate">{inside}</code>'
+
+
 def setup(app: Sphinx) -> None:
     """Called by Sphinx."""
     PygmentsBridge.html_formatter = FewTags
     app.connect("builder-inited", choose_styles)
+    app.connect("html-page-context", unwrap)
