@@ -93,7 +93,7 @@ def test_a_wrong_answer_names_field_and_value() -> None:
     """What was asked, what was wanted, what came."""
     with pytest.raises(faults.WrongAnswer) as fault:
         each(seen(call(0.01, part="/light", success=False)))
-    assert fault.value.expected == "/light (data: true) answers success: true (on)"
+    assert fault.value.expected == "/light (data: true) answers success: true"
     assert fault.value.measured == "success: false"
 
 

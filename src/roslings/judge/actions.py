@@ -513,7 +513,7 @@ def send_goal(
     def demand(experiment: ExperimentView) -> None:
         process = experiment.process(node)
         if not experiment.seen.orders:
-            require_no_crash(process)
+            require_no_crash(process, f"sends a goal to {action.action}")
             near = nearest(action.action, (e.action for e in _ends(experiment, "client")))
             if near and not near.exact:
                 raise faults.SendsElsewhere(near)
@@ -546,7 +546,11 @@ def show_each(node: NodeContract, texts: Sequence[str]) -> Demand[ExperimentView
             if not any(line in found for found in process.texts)
         ]
         if len(missing) > 1:
-            raise NotLogged(node.executable, missing[0], most_similar(missing[0], process.texts))
+            near = most_similar(missing[0], process.texts)
+            raise NotLogged(
+                node.executable, missing[0], near, when="for a feedback that it gets",
+                place="in the function that you give as feedback_callback",
+            )  # fmt: skip
 
     return demand
 
@@ -557,10 +561,13 @@ def end_so(node: NodeContract, outcome: OutcomeContract, text: str = "") -> Dema
     def demand(experiment: ExperimentView) -> None:
         process = experiment.process(node)
         experiment.must(end_by_itself(node, None))
-        require_no_crash(process)
-        line = outcome.log.format(text=text)
+        line, case = outcome.log.format(text=text), outcome.when.removeprefix("when ")
+        require_no_crash(process, f"writes {line!r} when {case}")
         if not any(line in found for found in process.texts):
-            raise NotLogged(node.executable, line, most_similar(line, process.texts))
-        require_code(process, outcome.exit_code, f"when {outcome.when.removeprefix('when ')}")
+            raise NotLogged(
+                node.executable, line, most_similar(line, process.texts), when=f"when {case}",
+                place=f"where your code learns that {case}",
+            )  # fmt: skip
+        require_code(process, outcome.exit_code, f"when {case}")
 
     return demand

@@ -146,8 +146,8 @@ def exit_cleanly(process: ProcessView) -> None:
         raise faults.NothingToJudge("it did not end after Ctrl-C")
     traces = _tracebacks(process.texts)
     if (seen.status != 0 or traces) and not _is_race_in_rclpy(seen.status, traces):
-        how = describe_end(seen) + (", with a traceback" if traces else "")
-        raise faults.UncleanExit(seen.executable, how, log=process.last_lines(6))
+        how = describe_status(seen.status) + (", with a traceback" if traces else "")
+        raise faults.UncleanExit(seen.executable, how, log=process.last_lines())
 
 
 def _tracebacks(texts: Sequence[str]) -> list[list[str]]:

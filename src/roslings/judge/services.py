@@ -17,8 +17,8 @@ from roslings.course import (
 )
 from roslings.evidence import CallSeen, ProcessSeen, ServiceEnd
 from roslings.experiment.asking import ANSWER_WITHIN_S, MOST_LATE
-from roslings.judge.demands import log_each, require_steady, written
-from roslings.judge.faults import DidNotComeUp, Inconclusive, NothingToJudge, NotLogged
+from roslings.judge.demands import most_similar, require_steady, written
+from roslings.judge.faults import EndedWithError, Inconclusive, NothingToJudge, NotLogged
 from roslings.judge.faults import services as faults
 from roslings.judge.views import Demand, ExperimentView, ProcessView, TopicView
 from roslings.judge.words import describe_end
@@ -85,8 +85,9 @@ def answer_each(node: NodeContract, service: ServiceContract) -> Demand[Experime
 
     def demand(experiment: ExperimentView) -> None:
         for call in _conversation(experiment, service):
-            _require_answer(experiment, node, call)
-            _compare(call, service.answers[call.number])
+            answer = service.answers[call.number]
+            _require_answer(experiment, node, call, answer)
+            _compare(call, answer)
 
     return demand
 
@@ -124,12 +125,14 @@ def _conversation(experiment: ExperimentView, service: ServiceContract) -> list[
     return calls
 
 
-def _require_answer(experiment: ExperimentView, node: NodeContract, call: CallSeen) -> None:
+def _require_answer(
+    experiment: ExperimentView, node: NodeContract, call: CallSeen, answer: AnswerContract
+) -> None:
     """Raises the fault that tells why no answer came."""
     if call.response is not None:
         return
     process = experiment.process(node)
-    asked, waited_s = _asked(call), ANSWER_WITHIN_S
+    asked, waited_s = _case(call, answer), ANSWER_WITHIN_S
     if process.seen.ended_by_itself:
         raise faults.EndedInsteadOfAnswering(
             call.service, asked, waited_s, log=process.last_lines()
@@ -148,8 +151,13 @@ def _compare(call: CallSeen, answer: AnswerContract) -> None:
         found = call.response.get(name)
         if found != wanted:
             raise faults.WrongAnswer(
-                call.service, _asked(call), name, _shown(wanted), _shown(found), answer.when
+                call.service, _case(call, answer), name, _shown(wanted), _shown(found)
             )
+
+
+def _case(call: CallSeen, answer: AnswerContract) -> str:
+    """The request; where it has no fields, the card's words for the case."""
+    return _asked(call) or f" ({answer.when})"
 
 
 def _asked(call: CallSeen) -> str:
@@ -200,7 +208,7 @@ def answer_in_time(
         if not calls:
             raise NothingToJudge(f"{service.service} could not be called")
         for call in calls:
-            _require_answer(experiment, node, call)
+            _require_answer(experiment, node, call, _answer_to(call, service))
             _compare(call, _answer_to(call, service))
         took_s = sorted(_took_s(call) for call in calls)
         late = [each for each in took_s if each > limit_s]
@@ -248,10 +256,11 @@ def ask(node: NodeContract, service: ServiceContract) -> Demand[ExperimentView]:
     def demand(experiment: ExperimentView) -> None:
         process = experiment.process(node)
         if not experiment.seen.served:
-            require_no_crash(process)
+            require_no_crash(process, f"calls {service.service}")
             near = nearest(service.service, (e.service for e in _ends(experiment, "client")))
             if near and not near.exact:
                 raise faults.AsksElsewhere(near)
+            _require_its_type(experiment, service)
             raise faults.DidNotAsk(
                 node.executable, service.service, _how_it_went(process.seen),
                 log=process.last_lines(6),
@@ -264,12 +273,22 @@ def ask(node: NodeContract, service: ServiceContract) -> Demand[ExperimentView]:
     return demand
 
 
-def require_no_crash(process: ProcessView) -> None:
-    """Raises DidNotComeUp where it ended with a traceback."""
+def _require_its_type(experiment: ExperimentView, service: ServiceContract) -> None:
+    """Raises WrongServiceType where the client has another type than the server."""
+    clients = [end for end in _ends(experiment, "client") if end.service == service.service]
+    if clients and all(end.type != service.type for end in clients):
+        raise faults.WrongServiceType(
+            service.service, service.type, clients[0].type, call="create_client"
+        )
+
+
+def require_no_crash(process: ProcessView, task: str) -> None:
+    """Raises EndedWithError where it ended with a traceback and not with its `task` done."""
     seen = process.seen
     if seen.ended_by_itself and any(text.startswith("Traceback") for text in process.texts):
-        how = f"it ended with an error ({describe_end(seen)})"
-        raise DidNotComeUp(seen.executable, how, log=process.last_lines())
+        raise EndedWithError(
+            seen.executable, task, describe_status(seen.status), log=process.last_lines()
+        )
 
 
 def _how_it_went(seen: ProcessSeen) -> str:
@@ -280,13 +299,18 @@ def _how_it_went(seen: ProcessSeen) -> str:
 
 def tell_the_answer(node: NodeContract) -> Demand[ExperimentView]:
     """The client writes the card's line with the message of the answer."""
+    template = written(node.log, node.node)
 
     def demand(experiment: ExperimentView) -> None:
-        said = [str(call.response["message"]) for call in experiment.seen.served]
         process = experiment.process(node)
-        if experiment.seen.stuck:
+        if experiment.seen.stuck or not experiment.seen.served:
             raise NothingToJudge("it waits for ever, so it has no answer to write")
-        process.must(log_each(node, said[:1]))
+        message = str(experiment.seen.served[0].response["message"])
+        line = template.format(text=message)
+        if not any(line in text for text in process.texts):
+            near = most_similar(line, process.texts)
+            when, place = f"when the answer is {message!r}", "where your code has the answer"
+            raise NotLogged(node.executable, line, near, when=when, place=place)
 
     return demand
 
@@ -318,9 +342,10 @@ def give_up(node: NodeContract) -> Demand[ExperimentView]:
             require_steady(experiment.seen.stall_s)
             raise faults.NeverGivesUp(node.executable, process.ran_s, contract.within_s)
         if not any(contract.log in text for text in process.texts):
-            require_no_crash(process)
-            last = process.texts[-1] if process.texts else None
-            raise NotLogged(node.executable, contract.log, last)
+            require_no_crash(process, f"writes {contract.log!r} when there is no server")
+            near = most_similar(contract.log, process.texts)
+            when, place = "without a server", "where the wait for the server gave back False"
+            raise NotLogged(node.executable, contract.log, near, when=when, place=place)
         require_code(process, contract.exit_code, "without a server")
 
     return demand

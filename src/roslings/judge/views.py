@@ -25,7 +25,7 @@ from roslings.judge.faults import NothingToJudge
 from roslings.near import Near, nearest, nearest_endpoint, own_endpoints
 from roslings.rates import Rate, measure_rate, measure_simulated_rate
 
-LAST_LINES = 12
+LAST_LINES = 40
 V = TypeVar("V", bound="View")
 Demand = Callable[[V], None]
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 # Folders of code that the student did not write.
 _LIBRARIES = ("/site-packages/", "/dist-packages/", "/lib/python3", "/opt/ros/", "<frozen ")
@@ -19,34 +19,45 @@ def without_colour(line: str) -> str:
 
 
 def helpful(lines: Sequence[str], package: str, at_most: int) -> list[str]:
-    """At most `at_most` of `lines`: the last ones; of a traceback, frames of libraries go first.
+    """At most `at_most` of `lines`: the last ones; of a traceback, the frames that help.
+
+    Frames of libraries go where the student's own are there, or where there are too many lines.
 
     Colours go, and the path to an installed file of `package` becomes `.../`: the student mends
     the file in src, not the copy that colcon installed.
     """
     plain = [without_colour(line) for line in lines]
-    kept = [line for line in plain if line.strip(_EMPTY)]
-    if len(kept) > at_most:
-        kept = _without_library_frames(kept, package)
+    kept = _without_frames(
+        [line for line in plain if line.strip(_EMPTY)], lambda line: _starts(line, package)
+    )
+    if len(kept) > at_most or any(_is_own(line, package) for line in kept):
+        kept = _without_frames(kept, lambda line: _is_library(line, package))
     installed = re.compile(rf'(File ")[^"]*/site-packages/(?={re.escape(package)}/)')
     return [installed.sub(r"\1.../", line) for line in kept[-at_most:]]
 
 
-def _without_library_frames(lines: list[str], package: str) -> list[str]:
+def _without_frames(lines: list[str], unwanted: Callable[[str], bool]) -> list[str]:
+    """`lines` without the frames whose first line is `unwanted`, each with its line of code."""
     kept: list[str] = []
-    in_library = False
+    leave_out = False
     for line in lines:
         if line.lstrip().startswith('File "'):
-            in_library = _is_library(line, package)
+            leave_out = unwanted(line)
         elif not line.startswith("    "):
-            in_library = False
-        if not in_library:
+            leave_out = False
+        if not leave_out:
             kept.append(line)
     return kept
 
 
 def _is_library(line: str, package: str) -> bool:
-    if f"/site-packages/{package}/" in line:
-        return False
-    # colcon's start script calls the student's main(); nobody can mend anything in it.
-    return f"/lib/{package}/" in line or any(folder in line for folder in _LIBRARIES)
+    return not _is_own(line, package) and any(folder in line for folder in _LIBRARIES)
+
+
+def _is_own(line: str, package: str) -> bool:
+    return f"/site-packages/{package}/" in line
+
+
+def _starts(line: str, package: str) -> bool:
+    """colcon's start script, which calls the student's main(): nobody can mend anything in it."""
+    return f"/lib/{package}/" in line and "/site-packages/" not in line

@@ -49,6 +49,7 @@ from roslings.judge.faults.pictures import (
 from roslings.judge.faults.processes import (
     DidNotComeUp,
     DoesNotEnd,
+    EndedWithError,
     LeavesProcesses,
     StoppedByItself,
     UncleanExit,
@@ -83,6 +84,7 @@ __all__ = [
     "DoesNotEnd",
     "DoesNotRepeat",
     "Drifts",
+    "EndedWithError",
     "Fault",
     "FixedText",
     "Inconclusive",

@@ -662,8 +662,8 @@ class SentNoGoal(Fault):
     how: str
     why = "The server was ready. A client that sends no goal moves nothing."
     hint = (
-        "Look at the name and the type in ActionClient(...), and see that send_goal_async(goal) is"
-        " reached. Check with `ros2 action list`."
+        "Does your code wait for the server (wait_for_server), and then come to"
+        " send_goal_async(goal)? Write a line to the log right before it, and see."
     )
 
     @property

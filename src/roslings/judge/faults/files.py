@@ -119,7 +119,10 @@ class UnlistedDependency(Fault):
         """Where to look."""
         if self.package.startswith("python3-"):
             return f"Add one line: this library has the name {self.package} in package.xml."
-        return "Look at the <depend> lines in package.xml: one for each ROS package you import."
+        return (
+            "Look at the <exec_depend> lines in package.xml: one for each ROS package that you"
+            " import."
+        )
 
 
 @dataclass(eq=False)

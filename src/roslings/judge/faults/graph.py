@@ -80,7 +80,10 @@ class WrongTopic(Fault):
     def hint(self) -> str:
         """Where the name is given."""
         call = "create_publisher" if self.verb.startswith("publishes") else "create_subscription"
-        return f"Look at the text in {call}(...). Check with `ros2 topic list`."
+        return (
+            f"Look at the text in {call}(...).{look_in_front(self.near)} Check with"
+            " `ros2 topic list`."
+        )
 
 
 @dataclass(eq=False)
@@ -221,11 +224,18 @@ def qos_conflict(
     return None
 
 
+def look_in_front(near: Near) -> str:
+    """What puts a namespace in front of a name, as a sentence; empty where none is in front."""
+    if near.how != "namespace":
+        return ""
+    return " Does it begin with ~/ or with a name and a slash, or has the node a namespace?"
+
+
 def guess(near: Near) -> str:
     """The likely slip, as the end of a sentence; empty where none is likely."""
     sentences = {
         "namespace": ": another namespace?",
         "case": ": capital letters?",
-        "spelling": ": a spelling?",
+        "spelling": ": a spelling mistake?",
     }
     return sentences.get(near.how, "")

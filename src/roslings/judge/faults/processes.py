@@ -35,6 +35,27 @@ class DidNotComeUp(Fault):
 
 
 @dataclass(eq=False)
+class EndedWithError(Fault):
+    """A program that has one task, and then ends, ended with an error before it had done it."""
+
+    executable: str
+    task: str
+    status: str
+    why = "An error that nobody catches ends the program at once."
+    hint = "Read the last lines below: the last one names the error, the one above it the place."
+
+    @property
+    def expected(self) -> str:
+        """What it should have done."""
+        return f"{self.executable} {self.task}"
+
+    @property
+    def measured(self) -> str:
+        """That it ended."""
+        return f"it ended with an error before that ({self.status})"
+
+
+@dataclass(eq=False)
 class StoppedByItself(Fault):
     """The node ran for a while and then ended, though nobody asked it to."""
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from roslings.judge.faults.base import Fault
-from roslings.judge.faults.graph import guess
+from roslings.judge.faults.graph import guess, look_in_front
 from roslings.near import Near
 
 
@@ -44,7 +44,14 @@ class WrongService(Fault):
 
     near: Near
     why = "Client and server meet only when both use the very same name."
-    hint = "Look at the name in create_service(...). Check with `ros2 service list`."
+
+    @property
+    def hint(self) -> str:
+        """Where the name is given."""
+        return (
+            f"Look at the name in create_service(...).{look_in_front(self.near)} Check with"
+            " `ros2 service list`."
+        )
 
     @property
     def expected(self) -> str:
@@ -64,8 +71,13 @@ class WrongServiceType(Fault):
     service: str
     wanted: str
     found: str
+    call: str = "create_service"
     why = "The type says which fields a request and an answer have. Both sides need the same."
-    hint = "The type is the first word in create_service(...), and comes from an import line."
+
+    @property
+    def hint(self) -> str:
+        """Where the type is given."""
+        return f"The type is the first word in {self.call}(...), and comes from an import line."
 
     @property
     def expected(self) -> str:
@@ -163,13 +175,12 @@ class WrongAnswer(Fault):
     field_name: str
     wanted: str
     found: str
-    when: str
     why = "A client acts on the answer. It must be able to believe it."
 
     @property
     def expected(self) -> str:
         """The value."""
-        return f"{self.service}{self.asked} answers {self.field_name}: {self.wanted} ({self.when})"
+        return f"{self.service}{self.asked} answers {self.field_name}: {self.wanted}"
 
     @property
     def measured(self) -> str:
@@ -181,7 +192,7 @@ class WrongAnswer(Fault):
         """Where it is set."""
         return (
             f"Look at `response.{self.field_name} = ...` in the service's function. Is it set on"
-            " each way through it, and to the words of the card?"
+            " each way through it, and is it what the card says?"
         )
 
 
@@ -252,8 +263,8 @@ class DidNotAsk(Fault):
     how: str
     why = "The server was ready. A client that does not ask gets no answer."
     hint = (
-        "Look at the name and the type in create_client(...), and see that call_async(request)"
-        " is reached. Check with `ros2 service list`."
+        "Does your code wait for the server (wait_for_service), and then come to"
+        " call_async(request)? Write a line to the log right before the call, and see."
     )
 
     @property

@@ -26,7 +26,7 @@ class NoParameter(Fault):
     def measured(self) -> str:
         """What it has."""
         if self.near:
-            return f"it has no {self.wanted!r}, but {self.near!r}: a spelling?"
+            return f"it has no {self.wanted!r}, but {self.near!r}: a spelling mistake?"
         return f"its own parameters are: {', '.join(self.found) or 'none'}"
 
     @property

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import difflib
+from dataclasses import dataclass, field
 
 from roslings.judge.faults.base import Fault
+
+ALIKE = 0.6
+"""Lines that have so much in common are meant to be the same."""
 
 
 @dataclass(eq=False)
@@ -14,12 +18,15 @@ class NotLogged(Fault):
     executable: str
     wanted: str
     found: str | None
+    when: str = field(default="", kw_only=True)
+    place: str = field(default="in the function that has the message", kw_only=True)
     why = "The log is the first place to look when a robot does something strange."
 
     @property
     def expected(self) -> str:
-        """The line."""
-        return f"{self.executable} writes {self.wanted!r}"
+        """The line, and when it is asked for."""
+        begin = f"{self.when}, " if self.when else ""
+        return f"{begin}{self.executable} writes {self.wanted!r}"
 
     @property
     def measured(self) -> str:
@@ -28,8 +35,15 @@ class NotLogged(Fault):
 
     @property
     def hint(self) -> str:
-        """How to write a line."""
-        return "Write it with self.get_logger().info(...) in the function that has the message."
+        """What to compare, or how to write a line."""
+        if self.found and _are_alike(self.wanted, self.found):
+            return "Compare the two lines above, letter by letter: words, numbers, signs, spaces."
+        return f"Write it with self.get_logger().info(...) {self.place}."
+
+
+def _are_alike(wanted: str, found: str) -> bool:
+    """`found` is the wanted line with a slip in it, and no other line."""
+    return difflib.SequenceMatcher(None, wanted, found).ratio() >= ALIKE
 
 
 @dataclass(eq=False)
