@@ -18,6 +18,7 @@ from roslings.judge import (
     carry_its_type,
     check,
     come_up,
+    during,
     end_within,
     exit_cleanly,
     install,
@@ -241,21 +242,24 @@ def test_arc(driving: ExperimentView) -> None:
 @check(needs=["wheel_speeds"])
 def test_bad_lines(noisy: ExperimentView) -> None:
     """On a noisy cable, no wrong line becomes a message."""
-    noisy.process(BRIDGE).must(stay_up)
+    noisy.process(BRIDGE).must(during("on a noisy cable", stay_up))
     noisy.topic(WHEELS).must(tell_nothing_else(noisy))
 
 
 @check(needs=["wheel_topic"])
 def test_silence(silent: ExperimentView) -> None:
     """When the board was silent for {SILENCE_S:g} s, the node goes on with its next line."""
-    silent.process(BRIDGE).must(come_up, stay_up)
+    silent.process(BRIDGE).must(during("beside a silent board", come_up, stay_up))
     silent.topic(WHEELS).must(outlast_silence(silent, "speaks again", SILENCE_S))
 
 
 @check(needs=["wheel_topic"])
 def test_reconnects(unplugged: ExperimentView) -> None:
     """The node waits for its board, and finds it again when its cable was pulled."""
-    unplugged.process(BRIDGE).must(come_up, stay_up)
+    unplugged.process(BRIDGE).must(
+        during("with no board at the start", come_up),
+        during("when the cable is pulled and comes back", stay_up),
+    )
     unplugged.must(come_back("came late", "the start without a board"))
     unplugged.must(come_back("came back", "the pulled cable"))
 
@@ -263,7 +267,7 @@ def test_reconnects(unplugged: ExperimentView) -> None:
 @check(needs=["cmd_topic", "checksums"])
 def test_not_a_number(nonsense: ExperimentView) -> None:
     """A command that is no number (NaN) moves nothing."""
-    nonsense.process(BRIDGE).must(stay_up)
+    nonsense.process(BRIDGE).must(during("after a command with NaN", stay_up))
     nonsense.must(keep_still)
 
 

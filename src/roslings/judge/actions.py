@@ -342,7 +342,7 @@ def _error(given: Trip) -> str:
 def _leave_error_to_another(given: Trip) -> None:
     """An error of the student's code is told once, where the robot is to arrive."""
     if _error(given) or given.node.seen.ended_by_itself:
-        raise NothingToJudge("the execute function ended with an error: mend that first")
+        raise NothingToJudge("the execute callback ended with an error: mend that first")
 
 
 def _require_stop(given: Trip, when: str) -> None:

@@ -114,6 +114,19 @@ def come_up(process: ProcessView) -> None:
         raise faults.DidNotComeUp(seen.executable, how, log=process.last_lines())
 
 
+def during(when: str, *demands: Demand[ProcessView]) -> Demand[ProcessView]:
+    """The same demands, of `come_up` and `stay_up`; their faults say when it was."""
+
+    def demand(process: ProcessView) -> None:
+        try:
+            process.must(*demands)
+        except (faults.DidNotComeUp, faults.StoppedByItself) as fault:
+            fault.when = when
+            raise
+
+    return demand
+
+
 def stay_up(process: ProcessView) -> None:
     """It runs until it is asked to end."""
     seen = process.seen

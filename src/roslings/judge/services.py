@@ -151,8 +151,9 @@ def _compare(call: CallSeen, answer: AnswerContract) -> None:
         found = call.response.get(name)
         if found != wanted:
             raise faults.WrongAnswer(
-                call.service, _case(call, answer), name, _shown(wanted), _shown(found)
-            )
+                call.service, _case(call, answer), name, _shown(wanted), _shown(found),
+                case="" if call.request else answer.when,
+            )  # fmt: skip
 
 
 def _case(call: CallSeen, answer: AnswerContract) -> str:

@@ -91,8 +91,8 @@ class GoalUnanswered(Fault):
     waited_s: float
     why = "Who gives a goal must hear at once whether it is taken."
     hint = (
-        "The goal's function only looks at the goal and returns GoalResponse.ACCEPT or"
-        " GoalResponse.REJECT. The driving belongs into the execute function."
+        "The goal callback only looks at the goal and returns GoalResponse.ACCEPT or"
+        " GoalResponse.REJECT. Driving belongs into the execute callback."
     )
 
     @property
@@ -127,7 +127,7 @@ class RefusesGoodGoal(Fault):
     when: str
     why = "A server that refuses what it can do is of no use."
     hint = (
-        "Look at the conditions before GoalResponse.REJECT in the goal's function. Are the numbers"
+        "Look at the conditions before GoalResponse.REJECT in the goal callback. Are the numbers"
         " those of the card?"
     )
 
@@ -144,17 +144,17 @@ class RefusesGoodGoal(Fault):
 
 @dataclass(eq=False)
 class AnswersNothing(RefusesGoodGoal):
-    """The goal's function returns nothing, which ROS takes for a refusal."""
+    """The goal callback returns nothing, which ROS takes for a refusal."""
 
     hint = (
-        "Let the goal's function end with `return GoalResponse.ACCEPT`, on each way through it"
+        "Let the goal callback end with `return GoalResponse.ACCEPT`, on each way through it"
         " that is to accept. Without a return it gives back None."
     )
 
     @property
     def measured(self) -> str:
         """What ROS says."""
-        return "it was refused: your goal function did not return a GoalResponse"
+        return "it was refused: your goal callback did not return a GoalResponse"
 
 
 @dataclass(eq=False)
@@ -164,7 +164,7 @@ class StaysBusy(RefusesGoodGoal):
     why = "A server that works only once must be started again after each goal."
     hint = (
         "What makes your server refuse a goal while it drives? It must be set back on each way out"
-        " of the execute function: after success, and after a cancel."
+        " of the execute callback: after success, and after a cancel."
     )
 
     @property
@@ -200,7 +200,7 @@ class AcceptsImpossible(Fault):
                 " `if not (WEST <= goal.x <= EAST): return GoalResponse.REJECT`. Or use"
                 " math.isfinite(NUMBER)."
             )
-        return "Look at it in the goal's function, before GoalResponse.ACCEPT."
+        return "Look at it in the goal callback, before GoalResponse.ACCEPT."
 
 
 # --- on the way --------------------------------------------------------------------------------
@@ -212,7 +212,7 @@ class BlocksTheNode(Fault):
 
     waited_s: float
     why = (
-        "A node with one thread does one thing at a time. While the execute function loops, it"
+        "A node with one thread does one thing at a time. While the execute callback loops, it"
         " hears nothing: not where the rover is, and no request to cancel."
     )
     hint = (
@@ -236,15 +236,15 @@ class BlocksTheNode(Fault):
 
 @dataclass(eq=False)
 class ExecuteFailed(Fault):
-    """The execute function ended with an error."""
+    """The execute callback ended with an error."""
 
     error: str
-    why = "An error in the execute function ends the goal: ROS calls that aborted."
+    why = "An error in the execute callback ends the goal: ROS calls that aborted."
 
     @property
     def expected(self) -> str:
         """That it runs."""
-        return "the execute function runs to its end"
+        return "the execute callback runs to its end"
 
     @property
     def measured(self) -> str:
@@ -257,7 +257,7 @@ class ExecuteFailed(Fault):
         if "publish_feedback" in self.error:
             return (
                 "Feedback belongs to one goal: call goal_handle.publish_feedback(feedback), with"
-                " the goal_handle that the execute function gets."
+                " the goal_handle that the execute callback gets."
             )
         return "The lines below show the place: the last one names the error."
 
@@ -269,7 +269,7 @@ class NoFeedback(Fault):
     seconds: float
     why = "Who waits for a robot wants to see that it gets on."
     hint = (
-        "In the loop of the execute function: fill TYPE.Feedback(), and call"
+        "In the loop of the execute callback: fill TYPE.Feedback(), and call"
         " goal_handle.publish_feedback(feedback)."
     )
 
@@ -420,7 +420,7 @@ class StopsLate(Fault):
 
     limit_s: float
     found_s: float
-    why = "Who cancels may see a child before the robot."
+    why = "Perhaps a child stands in the robot's way. Then each tenth of a second counts."
     hint = "Look at goal_handle.is_cancel_requested in each turn of the loop, and sleep shortly."
 
     @property
@@ -470,16 +470,16 @@ class SucceedForgotten(WrongEnd):
     @property
     def measured(self) -> str:
         """What ROS did."""
-        return f"it is {self.found!r}: your execute function set no state, and ROS assumes that"
+        return f"it is {self.found!r}: your execute callback set no state, and ROS assumes that"
 
 
 @dataclass(eq=False)
 class NoResult(Fault):
-    """The execute function has ended, and the result did not come."""
+    """The execute callback has ended, and the result did not come."""
 
     why = "Who waits for the result waits for ever."
     hint = (
-        "The execute function must end with `return result`, where result = TYPE.Result(). Without"
+        "The execute callback must end with `return result`, where result = TYPE.Result(). Without"
         " a return it gives back None, and ROS cannot send that."
     )
 
@@ -491,7 +491,7 @@ class NoResult(Fault):
     @property
     def measured(self) -> str:
         """That it did not come."""
-        return "the execute function returned nothing, and no result could be sent"
+        return "the execute callback returned nothing, and no result could be sent"
 
 
 @dataclass(eq=False)
@@ -519,7 +519,7 @@ class WrongResult(Fault):
         """Where it is set."""
         if self.field_name == "elapsed":
             return (
-                "Note time.monotonic() at the start of the execute function. At the end, subtract"
+                "Note time.monotonic() at the start of the execute callback. At the end, subtract"
                 " it from the new one: seconds."
             )
         return f"Look at `result.{self.field_name} = ...`, on each way through the function."
@@ -534,7 +534,7 @@ class CancelRefused(Fault):
 
     why = "Who cannot cancel must wait, or pull the plug."
     hint = (
-        "Without a cancel function, ROS refuses each cancel. Give ActionServer(...) a"
+        "Without a cancel callback, ROS refuses each cancel. Give ActionServer(...) a"
         " cancel_callback=FUNCTION that returns CancelResponse.ACCEPT."
     )
 
@@ -554,7 +554,7 @@ class CancelUnanswered(CancelRefused):
     """The request to cancel was not answered."""
 
     waited_s: float
-    hint = "Does your cancel function return at once? It only says CancelResponse.ACCEPT."
+    hint = "Does your cancel callback return at once? It only says CancelResponse.ACCEPT."
 
     @property
     def measured(self) -> str:
@@ -567,7 +567,7 @@ class GoesOnAfterCancel(Fault):
     """The cancel was accepted, and the goal went on."""
 
     waited_s: float
-    why = "Accepting a cancel is a promise. The execute function must keep it."
+    why = "Accepting a cancel is a promise. The execute callback must keep it."
     hint = (
         "ROS does not stop your loop. In each turn, look at goal_handle.is_cancel_requested; where"
         " it is True, leave the loop and call goal_handle.canceled()."
@@ -590,10 +590,10 @@ class CancelsLate(Fault):
 
     limit_s: float
     found_s: float
-    why = "Who cancels may see a child before the robot."
+    why = "Perhaps a child stands in the robot's way. Then each tenth of a second counts."
     hint = (
         "Look at goal_handle.is_cancel_requested in each turn of the loop. Let a turn take 0.1 s,"
-        " and do not sleep in the cancel function."
+        " and do not sleep in the cancel callback."
     )
 
     @property
@@ -616,7 +616,7 @@ class TakesSecondGoal(Fault):
 
     why = "Two loops then drive one rover, each to another place."
     hint = (
-        "Note in the goal's function that the rover has work (self.busy = True), and refuse a goal"
+        "Note in the goal callback that the rover has work (self.busy = True), and refuse a goal"
         " while it has."
     )
 
@@ -637,7 +637,7 @@ class FirstGoalDisturbed(Fault):
 
     found: str
     why = "A goal that was refused must not change anything."
-    hint = "Let the goal's function change nothing where it returns GoalResponse.REJECT."
+    hint = "Let the goal callback change nothing where it returns GoalResponse.REJECT."
 
     @property
     def expected(self) -> str:
@@ -702,17 +702,20 @@ class SentAnotherGoal(Fault):
     field_name: str
     wanted: str
     found: str
-    why = "The rover drives where the goal says, and not where was meant."
+    why = "The rover drives where the goal says, and not where you meant."
 
     @property
     def expected(self) -> str:
         """The goal."""
-        return f"started with {self.field_name}:={self.wanted}, the goal has {self.wanted} there"
+        return (
+            f"started with -p {self.field_name}:={self.wanted}, {self.executable} sends a goal with"
+            f" {self.field_name} {self.wanted}"
+        )
 
     @property
     def measured(self) -> str:
         """The goal that came."""
-        return f"{self.field_name} was {self.found}"
+        return f"the goal had {self.field_name} {self.found}"
 
     @property
     def hint(self) -> str:

@@ -162,7 +162,7 @@ class WrongOdometry(Fault):
     @property
     def expected(self) -> str:
         """The true way."""
-        return f"in the {self.part}, the rover went {_way(self.really)}"
+        return f"on the {self.part}, the rover went {_way(self.really)}"
 
     @property
     def measured(self) -> str:
@@ -188,7 +188,10 @@ class WrongOdometry(Fault):
 
 def _way(way: tuple[float, float, float]) -> str:
     ahead, left, turn = (round(part, 2) + 0.0 for part in way)
-    return f"{ahead:.2f} m ahead, {left:.2f} m left, turned {turn:.0f} degrees"
+    side, way_round = ("right" if part < 0 else "left" for part in (left, turn))
+    return (
+        f"{ahead:.2f} m ahead, {abs(left):.2f} m {side}, turned {abs(turn):.0f} degrees {way_round}"
+    )
 
 
 @dataclass(eq=False)

@@ -6,6 +6,9 @@ from dataclasses import dataclass
 
 from roslings.judge.faults.base import Fault
 
+OPEN_THE_PAGE = "Check again with `--html page.html` behind the command, and open page.html:"
+"""The page shows the pictures that a verdict is about."""
+
 
 @dataclass(eq=False)
 class NotThisQos(Fault):
@@ -88,8 +91,8 @@ class WrongPicture(Fault):
     off: float | None
     why = "Every node that looks through this camera sees only what you publish."
     hint = (
-        "Publish what camera.read() gave: all rows, all columns, in their order. Look at it:"
-        " `ros2 run rqt_image_view rqt_image_view`, or the page of --html."
+        "Publish what camera.read() gave: all rows, all columns, in their order."
+        f" {OPEN_THE_PAGE} there is your picture."
     )
 
     @property
@@ -240,23 +243,28 @@ class WrongBrightness(Fault):
     def expected(self) -> str:
         """How much lighter."""
         return (
-            f"{self.name} {self.before} -> {self.after}: each value {_change(self.wanted)},"
-            " as far as 0 and 255 let it"
+            f"when {self.name} goes from {self.before} to {self.after}, each value of the picture"
+            f" becomes {_change(self.wanted)}, {'up to 255' if self.wanted > 0 else 'down to 0'}"
         )
 
     @property
     def measured(self) -> str:
         """How much lighter they became."""
-        return f"the mean is {_change(self.found)}"
+        return f"on average, the values became {_change(self.found)}"
 
 
 def _change(levels: float) -> str:
-    return f"{abs(levels):.0f} of 255 {'higher' if levels >= 0 else 'lower'}"
+    return f"{abs(levels):.0f} {'higher' if levels >= 0 else 'lower'}"
 
 
 @dataclass(eq=False)
 class BrightnessIgnored(WrongBrightness):
     """Nothing happens."""
+
+    @property
+    def measured(self) -> str:
+        """That nothing changed."""
+        return "the pictures stayed as they were"
 
     hint = (
         "Read the parameter for each picture: self.get_parameter(NAME).value. What __init__ read"
@@ -276,7 +284,7 @@ class BrightnessGoesRound(WrongBrightness):
     @property
     def measured(self) -> str:
         """What it looks like."""
-        return f"values beyond 0 or 255 come out at the other end (mean {_change(self.found)})"
+        return "values beyond 255 began again at 0, or values below 0 at 255"
 
 
 @dataclass(eq=False)
@@ -326,7 +334,10 @@ class NoPictureAfter(Fault):
     when: str
     topic: str
     why = "Plugs come loose on a robot that drives. Nobody is there to start the node again."
-    hint = "After an OSError close the camera and set it to None. A timer opens it when it is None."
+    hint = (
+        "After an OSError, close the camera and set self.camera to None. A timer opens it again"
+        " where it is None."
+    )
 
     @property
     def expected(self) -> str:

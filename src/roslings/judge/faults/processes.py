@@ -2,9 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from roslings.judge.faults.base import Fault
+
+READ_THE_LINES = (
+    "Read the last lines below: the last one names the error, the one above it the place."
+)
+
+
+def _begin(when: str) -> str:
+    """The case that is spoken of, as the beginning of a sentence."""
+    return f"{when}, " if when else ""
 
 
 @dataclass(eq=False)
@@ -13,12 +22,13 @@ class DidNotComeUp(Fault):
 
     executable: str
     how: str
+    when: str = field(default="", kw_only=True)
     why = "A node that ends at once can neither send nor receive."
 
     @property
     def expected(self) -> str:
         """A running node."""
-        return f"{self.executable} starts, makes a node and keeps running"
+        return f"{_begin(self.when)}{self.executable} starts, makes a node and keeps running"
 
     @property
     def measured(self) -> str:
@@ -28,6 +38,8 @@ class DidNotComeUp(Fault):
     @property
     def hint(self) -> str:
         """What to try."""
+        if any(line.startswith("Traceback") for line in self.log):
+            return READ_THE_LINES
         return (
             "Start it by hand with `ros2 run` and read the last line of what it prints. "
             "Without an error: does main() call rclpy.spin(node)?"
@@ -42,7 +54,7 @@ class EndedWithError(Fault):
     task: str
     status: str
     why = "An error that nobody catches ends the program at once."
-    hint = "Read the last lines below: the last one names the error, the one above it the place."
+    hint = READ_THE_LINES
 
     @property
     def expected(self) -> str:
@@ -62,13 +74,14 @@ class StoppedByItself(Fault):
     executable: str
     after_s: float
     how: str
+    when: str = field(default="", kw_only=True)
     why = "A robot's node runs until somebody stops it."
-    hint = "Read the last lines below: the last one names the error, the one above it the place."
+    hint = READ_THE_LINES
 
     @property
     def expected(self) -> str:
         """A node that stays."""
-        return f"{self.executable} runs until Ctrl-C"
+        return f"{_begin(self.when)}{self.executable} runs until Ctrl-C"
 
     @property
     def measured(self) -> str:

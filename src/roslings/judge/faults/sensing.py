@@ -41,7 +41,7 @@ class NoStamp(Fault):
     """The messages do not say when they were made."""
 
     topic: str
-    why = "A distance without its time is of no use to a robot that moves."
+    why = "A distance or a picture without its time is of no use to a robot that moves."
     hint = "Fill it in each message: MESSAGE.header.stamp = self.get_clock().now().to_msg()"
 
     @property

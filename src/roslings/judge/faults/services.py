@@ -175,6 +175,7 @@ class WrongAnswer(Fault):
     field_name: str
     wanted: str
     found: str
+    case: str = ""
     why = "A client acts on the answer. It must be able to believe it."
 
     @property
@@ -189,7 +190,12 @@ class WrongAnswer(Fault):
 
     @property
     def hint(self) -> str:
-        """Where it is set."""
+        """Where it is set, and in which case."""
+        if self.case:
+            return (
+                f"Look at `response.{self.field_name} = ...` on the way through the function where"
+                f" {self.case}. What is kept in the node (self.NAME) must tell the cases apart."
+            )
         return (
             f"Look at `response.{self.field_name} = ...` in the service's function. Is it set on"
             " each way through it, and is it what the card says?"
@@ -302,7 +308,7 @@ class AskedOtherwise(Fault):
     executable: str
     wanted: str
     found: str
-    why = "The server does what the request says, and not what was meant."
+    why = "The server does what the request says, and not what you meant."
     hint = "Set the request's field before the call: request = TYPE.Request(), request.data = ..."
 
     @property

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from roslings.judge.faults.base import Fault
+from roslings.judge.faults.camera import OPEN_THE_PAGE
 
 
 @dataclass(eq=False)
@@ -18,8 +19,8 @@ class WrongPlace(Fault):
     within: float
     why = "The robot drives to where you say the ball is."
     hint = (
-        "Look at the picture in the page of --html: the ring is the ball, the cross is your"
-        " answer. x is the column, y the row, from the upper left corner."
+        f"{OPEN_THE_PAGE} the ring is the ball, the cross is your answer. x is the column, y the"
+        " row, from the upper left corner."
     )
 
     @property

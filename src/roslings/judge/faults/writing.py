@@ -30,8 +30,11 @@ class NotLogged(Fault):
 
     @property
     def measured(self) -> str:
-        """The most similar line."""
-        return f"the nearest line is {self.found!r}" if self.found else "it wrote nothing"
+        """The most similar line, or another one."""
+        if not self.found:
+            return "it wrote nothing"
+        alike = _are_alike(self.wanted, self.found)
+        return f"{'the nearest line is' if alike else 'it wrote'} {self.found!r}"
 
     @property
     def hint(self) -> str:
