@@ -11,6 +11,7 @@ from rich.cells import cell_len
 from rich.console import Console
 
 from roslings.report import NoSuchCheck, print_verdict
+from roslings.report.log_lines import helpful
 from roslings.verdict import Verdict
 
 COLOUR = re.compile(r"\x1b\[3[0-7]m|\x1b\[1;3[0-7]m")
@@ -221,6 +222,21 @@ def test_traceback_keeps_the_students_frames() -> None:
     assert "rclpy/node.py" not in text
     assert "load_entry_point" not in text
     assert "^^^" not in text
+
+
+def test_a_short_traceback_has_no_start_script_either() -> None:
+    """Frames of libraries stay only where the student has none, and there is room."""
+    script = '  File "/home/anna/ws/install/chatter/lib/chatter/talker", line 33, in <module>'
+    library = '  File "/opt/ros/jazzy/lib/python3.12/site-packages/rclpy/node.py", line 9, in spin'
+    own = '  File "/home/anna/ws/install/chatter/lib/python3.12/site-packages/chatter/talker.py", 4'
+    begin, error = "Traceback (most recent call last):", "TypeError"
+    lone = helpful((begin, script, "    sys.exit(main())", library, error), "chatter", 8)
+    assert lone == [begin, library, error]
+    assert helpful((begin, script, own, library, "    x", error), "chatter", 8) == [
+        begin,
+        '  File ".../chatter/talker.py", 4',
+        error,
+    ]
 
 
 def test_colours_of_a_log_go_away() -> None:

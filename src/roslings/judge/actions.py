@@ -540,15 +540,16 @@ def show_each(node: NodeContract, texts: Sequence[str]) -> Demand[ExperimentView
 
     def demand(experiment: ExperimentView) -> None:
         process = experiment.process(node)
+        lines = {text: template.format(text=text) for text in texts}
         missing = [
-            line
-            for line in (template.format(text=text) for text in texts)
+            text for text, line in lines.items()
             if not any(line in found for found in process.texts)
-        ]
+        ]  # fmt: skip
         if len(missing) > 1:
-            near = most_similar(missing[0], process.texts)
+            line = lines[missing[0]]
             raise NotLogged(
-                node.executable, missing[0], near, when="for a feedback that it gets",
+                node.executable, line, most_similar(line, process.texts),
+                when=f"when the feedback says {missing[0]}",
                 place="in the function that you give as feedback_callback",
             )  # fmt: skip
 
@@ -560,8 +561,8 @@ def end_so(node: NodeContract, outcome: OutcomeContract, text: str = "") -> Dema
 
     def demand(experiment: ExperimentView) -> None:
         process = experiment.process(node)
-        experiment.must(end_by_itself(node, None))
         line, case = outcome.log.format(text=text), outcome.when.removeprefix("when ")
+        experiment.must(end_by_itself(node, None, f"when {case}"))
         require_no_crash(process, f"writes {line!r} when {case}")
         if not any(line in found for found in process.texts):
             raise NotLogged(

@@ -316,7 +316,9 @@ def tell_the_answer(node: NodeContract) -> Demand[ExperimentView]:
     return demand
 
 
-def end_by_itself(node: NodeContract, exit_code: int | None = 0) -> Demand[ExperimentView]:
+def end_by_itself(
+    node: NodeContract, exit_code: int | None = 0, when: str = "after the answer"
+) -> Demand[ExperimentView]:
     """The client ends when it has its answer, with this exit code; None: with any."""
 
     def demand(experiment: ExperimentView) -> None:
@@ -325,10 +327,10 @@ def end_by_itself(node: NodeContract, exit_code: int | None = 0) -> Demand[Exper
             require_steady(experiment.seen.stall_s)
             if experiment.seen.stuck:
                 answered = bool(experiment.seen.served or experiment.seen.orders)
-                raise faults.ClientDeadlock(node.executable, process.ran_s, answered)
-            raise faults.ClientStays(node.executable, process.ran_s)
+                raise faults.ClientDeadlock(node.executable, process.ran_s, answered, when=when)
+            raise faults.ClientStays(node.executable, process.ran_s, when=when)
         if exit_code is not None:
-            require_code(process, exit_code, "after an answer")
+            require_code(process, exit_code, when)
 
     return demand
 
@@ -341,7 +343,8 @@ def give_up(node: NodeContract) -> Demand[ExperimentView]:
         process = experiment.process(node)
         if not process.seen.ended_by_itself:
             require_steady(experiment.seen.stall_s)
-            raise faults.NeverGivesUp(node.executable, process.ran_s, contract.within_s)
+            wait = "wait_for_server" if node.orders else "wait_for_service"
+            raise faults.NeverGivesUp(node.executable, process.ran_s, contract.within_s, wait)
         if not any(contract.log in text for text in process.texts):
             require_no_crash(process, f"writes {contract.log!r} when there is no server")
             near = most_similar(contract.log, process.texts)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from roslings.judge.faults.base import Fault
 from roslings.judge.faults.graph import guess, look_in_front
@@ -328,6 +328,7 @@ class ClientStays(Fault):
 
     executable: str
     waited_s: float
+    when: str = field(default="after the answer", kw_only=True)
     why = "This client has one task. When it is done, the terminal belongs to you again."
     hint = (
         "rclpy.spin(node) never ends by itself. Use rclpy.spin_until_future_complete(node,"
@@ -337,7 +338,7 @@ class ClientStays(Fault):
     @property
     def expected(self) -> str:
         """An end."""
-        return f"{self.executable} ends by itself after the answer"
+        return f"{self.when}, {self.executable} ends by itself"
 
     @property
     def measured(self) -> str:
@@ -371,8 +372,16 @@ class NeverGivesUp(ClientStays):
     """There is no server, and the client waits for ever."""
 
     limit_s: float
+    wait: str
     why = "A program that waits for ever looks like one that works. Say what is missing, and end."
-    hint = "Give a time to the wait: client.wait_for_service(timeout_sec=2.0). It gives back False."
+
+    @property
+    def hint(self) -> str:
+        """The wait that has an end."""
+        return (
+            f"Give a time to the wait: client.{self.wait}(timeout_sec=2.0). When no server came, it"
+            " gives back False."
+        )
 
     @property
     def expected(self) -> str:
