@@ -12,6 +12,7 @@ from roslings.experiment import Scene, experiment
 from roslings.experiment.acting import (
     Director,
     await_action,
+    await_turn,
     await_client,
     lead,
     taking,
@@ -134,8 +135,9 @@ def refusing(scene: Scene, driving: ExperimentSeen) -> None:
 @experiment
 def resting(scene: Scene) -> None:
     """The server with nothing to do, until Ctrl-C."""
-    with scene.run(SERVER):
+    with scene.run(SERVER) as process:
         await_action(scene)
+        await_turn(scene, process, SERVER)
 
 
 # --- experiments: the client, with a server ----------------------------------------------------

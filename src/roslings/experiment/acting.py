@@ -195,6 +195,17 @@ def await_action(scene: Scene) -> None:
     scene.until(there, FIRST_MESSAGE_WITHIN_S)
 
 
+def await_turn(scene: Scene, process: Process, node: NodeContract) -> None:
+    """Wait until the node has run a callback: it is complete, and spins.
+
+    The graph shows an action server before its constructor has ended. Ctrl-C at that moment, on
+    a busy computer, ends a right node with an error: not in main(), but in its __init__.
+    """
+    near = nearest(node.node, scene.seen.graph.nodes)
+    if near and process.alive:
+        scene.probe.turned(near.found, HEARS_WITHIN_S)
+
+
 class Rest:
     """Tells that a robot will not get to a point: it stands, or has not come nearer, for long."""
 

@@ -226,7 +226,7 @@ def tell_at_its_rate(
         kind = rate_fault(rate.held_up(experiment.seen.cpu_wait_s), limit.low_hz, limit.high_hz)
         if kind:
             require_steady(experiment.seen.stall_s)
-            raise kind(topic, limit.hz, limit.within, rate)
+            raise faults.WrongFeedbackRate(kind(topic, limit.hz, limit.within, rate))
 
     return demand
 

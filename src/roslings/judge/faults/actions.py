@@ -6,7 +6,11 @@ from dataclasses import dataclass
 
 from roslings.judge.faults.base import Fault
 from roslings.judge.faults.graph import guess
+from roslings.judge.faults.rhythm import WrongRate
 from roslings.near import Near
+
+NEARER_M = 0.05
+"""A rover that never came nearer by more than this drives away, or in circles."""
 
 # --- who performs what -------------------------------------------------------------------------
 
@@ -285,6 +289,36 @@ class NoFeedback(Fault):
 
 
 @dataclass(eq=False)
+class WrongFeedbackRate(Fault):
+    """Feedback comes too often, too seldom or in groups."""
+
+    rhythm: WrongRate
+    why = "Who waits for a robot wants to see that it gets on."
+
+    @property
+    def expected(self) -> str:
+        """The rate and its tolerance."""
+        return (
+            f"feedback at {self.rhythm.wanted_hz:g} Hz (within {self.rhythm.within:.0%}) while the"
+            " goal is under way"
+        )
+
+    @property
+    def measured(self) -> str:
+        """The rate, or the shape of the intervals."""
+        return self.rhythm.measured
+
+    @property
+    def hint(self) -> str:
+        """The length of a turn."""
+        period_s = 1 / self.rhythm.wanted_hz
+        return (
+            f"{self.rhythm.wanted_hz:g} Hz means one feedback every {period_s:g} s. Publish it in"
+            f" each turn of the loop, and let a turn take so long: time.sleep({period_s:g})."
+        )
+
+
+@dataclass(eq=False)
 class WrongFeedback(Fault):
     """The feedback says something else than what is."""
 
@@ -357,6 +391,11 @@ class NeverArrives(Fault):
             return (
                 "Does the loop publish a command on /cmd_vel in each turn? Look with"
                 " `ros2 topic echo /cmd_vel` while a goal is under way."
+            )
+        if self.nearest_m > self.began_m - NEARER_M:
+            return (
+                "It does not come nearer. The direction to the goal is atan2(goal.y - y, goal.x -"
+                " x), with x and y of the newest place. Watch it on the map of `./roslings rover`."
             )
         return (
             "Watch it on the map of `./roslings rover`. Does the loop use the newest place each"
