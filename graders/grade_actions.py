@@ -12,8 +12,8 @@ from roslings.experiment import Scene, experiment
 from roslings.experiment.acting import (
     Director,
     await_action,
-    await_turn,
     await_client,
+    await_turn,
     lead,
     taking,
     timed_feedback,
@@ -235,7 +235,7 @@ def test_action_type(driving: ExperimentView) -> None:
 @check(needs=["action_type"])
 def test_accepts(driving: ExperimentView) -> None:
     """It accepts a goal on the map."""
-    driving.must(accept(SERVER, "first", "on the map, with nothing to do"))
+    driving.must(accept(SERVER, "first", "when the rover has nothing to do"))
 
 
 @check(needs=["accepts"])

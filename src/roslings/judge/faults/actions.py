@@ -138,7 +138,7 @@ class RefusesGoodGoal(Fault):
     @property
     def expected(self) -> str:
         """That it is taken."""
-        return f"the goal {self.goal} is accepted, {self.when}"
+        return f"{self.when}, the goal {self.goal} is accepted"
 
     @property
     def measured(self) -> str:
@@ -340,15 +340,24 @@ class WrongFeedback(Fault):
     @property
     def hint(self) -> str:
         """Where it is set."""
+        way = " It is math.hypot(goal.x - x, goal.y - y)." if self.field_name == "distance" else ""
         return (
-            f"Look at `feedback.{self.field_name} = ...`. Is it set anew in each turn of the loop,"
-            " from the newest /odom message?"
+            f"Look at `feedback.{self.field_name} = ...`. Does it get the right value, from the"
+            f" newest /odom message?{way}"
         )
 
 
 @dataclass(eq=False)
 class FrozenFeedback(WrongFeedback):
     """The robot moves, and the feedback says always the same."""
+
+    @property
+    def hint(self) -> str:
+        """Where it is set."""
+        return (
+            f"Look at `feedback.{self.field_name} = ...`. Is it set anew in each turn of the loop,"
+            " from the newest /odom message?"
+        )
 
     @property
     def measured(self) -> str:
