@@ -204,7 +204,10 @@ class AcceptsImpossible(Fault):
                 " `if not (WEST <= goal.x <= EAST): return GoalResponse.REJECT`. Or use"
                 " math.isfinite(NUMBER)."
             )
-        return "Look at it in the goal callback, before GoalResponse.ACCEPT."
+        return (
+            "In the goal callback, compare each number of the goal with the card, before"
+            " GoalResponse.ACCEPT."
+        )
 
 
 # --- on the way --------------------------------------------------------------------------------
@@ -234,7 +237,7 @@ class BlocksTheNode(Fault):
         """That it does not."""
         return (
             f"while a goal was under way, none of them ran for {self.waited_s:.0f} s: the execute"
-            " function blocks the node"
+            " callback blocks the node"
         )
 
 
@@ -451,15 +454,13 @@ class KeepsDriving(Fault):
     @property
     def expected(self) -> str:
         """Standing still."""
-        return f"{self.when}, the rover is told to stand still"
+        return f"{self.when}, the last command is zero: stand still"
 
     @property
     def measured(self) -> str:
         """The last command."""
-        return (
-            f"the last command was {self.speed_m_s:.2f} m/s forward and {self.turn_rad_s:.2f}"
-            " rad/s of turn"
-        )
+        forward, turn = (round(speed, 2) + 0.0 for speed in (self.speed_m_s, self.turn_rad_s))
+        return f"the last command was {forward:.2f} m/s forward and {turn:.2f} rad/s of turn"
 
 
 @dataclass(eq=False)
