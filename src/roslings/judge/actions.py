@@ -311,7 +311,7 @@ def _slack_ns(experiment: ExperimentView) -> float:
 def _raise_no_end(experiment: ExperimentView, given: Trip) -> None:
     process = given.node
     if _returned_nothing(process):
-        raise faults.NoResult(log=process.last_lines(6))
+        raise faults.NoResult(log=process.last_lines())
     if process.seen.ended_by_itself:
         raise faults.EndedInsteadOfPerforming(given.words, 0.0, log=process.last_lines())
     way = given.way(given.goal.sent_ns, given.until_ns)
@@ -487,7 +487,9 @@ def keep_to_the_first(node: NodeContract, part: str) -> Demand[ExperimentView]:
         if not _is_there(first):
             require_steady(experiment.seen.stall_s)
             end = first.goal.status or "no end of it came"
-            raise faults.FirstGoalDisturbed(f"the rover did not get there; its state: {end}")
+            raise faults.FirstGoalDisturbed(
+                f"the rover did not get there; state of the first goal: {end}"
+            )
 
     return demand
 

@@ -431,7 +431,7 @@ class EndsTooFar(Fault):
     @property
     def expected(self) -> str:
         """Within the tolerance."""
-        return f"at its end the rover is within {self.tolerance_m:.2f} m of {self.goal}"
+        return f"when the goal ends, the rover is within {self.tolerance_m:.2f} m of {self.goal}"
 
     @property
     def measured(self) -> str:
@@ -691,7 +691,7 @@ class FirstGoalDisturbed(Fault):
     @property
     def expected(self) -> str:
         """That it goes on."""
-        return "the first goal goes on, and the rover gets there"
+        return "after another goal was refused, the first one goes on, and the rover gets there"
 
     @property
     def measured(self) -> str:
