@@ -61,8 +61,12 @@ class Director:
     _silent: bool = field(default=False, init=False)
 
     def __post_init__(self) -> None:
-        """Waits until the node's action is there."""
+        """Waits until the node's action is there, and the node has heard where the robot is.
+
+        A goal that comes before is rightly refused: on a busy computer, it may.
+        """
         await_action(self.scene)
+        await_turn(self.scene, self.process, self.node)
 
     @contextmanager
     def giving(self) -> Iterator[GoalGiver | None]:
@@ -196,7 +200,7 @@ def await_action(scene: Scene) -> None:
 
 
 def await_turn(scene: Scene, process: Process, node: NodeContract) -> None:
-    """Wait until the node has run a callback: it is complete, and spins.
+    """Wait until the node has run the callbacks of all that came: it is complete, and spins.
 
     The graph shows an action server before its constructor has ended. Ctrl-C at that moment, on
     a busy computer, ends a right node with an error: not in main(), but in its __init__.
