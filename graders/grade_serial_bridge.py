@@ -260,8 +260,8 @@ def test_reconnects(unplugged: ExperimentView) -> None:
         during("with no board at the start", come_up),
         during("when the cable is pulled and comes back", stay_up),
     )
-    unplugged.must(come_back("came late", "the start without a board"))
-    unplugged.must(come_back("came back", "the pulled cable"))
+    unplugged.must(come_back("came late", "a start without a board", WHEELS))
+    unplugged.must(come_back("came back", "a pulled cable", WHEELS))
 
 
 @check(needs=["cmd_topic", "checksums"])

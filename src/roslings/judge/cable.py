@@ -20,6 +20,9 @@ MOST_LINES_LOST = 0.15
 """Part of the board's lines that may be without a message: those that a busy node still works on
 when the watch ends. A node that leaves lines out, or doubles them, is off by more."""
 
+MOST_LINES_WAITING = 150
+"""A node that is slow to begin finds so many lines in the cable's buffer, of 4096 bytes."""
+
 SPEED_EXACT_RAD_S = 0.002
 PLACE_WITHIN_M = 0.05
 HEADING_WITHIN_RAD = math.radians(4)
@@ -51,9 +54,9 @@ def tell_every_line(experiment: ExperimentView) -> Demand[TopicView]:
     def demand(topic: TopicView) -> None:
         if len(topic.messages) < FEWEST:
             raise faults.NoMessages(topic.name, len(topic.messages), topic.experiment.watching_s)
-        lines = _lines_between(experiment, topic.messages)
-        published = _published(topic.messages)
-        if abs(lines - published) > max(FEWEST, MOST_LINES_LOST * lines):
+        waited, lines = _lines_before_and_between(experiment, topic.messages)
+        published, lost = _published(topic.messages), max(FEWEST, MOST_LINES_LOST * lines)
+        if not lines - lost <= published <= lines + lost + min(waited, MOST_LINES_WAITING):
             require_steady(topic.experiment.stall_s)
             raise cable_faults.LinesAndMessagesDiffer(topic.name, lines, published)
 
@@ -98,12 +101,12 @@ def outlast_silence(experiment: ExperimentView, part: str, silence_s: float) -> 
     return demand
 
 
-def come_back(part: str, after: str) -> Demand[ExperimentView]:
+def come_back(part: str, after: str, topic: TopicContract) -> Demand[ExperimentView]:
     """Messages come again; `part` is the mark that was set when they did."""
 
     def demand(experiment: ExperimentView) -> None:
         if not any(mark.part == part for mark in _board(experiment).marks):
-            raise cable_faults.SilentAfter(after, "the port")
+            raise cable_faults.SilentAfter(after, topic.topic)
 
     return demand
 
@@ -344,12 +347,14 @@ def _number(value: Any) -> float:
     return float(value)
 
 
-def _lines_between(experiment: ExperimentView, messages: Iterable[MessageSeen]) -> int:
-    """How many lines of speeds the board told while these messages came."""
+def _lines_before_and_between(
+    experiment: ExperimentView, messages: Iterable[MessageSeen]
+) -> tuple[int, int]:
+    """How many lines of speeds the board told before the first of these messages, and until now."""
     arrivals = [m.arrival_ns for m in messages]
     begin, end = min(arrivals), max(arrivals)
-    told = (line for line in _board(experiment).told if line.text.startswith("$W,"))
-    return sum(begin <= line.sent_ns <= end for line in told)
+    told = [line.sent_ns for line in _board(experiment).told if line.text.startswith("$W,")]
+    return sum(at < begin for at in told), sum(begin <= at <= end for at in told)
 
 
 def _published(messages: Sequence[MessageSeen]) -> int:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from roslings.judge.faults.base import Fault
@@ -124,7 +125,7 @@ class SilentAfter(Fault):
     """It lives, and nothing comes any more."""
 
     what: str
-    of: str
+    topic: str
     why = "Plugs come loose on a robot that drives. Nobody is there to start the node again."
     hint = (
         "When a read or a write raises an error, close the port, and try from a timer to open"
@@ -134,12 +135,12 @@ class SilentAfter(Fault):
     @property
     def expected(self) -> str:
         """Messages again."""
-        return f"after {self.what}, messages come again"
+        return f"after {self.what}, messages come on {self.topic}"
 
     @property
     def measured(self) -> str:
         """None did."""
-        return f"nothing more came from {self.of}"
+        return "none came"
 
 
 @dataclass(eq=False)
@@ -172,12 +173,17 @@ class WrongOdometry(Fault):
     @property
     def hint(self) -> str:
         """The likeliest cause."""
-        turn = self.really[2]
+        turn, length_m = self.really[2], math.hypot(*self.really[:2])
         told_x, told_y, told_turn = self.told
         if abs(told_turn + turn) < 0.2 * abs(turn):
             return "It turns the wrong way. Turn = (right - left) x radius / separation."
         if abs(told_turn - turn) > 0.05 * abs(turn) + 3:
             return "Turn = (right - left) x radius / separation, times the seconds since before."
+        if abs(math.hypot(told_x, told_y) - length_m) < 0.2 * length_m:
+            return (
+                "The length of the way is right, its direction is not. Add forward x seconds x"
+                " cos(heading) to x, and forward x seconds x sin(heading) to y."
+            )
         if abs(told_x) + abs(told_y) < 0.02:
             return "It stays at its start. Add forward x seconds x cos(heading) to x, sin to y."
         return (
@@ -189,9 +195,9 @@ class WrongOdometry(Fault):
 def _way(way: tuple[float, float, float]) -> str:
     ahead, left, turn = (round(part, 2) + 0.0 for part in way)
     side, way_round = ("right" if part < 0 else "left" for part in (left, turn))
-    return (
-        f"{ahead:.2f} m ahead, {abs(left):.2f} m {side}, turned {abs(turn):.0f} degrees {way_round}"
-    )
+    along = f"{abs(ahead):.2f} m {'back' if ahead < 0 else 'ahead'}, {abs(left):.2f} m {side}"
+    turned = f"turned {abs(turn):.0f} degrees {way_round}" if abs(turn) >= 1 else "not turned"
+    return f"{along}, {turned}"
 
 
 @dataclass(eq=False)
