@@ -159,7 +159,7 @@ def exit_cleanly(process: ProcessView) -> None:
         raise faults.NothingToJudge("it did not end after Ctrl-C")
     traces = _tracebacks(process.texts)
     if (seen.status != 0 or traces) and not _is_race_in_rclpy(seen.status, traces):
-        how = describe_status(seen.status) + (", with a traceback" if traces else "")
+        how = describe_end(seen) + (", with a traceback" if traces else "")
         raise faults.UncleanExit(seen.executable, how, log=process.last_lines())
 
 

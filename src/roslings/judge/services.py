@@ -288,7 +288,7 @@ def require_no_crash(process: ProcessView, task: str) -> None:
     seen = process.seen
     if seen.ended_by_itself and any(text.startswith("Traceback") for text in process.texts):
         raise EndedWithError(
-            seen.executable, task, describe_status(seen.status), log=process.last_lines()
+            seen.executable, task, describe_end(seen), log=process.last_lines()
         )
 
 
