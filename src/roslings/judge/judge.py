@@ -60,12 +60,17 @@ def run_checks(lab: Lab, evidence: Evidence) -> tuple[CheckResult, ...]:
         os.devnull,
         "--rootdir",
         str(lab.grader.parent),
+        f"--confcutdir={lab.grader.parent}",  # else pytest looks into every folder from / down
         "-o",
         "python_files=grade_*.py",
         "-p",
         "no:terminal",
         "-p",
         "no:cacheprovider",
+        "-p",
+        "no:unraisableexception",  # collects garbage ten times
+        "-p",
+        "no:threadexception",
         "-p",
         "no:xdist",
         "--noconftest",
