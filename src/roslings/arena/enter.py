@@ -20,8 +20,6 @@ import guardian  # type: ignore[import-not-found]
 import kernel  # type: ignore[import-not-found]
 
 REFUSED = 97
-BYTES_A_FILE = 16384
-"""On average; a file takes memory of the kernel even where it is empty."""
 MULTICAST_GROUP = "239.255.0.1"
 
 
@@ -29,10 +27,10 @@ def main(arguments: list[str]) -> None:
     """Enter, then try it or become the command."""
     try:
         if arguments[0] == "--room":
-            enter_with_room(arguments[1], int(arguments[2]))
+            kernel.enter_with_room(arguments[1], int(arguments[2]))
             arguments = arguments[3:]
         else:
-            enter()
+            kernel.enter()
         if arguments == ["--try"]:
             try_namespaces()
             print("ok")
@@ -41,22 +39,6 @@ def main(arguments: list[str]) -> None:
         print(error.strerror or error, file=sys.stderr)
         sys.exit(REFUSED)
     os.execvp(arguments[0], arguments)
-
-
-def enter_with_room(folder: str, most_bytes: int) -> None:
-    """Besides: a mount namespace, with a room for what strangers build. Raises OSError."""
-    enter(kernel.CLONE_NEWNS)
-    kernel.keep_mounts_private()
-    kernel.mount_terminals()
-    kernel.mount_room(folder, most_bytes, most_bytes // BYTES_A_FILE)
-
-
-def enter(besides: int = 0) -> None:
-    """Take a user and a network namespace of one's own, and `besides`. Raises OSError."""
-    uid, gid = os.getuid(), os.getgid()
-    kernel.unshare(kernel.CLONE_NEWUSER | kernel.CLONE_NEWNET | besides)
-    kernel.map_identity(uid, gid)
-    kernel.raise_loopback()
 
 
 def try_namespaces() -> None:

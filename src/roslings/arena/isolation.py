@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from roslings.arena import cgroup
+from roslings.arena import cgroup, kernel
 from roslings.arena.bounds import MB, kernel_counts_by_namespace
 from roslings.arena.environment import HERE, Wall
 from roslings.arena.sandbox import Sandbox
@@ -61,6 +61,18 @@ class Isolation:
             return list(inner)
         roomy = ["--room", str(room), str(ROOM_BYTES)] if self.sandbox and room else []
         return [*BARE, str(ENTER), *roomy, *inner]
+
+    def enter(self, room: Path) -> None:
+        """Go behind this wall with this process, as `command` does. Raises OSError.
+
+        It must have one thread only: a fork has, whatever its parent has.
+        """
+        if self.wall == "domain":
+            return
+        if self.sandbox:
+            kernel.enter_with_room(str(room), ROOM_BYTES)
+        else:
+            kernel.enter()
 
 
 def choose_isolation() -> Isolation:

@@ -18,6 +18,9 @@ CLONE_NEWUSER = 0x10000000
 CLONE_NEWPID = 0x20000000
 CLONE_NEWNET = 0x40000000
 
+BYTES_A_FILE = 16384
+"""On average; a file takes memory of the kernel even where it is empty."""
+
 _PR_SET_PDEATHSIG = 1
 _PR_SET_DUMPABLE = 4
 _PR_SET_CHILD_SUBREAPER = 36
@@ -57,6 +60,25 @@ def _call(name: str, *arguments: object) -> None:
     if getattr(_libc, name)(*arguments) == -1:
         code = ctypes.get_errno()
         raise OSError(code, f"{name}: {os.strerror(code)}")
+
+
+def enter(besides: int = 0) -> None:
+    """Take a user and a network namespace of one's own, and `besides`. Raises OSError.
+
+    A process with threads may not.
+    """
+    uid, gid = os.getuid(), os.getgid()
+    unshare(CLONE_NEWUSER | CLONE_NEWNET | besides)
+    map_identity(uid, gid)
+    raise_loopback()
+
+
+def enter_with_room(folder: str, most_bytes: int) -> None:
+    """Besides: a mount namespace, with a room for what strangers build. Raises OSError."""
+    enter(CLONE_NEWNS)
+    keep_mounts_private()
+    mount_terminals()
+    mount_room(folder, most_bytes, most_bytes // BYTES_A_FILE)
 
 
 def unshare(flags: int) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import select
 import shutil
 import subprocess
@@ -17,6 +18,8 @@ from typing import Any
 from roslings.batch.result import Order, Result, broken
 
 ENDS_WITHIN_S = 10.0
+NO_THREADS = {"OPENBLAS_NUM_THREADS": "1"}
+"""What is forked must have no threads; numpy, which some messages need, would start some."""
 GRADING = "roslings.batch.grading:main"
 
 
@@ -145,7 +148,7 @@ def crew(lock: Path, limits: Limits, life: str = GRADING) -> Iterator[Crew]:
     words = [str(lock), str(limits.ending_s)]
     with subprocess.Popen(
         [*command, *words], stdin=subprocess.PIPE, stdout=subprocess.PIPE, start_new_session=True,
-        cwd=lock.parent,
+        cwd=lock.parent, env={**os.environ, **NO_THREADS},
     ) as nursery:  # fmt: skip
         made = Crew(nursery, limits)
         try:

@@ -21,6 +21,7 @@ from roslings.batch.trouble import Refused
 from roslings.course import Lab
 from roslings.evidence import Evidence
 from roslings.experiment import Choices, MeasuringFailed, measure
+from roslings.experiment.forked import Fork
 from roslings.judge import judge
 from roslings.report.html.intervals import watched
 from roslings.report.whole_file import write_whole
@@ -98,7 +99,9 @@ def _measured(order: Order, lab: Lab) -> Measured:
     began_s = time.monotonic()
     package = package_in(order.path, lab.card.package, order.room)
     files = inspect_package(package, lab.card)
-    choices = Choices(order.seed, order.clock, hidden=order.hidden, builds=order.builds)
+    choices = Choices(
+        order.seed, order.clock, hidden=order.hidden, builds=order.builds, begin=Fork
+    )  # fmt: skip
     evidence = measure(lab.name, package, files, choices, _silent)
     verdict = judge(lab, evidence, time.monotonic() - began_s)
     return Measured(verdict, evidence, _fingerprint(package))

@@ -13,7 +13,6 @@ command ended, all processes are ended, with PATIENCE seconds to do it in order.
 
 from __future__ import annotations
 
-import gc
 import json
 import os
 import select
@@ -22,6 +21,7 @@ import socket
 import sys
 import time
 import traceback
+import warnings
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from importlib import import_module
@@ -31,6 +31,7 @@ import pytest
 
 from roslings.arena import kernel
 from roslings.batch.result import Order
+from roslings.experiment.forked import load_beforehand
 from roslings.experiment.run_folder import is_abandoned
 
 Life = Callable[[Order], None]
@@ -79,6 +80,7 @@ class Nursery:
             os.kill(int(words["pid"]), signal.Signals[words["signal"]])
 
     def _start(self, order: Order) -> None:
+        load_beforehand(order.lab, order.hidden)
         pid = os.fork()
         if pid == 0:
             self._live(order)
@@ -151,11 +153,12 @@ def _tell(event: dict[str, int]) -> None:
 def main(life: str, lock: str, patience_s: str) -> None:
     """Import what every process needs, and begin."""
     kernel.adopt_orphans()
+    # Tracing in ROS's libraries has threads that only wait. No fork has them, or needs them.
+    warnings.filterwarnings("ignore", "This process .* is multi-threaded", DeprecationWarning)
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGPIPE):
         signal.signal(number, signal.SIG_IGN)
     module, _, name = life.partition(":")
     function = getattr(import_module(module), name)
-    gc.freeze()  # what is shared stays shared
     Nursery(function, Path(lock), float(patience_s)).run()
 
 

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import shutil
 import subprocess
-import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from roslings.arena import choose_isolation
+from roslings.arena import Isolation, choose_isolation
 from roslings.evidence import Evidence, PackageSeen
 from roslings.experiment.assignment import Assignment
+from roslings.experiment.begin import Begin, Begun, in_a_fresh_python
 from roslings.experiment.declare import Clock
 from roslings.experiment.run_folder import run_folder
 from roslings.workspace.student import stage
@@ -46,6 +46,8 @@ class Choices:
     """A grader's file that students do not have."""
     builds: Path | None = None
     """A folder in which packages of equal content share one build."""
+    begin: Begin = in_a_fresh_python
+    """How the measuring process begins."""
 
 
 def measure(
@@ -65,9 +67,7 @@ def measure(
         )  # fmt: skip
         assignment.make_folders()
         stage(package, folder / "src" / seen.name)
-        assignment.file.write_text(assignment.model_dump_json(), "utf-8")
-        module = [sys.executable, "-m", "roslings.experiment.measuring", str(assignment.file)]
-        _follow(wall.command(module, assignment.room), folder, on_step)
+        _follow(choices.begin, assignment, wall, on_step)
         evidence = Evidence.model_validate_json(assignment.evidence.read_text("utf-8"))
         if choices.bags is not None and assignment.bags.is_dir():
             shutil.copytree(assignment.bags, choices.bags)
@@ -76,13 +76,13 @@ def measure(
     return evidence
 
 
-def _follow(command: list[str], folder: Path, on_step: Callable[[str], None]) -> None:
-    """Run the measuring process to its end, in the run's folder. Raises MeasuringFailed, DiskFull.
-
-    Not in the student's folder: a file `random.py` there would be imported in Python's place.
-    """
+def _follow(
+    begin: Begin, order: Assignment, walls: Isolation, on_step: Callable[[str], None]
+) -> None:
+    """Follow the measuring process to its end. Raises MeasuringFailed, DiskFull."""
+    folder = order.folder
     errors = folder / "stderr"
-    with errors.open("wb") as stderr, _started(command, folder, stderr.fileno()) as process:
+    with errors.open("wb") as stderr, _ended(begin(order, walls, stderr.fileno())) as process:
         assert process.stdout is not None
         for line in process.stdout:
             on_step(line.rstrip())
@@ -95,31 +95,17 @@ def _follow(command: list[str], folder: Path, on_step: Callable[[str], None]) ->
 
 
 @contextmanager
-def _started(command: list[str], folder: Path, stderr: int) -> Iterator[subprocess.Popen[str]]:
-    """A process that ends with the block, after it has ended all that it started.
-
-    It has a session of its own: Ctrl-C in the terminal reaches the command alone, which then
-    asks the process to end in order.
-    """
-    with subprocess.Popen(
-        command,
-        cwd=folder,
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=stderr,
-        text=True,
-        start_new_session=True,
-    ) as process:
-        try:
-            yield process
-        finally:
-            _end(process)
-
-
-def _end(process: subprocess.Popen[str]) -> None:
-    if process.poll() is None:
-        process.terminate()
-        try:
-            process.wait(ENDS_WITHIN_S)
-        except subprocess.TimeoutExpired:
-            process.kill()
+def _ended(process: Begun) -> Iterator[Begun]:
+    """A process that ends with the block, after it has ended all that it started."""
+    try:
+        yield process
+    finally:
+        if process.poll() is None:
+            process.terminate()
+            try:
+                process.wait(ENDS_WITHIN_S)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.wait()
+        if process.stdout is not None:
+            process.stdout.close()
