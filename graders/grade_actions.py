@@ -13,7 +13,6 @@ from roslings.experiment.acting import (
     Director,
     await_action,
     await_client,
-    await_turn,
     lead,
     taking,
     timed_feedback,
@@ -135,9 +134,8 @@ def refusing(scene: Scene, driving: ExperimentSeen) -> None:
 @experiment
 def resting(scene: Scene) -> None:
     """The server with nothing to do, until Ctrl-C."""
-    with scene.run(SERVER) as process:
+    with scene.run(SERVER):
         await_action(scene)
-        await_turn(scene, process, SERVER)
 
 
 # --- experiments: the client, with a server ----------------------------------------------------
