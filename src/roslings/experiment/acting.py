@@ -202,8 +202,8 @@ def await_action(scene: Scene) -> None:
 def await_turn(scene: Scene, process: Process, node: NodeContract) -> None:
     """Wait until the node has run the callbacks of all that came: it is complete, and spins.
 
-    The graph shows an action server before its constructor has ended. Ctrl-C at that moment, on
-    a busy computer, ends a right node with an error: not in main(), but in its __init__.
+    The graph shows an action server before its constructor has ended, and long before it has heard
+    where the robot is.
     """
     near = nearest(node.node, scene.seen.graph.nodes)
     if near and process.alive:
