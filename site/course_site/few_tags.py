@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from functools import lru_cache
+from functools import cache
 from typing import Any
 
 from pygments.formatters import HtmlFormatter
@@ -32,9 +32,7 @@ class FewTags(HtmlFormatter[str]):
 
     styles: tuple[type[Style], ...] = ()
 
-    def format_unencoded(
-        self, tokensource: Iterable[tuple[_TokenType, str]], outfile: Any
-    ) -> None:
+    def format_unencoded(self, tokensource: Iterable[tuple[_TokenType, str]], outfile: Any) -> None:
         """Called by Pygments."""
         super().format_unencoded(self._plainer(tokensource), outfile)
 
@@ -45,7 +43,7 @@ class FewTags(HtmlFormatter[str]):
             yield plainest(kind, self.styles), text
 
 
-@lru_cache(maxsize=None)
+@cache
 def plainest(kind: _TokenType, styles: tuple[type[Style], ...]) -> _TokenType:
     """The most general kind of token that looks like this one; plain text, where it does.
 

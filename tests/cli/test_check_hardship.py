@@ -281,7 +281,7 @@ def test_a_full_disk_is_said(package: Path, tmp_path: Path) -> None:
     """A temporary folder without room: the machine's fault, so no verdict."""
     small = tmp_path / "small"
     small.mkdir()
-    mount = f'mount -t tmpfs -o size=200k none {small} && exec "$@"'
+    mount = f'mount -t tmpfs -o size=40k none {small} && exec "$@"'
     inside = ["unshare", "--user", "--map-root-user", "--mount", "sh", "-c", mount, "sh"]
     if subprocess.run([*inside, "true"], capture_output=True, check=False).returncode:
         pytest.skip("this machine refuses to mount a small disk")

@@ -303,7 +303,7 @@ def test_ctrl_c_leaves_no_half_folder(tmp_path: Path) -> None:
         [*words, "--evidence", str(tmp_path / "kept")], cwd=tmp_path, env=surroundings(tmp_path),
         text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True,
     )  # fmt: skip
-    wait_until(lambda: any(tmp_path.glob("tmp/roslings-*/build")))
+    wait_until(lambda: any(tmp_path.glob("tmp/roslings-*/assignment.json")))
     os.killpg(running.pid, signal.SIGINT)
     _, errors = running.communicate()
     assert running.returncode == 130, errors

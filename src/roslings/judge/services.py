@@ -287,9 +287,7 @@ def require_no_crash(process: ProcessView, task: str) -> None:
     """Raises EndedWithError where it ended with a traceback and not with its `task` done."""
     seen = process.seen
     if seen.ended_by_itself and any(text.startswith("Traceback") for text in process.texts):
-        raise EndedWithError(
-            seen.executable, task, describe_end(seen), log=process.last_lines()
-        )
+        raise EndedWithError(seen.executable, task, describe_end(seen), log=process.last_lines())
 
 
 def _how_it_went(seen: ProcessSeen) -> str:
