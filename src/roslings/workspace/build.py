@@ -93,7 +93,9 @@ def _last_words(room: BuildRoom, process: Process) -> list[str]:
     lines = [line.text for line in process.seen.lines]
     if complaint := read_foreign(room.complaint):
         lines = complaint.decode("utf-8", errors="replace").splitlines() or lines
-    if not process.seen.ended_by_itself:
+    if met := process.seen.bounds_met:
+        lines.append(f"The build was ended: it took more than it may ({', '.join(met)}).")
+    elif not process.seen.ended_by_itself:
         lines.append(f"The build did not end within {BUILD_BOUND_S:g} s.")
     return lines[-LAST_LINES:]
 
