@@ -261,7 +261,7 @@ def test_reconnects(unplugged: ExperimentView) -> None:
         during("when the cable is pulled and comes back", stay_up),
     )
     unplugged.must(come_back("came late", "a start without a board", WHEELS))
-    unplugged.must(come_back("came back", "a pulled cable", WHEELS))
+    unplugged.must(come_back("came back", "the cable was pulled and put back", WHEELS))
 
 
 @check(needs=["cmd_topic", "checksums"])

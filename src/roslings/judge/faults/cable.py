@@ -209,8 +209,8 @@ class WrongDrive(Fault):
     got: tuple[int, int]
     why = "The robot must do what it is told: this fast, and this way round."
     hint = (
-        "Left wheel = (forward - turn x separation / 2) / radius, right wheel with +."
-        " PWM = wheel speed / max_wheel_speed x 255, rounded."
+        "Left wheel = (forward - turn x separation / 2) / radius; the right wheel has + in place"
+        " of -. PWM = wheel speed / max_wheel_speed x 255, rounded."
     )
 
     @property
