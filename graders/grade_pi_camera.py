@@ -294,7 +294,7 @@ def test_brightness(lighting: ExperimentView) -> None:
 @check(needs=["camera_topic"])
 def test_no_camera(unplugged: ExperimentView) -> None:
     """Without a camera the node says why, and goes on when there is one."""
-    unplugged.process(CAMERA).must(during("without a camera", come_up))
+    unplugged.process(CAMERA).must(during("when no camera is there", come_up))
     unplugged.must(
         tell_of_trouble(CAMERA, "missing", "no camera at the start", MISSING),
         tell_of_trouble(CAMERA, "forbidden", "a camera that you may not use", FORBIDDEN),

@@ -28,12 +28,12 @@ class NotThisQos(Fault):
     @property
     def expected(self) -> str:
         """The asked one."""
-        return f"{self.topic} is published {self.wanted}"
+        return f"{self.topic} is published as {self.wanted}"
 
     @property
     def measured(self) -> str:
         """The one that is there."""
-        return f"it is published {self.found}"
+        return f"it is published as {self.found}"
 
 
 @dataclass(eq=False)

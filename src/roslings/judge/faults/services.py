@@ -330,10 +330,14 @@ class ClientStays(Fault):
     waited_s: float
     when: str = field(default="after the answer", kw_only=True)
     why = "This client has one task. When it is done, the terminal belongs to you again."
-    hint = (
-        "rclpy.spin(node) never ends by itself. Use rclpy.spin_until_future_complete(node,"
-        " future), and let main() come to its end."
-    )
+
+    @property
+    def hint(self) -> str:
+        """The call that ends."""
+        return (
+            "rclpy.spin(node) never ends by itself. Use rclpy.spin_until_future_complete(node,"
+            " future), and let main() come to its end."
+        )
 
     @property
     def expected(self) -> str:
