@@ -131,6 +131,10 @@ class OneSheet:
 
     names: dict[str, None] = field(default_factory=dict)
 
+    def forget(self, app: Sphinx) -> None:
+        """Take the last build's sheet away: else pages would ask for it by its old checksum."""
+        Path(app.outdir, "_static", SHEET).unlink(missing_ok=True)
+
     def ask_for_one(
         self, app: Sphinx, page: str, template: str, context: dict[str, Any], doctree: Any
     ) -> None:
@@ -156,5 +160,6 @@ def setup(app: Sphinx) -> None:
     """Called by Sphinx."""
     sheet = OneSheet()
     app.add_css_file(SHEET, priority=900)
+    app.connect("builder-inited", sheet.forget)
     app.connect("html-page-context", sheet.ask_for_one, priority=950)  # after the theme looked
     app.connect("build-finished", sheet.write, priority=900)  # after the theme wrote its colours

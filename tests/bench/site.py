@@ -2,8 +2,9 @@
 
     python tests/bench/site.py
 
-It builds the course with the two small days of the tests, and asserts nothing. It needs Chromium
-(`sudo apt install chromium`). Measure on an idle machine.
+It builds the course with all its days, runs their notebooks, and asserts nothing: some minutes. It
+needs Chromium (`sudo apt install chromium`) and the message types of the lab actions
+(`./roslings start actions`). Measure on an idle machine.
 """
 
 from __future__ import annotations
@@ -22,15 +23,15 @@ from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import sync_playwright
 
 ROOT = Path(__file__).resolve().parents[2]
-LESSON = "days/01-install/index.html"
+LESSONS = "days/*/index.html"
 LOADED = re.compile(r'(?:src|href)="([^"?]+\.(?:js|css))')
+PICTURE = re.compile(rb'data:image/[^"]+|<svg.*?</svg>', re.DOTALL)
 
 
 def write_course(folder: Path) -> None:
-    """The course's words and labs, with the days of the tests where none is written."""
+    """What the site is made of, in a folder without an earlier build."""
     for name in ("glossary", "labs", "graders", "days"):
         shutil.copytree(ROOT / name, folder / name)
-    shutil.copytree(ROOT / "tests" / "site" / "two_days", folder / "days", dirs_exist_ok=True)
 
 
 def build(course: Path) -> float:
@@ -45,11 +46,24 @@ def build(course: Path) -> float:
     return time.monotonic() - start
 
 
-def weight(page: Path) -> int:
-    """Bytes of a page with all scripts and styles, without pictures and compression."""
+def weight(page: Path) -> tuple[int, int, int]:
+    """Bytes of a page without its pictures, of its styles, and of its scripts; not compressed."""
     names = LOADED.findall(page.read_text("utf-8"))
-    files = {page, *((page.parent / name).resolve() for name in names)}
-    return sum(file.stat().st_size for file in files)
+    files = {(page.parent / name).resolve() for name in names}
+    styles = sum(file.stat().st_size for file in files if file.suffix == ".css")
+    scripts = sum(file.stat().st_size for file in files if file.suffix == ".js")
+    return len(PICTURE.sub(b"", page.read_bytes())), styles, scripts
+
+
+def weigh(site: Path) -> None:
+    """Print what the page of each day weighs."""
+    for page in sorted(site.glob(LESSONS)):
+        parts = [part / 1000 for part in weight(page)]
+        own, styles, scripts = parts
+        print(
+            f"{page.parent.name:16} {sum(parts):4.0f} KB without pictures:"
+            f" page {own:.0f}, styles {styles:.0f}, scripts {scripts:.0f}"
+        )
 
 
 def visit(browser: Any, site: Path, width: int, scheme: str) -> None:
@@ -79,7 +93,7 @@ def main() -> None:
         print(f"build, cold    {build(course):6.1f} s")
         print(f"build, cached  {build(course):6.1f} s")
         site = course / "out" / "html"
-        print(f"a lesson weighs {weight(site / LESSON) / 1000:.0f} KB without pictures")
+        weigh(site)
         with sync_playwright() as driver:
             browser = driver.chromium.launch(
                 executable_path=shutil.which("chromium"), args=["--no-sandbox"]

@@ -32,7 +32,8 @@ def days_of(copies: Copies) -> tuple[Day, ...]:
 
 
 def test_the_first_time_all_is_copied(copies: Copies) -> None:
-    """Lesson, pictures, and a list of the days, those to come too."""
+    """Lesson, pictures, pages, and a list of them and of the days, those to come too."""
+    (copies.course / "days" / DAY / "first-look.md").write_text("# The first look\n\nLook.\n")
     assert copies.copy_all(days_of(copies)) == []
     own = copies.folder / DAY / "lesson.ipynb"
     assert own.read_bytes() == (copies.course / "days" / DAY / "lesson.ipynb").read_bytes()
@@ -40,6 +41,8 @@ def test_the_first_time_all_is_copied(copies: Copies) -> None:
     listed = (copies.folder / "Days.md").read_text("utf-8")
     assert "[Day 1: A lamp](01-lamp/lesson.ipynb)" in listed
     assert "Day 2: A motor (to come)" in listed
+    assert "Begin with [The first look](01-lamp/first-look.md)." in listed
+    assert (copies.folder / DAY / "first-look.md").is_file()
 
 
 def test_work_is_never_overwritten(copies: Copies) -> None:

@@ -75,12 +75,19 @@ class Copies:
         pictures = self.course / "days" / day.id / PICTURES
         if pictures.is_dir():
             shutil.copytree(pictures, self.folder / day.id / PICTURES, dirs_exist_ok=True)
-        for page in pictures.parent.glob("*.md"):  # the lesson links to it
+        for page in self._pages_of(day):  # the lesson links to them
             shutil.copy(page, self.folder / day.id)
 
+    def _pages_of(self, day: Day) -> list[Path]:
+        """What lies beside a lesson, to be read."""
+        return sorted(self.lesson_of(day).parent.glob("*.md"))
+
     def _list(self, days: tuple[Day, ...]) -> Iterator[str]:
+        pages = [page for day in days[:1] for page in self._pages_of(day)]
         yield from (
             "# The days of roslings",
+            "",
+            *(f"Begin with [{_title_of(page)}]({page.parent.name}/{page.name})." for page in pages),
             "",
             "| Day | You can | Hours |",
             "| --- | --- | --- |",
@@ -90,6 +97,11 @@ class Copies:
             name = f"[{day.name}]({day.id}/{LESSON})" if there else f"{day.name} (to come)"
             yield f"| {name} | {day.can} | {day.hours:g} |"
         yield from ("", "These are your own copies: change what you like.", "")
+
+
+def _title_of(page: Path) -> str:
+    lines = page.read_text("utf-8").splitlines() or [page.stem]
+    return lines[0].removeprefix("# ")
 
 
 def _copy_file(source: Path, target: Path) -> None:

@@ -7,8 +7,9 @@ import textwrap
 from collections.abc import Iterator
 from string import ascii_lowercase
 
-from roslings.lessons import One, Order, Prints, Question, Quiz, Several
+from roslings.lessons import Choice, One, Order, Prints, Question, Quiz, Several
 from roslings.lessons.glossary import LINK
+from roslings.lessons.quiz import OrderedStep
 
 WIDTH = 80
 
@@ -27,6 +28,11 @@ def as_text(quiz: Quiz) -> str:
 def without_links(text: str) -> str:
     """A text in which words are words, and no links."""
     return LINK.sub(r"\1", text)
+
+
+def explained(part: Choice | OrderedStep) -> str:
+    """A choice or a step with its reason, as one sentence."""
+    return f"{part.text.removesuffix('.')}: {part.why}"
 
 
 def shuffled(question: Order) -> list[str]:
@@ -63,7 +69,7 @@ def _answered(number: int, question: Question) -> Iterator[str]:
     elif isinstance(question, Order):
         yield f"{number}. In this order:"
         for place, step in enumerate(question.steps, 1):
-            yield from _filled(f"   {place}) {step.text}: {step.why}", "      ")
+            yield from _filled(f"   {place}) {explained(step)}", "      ")
     elif isinstance(question, Prints):
         yield from _filled(f"{number}. It prints {question.prints}: {question.why}", "   ")
 

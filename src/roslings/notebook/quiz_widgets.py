@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from roslings.lessons import One, Order, Prints, Question, Quiz, Several
-from roslings.notebook.quiz_text import as_text, shuffled, without_links
+from roslings.notebook.quiz_text import as_text, explained, shuffled, without_links
 
 WIDE = {"width": "auto", "max_width": "46em"}
 APART = {"margin": "0 0 1.4em 0"}
@@ -108,7 +108,7 @@ def _several(question: Several) -> tuple[list[Any], Answer]:
     def answer() -> tuple[bool, Sequence[str]]:
         pairs = list(zip(boxes, question.choices, strict=True))
         right = all(box.value == choice.right for box, choice in pairs)
-        told = [f"{choice.text}: {choice.why}" for box, choice in pairs if box.value]
+        told = [explained(choice) for box, choice in pairs if box.value]
         missing = any(choice.right and not box.value for box, choice in pairs)
         return right, [*told, *(["Something that is right is not chosen yet."] * missing)]
 
@@ -129,8 +129,8 @@ def _order(question: Order) -> tuple[list[Any], Answer]:
             return False, ["Choose a step at each place first."]
         wrong = [s for f, s in zip(lists, question.steps, strict=True) if f.value != _plain(s.text)]
         if wrong:
-            return False, [f"Look again at this step. {wrong[0].text}: {wrong[0].why}"]
-        return True, [f"{step.text}: {step.why}" for step in question.steps]
+            return False, [f"Look again at this step. {explained(wrong[0])}"]
+        return True, [explained(step) for step in question.steps]
 
     return list(lists), answer
 
