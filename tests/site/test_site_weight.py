@@ -38,7 +38,8 @@ def test_a_page_looks_as_with_all_rules(
     whole = [next((site / "_static").glob(sheet)) for sheet in (*SHEETS, OURS)]
     page.evaluate(SWAP, [file.as_uri() for file in whole])
     page.evaluate("document.head.append(document.querySelector('head > style'))")  # it stood below
-    assert [pair for pair in zip(few, page.evaluate(LOOKS), strict=True) if pair[0] != pair[1]] == []
+    looks = zip(few, page.evaluate(LOOKS), strict=True)
+    assert [pair for pair in looks if pair[0] != pair[1]] == []
     context.close()
 
 

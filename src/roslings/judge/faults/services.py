@@ -380,7 +380,7 @@ class NeverGivesUp(ClientStays):
     why = "A program that waits for ever looks like one that works. Say what is missing, and end."
 
     @property
-    def hint(self) -> str:  # type: ignore[override]  # another class's is a text; read in one way
+    def hint(self) -> str:
         """The wait that has an end."""
         return (
             f"Give a time to the wait: client.{self.wait}(timeout_sec=2.0). When no server came, it"
