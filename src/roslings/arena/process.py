@@ -8,7 +8,7 @@ import subprocess
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import TracebackType
@@ -201,7 +201,8 @@ class Process:
 
     def _read(self) -> None:
         """In a thread: take the guardian's events until it ends."""
-        with self._channel.makefile("rb") as events:
+        # A guardian that never stood up leaves its order unread: the connection is reset.
+        with suppress(ConnectionResetError), self._channel.makefile("rb") as events:
             for line in events:
                 with self._changed:
                     self._take(json.loads(line))

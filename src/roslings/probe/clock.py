@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from roslings.evidence import Tick
+from roslings.probe.events import no_mouth_events
 
 TRIPS = 2
 """After one round trip the node has taken the tick; after two it has run what became due.
@@ -74,7 +75,9 @@ class SimClock:
         self._message = Clock
         # As a simulator has it (rclpy's own time source asks for best effort, depth 1).
         quality = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
-        self._publisher = eye.create_publisher(Clock, "/clock", quality)
+        self._publisher = eye.create_publisher(
+            Clock, "/clock", quality, event_callbacks=no_mouth_events()
+        )
 
     @property
     def listeners(self) -> int:

@@ -22,6 +22,7 @@ from roslings.near import own_endpoints
 from roslings.probe import canary
 from roslings.probe.clock import Barrier, SimClock
 from roslings.probe.content import from_plain
+from roslings.probe.events import no_ear_events, no_mouth_events
 from roslings.probe.graph import read_graph
 from roslings.probe.recorder import Allowance, Read, Recorder, can_record
 from roslings.rates import place_on_ticks
@@ -65,12 +66,14 @@ class Probe:
         import rclpy
         from rclpy.executors import SingleThreadedExecutor
         from rclpy.node import Node
+        from rclpy.parameter import Parameter
 
         self._context = rclpy.Context()
         rclpy.init(context=self._context, domain_id=self._domain_id, signal_handler_options=None)
         self._eye = Node(
-            NAME, context=self._context, enable_rosout=False, start_parameter_services=False
-        )
+            NAME, context=self._context, enable_rosout=False, start_parameter_services=False,
+            parameter_overrides=[Parameter("start_type_description_service", value=False)],
+        )  # fmt: skip
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self._eye)
         self._hear_logs()
@@ -237,8 +240,9 @@ class Probe:
             from roslings.probe.content import message_class
 
             self._publishers[ear.gid] = self._eye.create_publisher(
-                message_class(ear.type), ear.topic, offering(ear.qos)
-            )
+                message_class(ear.type), ear.topic, offering(ear.qos),
+                event_callbacks=no_mouth_events(),
+            )  # fmt: skip
         return self._publishers[ear.gid]
 
     def _record(self, endpoint: Endpoint) -> None:
@@ -253,7 +257,9 @@ class Probe:
         from rclpy.qos import DurabilityPolicy, QoSProfile
 
         kept = QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-        self._eye.create_subscription(Log, "/rosout", self._take_log, kept)
+        self._eye.create_subscription(
+            Log, "/rosout", self._take_log, kept, event_callbacks=no_ear_events()
+        )
 
     def _take_log(self, log: Any) -> None:
         lines = self.seen.rosout.setdefault(log.name, [])

@@ -8,6 +8,7 @@ from typing import Any
 
 from roslings.evidence import Endpoint, MessageSeen, TopicSeen
 from roslings.probe.content import UnknownType, message_class, to_plain
+from roslings.probe.events import no_ear_events
 
 QUEUE_DEPTH = 5000
 """A raw observer with this depth missed none of 6,000 messages at 1 kHz."""
@@ -57,8 +58,9 @@ class Recorder:
         self._readers = {} if readers is None else readers
         self._raw: list[bytes] = []
         self._subscription = eye.create_subscription(
-            self._class, endpoint.topic, self._take, _matching_qos(endpoint), raw=True
-        )
+            self._class, endpoint.topic, self._take, _matching_qos(endpoint), raw=True,
+            event_callbacks=no_ear_events(),
+        )  # fmt: skip
 
     def _take(self, raw: bytes, info: Any) -> None:
         arrival_ns = _arrival_ns(info)
