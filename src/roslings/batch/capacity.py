@@ -1,7 +1,8 @@
 """How many gradings at once: measured, because most of a grading is waiting.
 
-It begins with one for each core. While the processors have time to spare and there is memory for
-one more, one more is let in; when nothing is left to spare, one fewer.
+It begins with three for two cores: a grading keeps two thirds of a core busy. While the processors
+have time to spare and there is memory for one more, one more is let in; when nothing is left to
+spare, one fewer, down to one for each core.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-SPARE, BUSY = 0.25, 0.05
+SPARE, BUSY = 0.1, 0.02
 """Idle part of the processors above which one more is let in, and below which one fewer."""
 LOOK_EVERY_S = 3.0
 MOST_PER_CORE = 4
@@ -64,7 +65,7 @@ class Capacity:
     _last: Look | None = None
 
     def __post_init__(self) -> None:
-        self.allowed = self.fixed or self.cores
+        self.allowed = self.fixed or self.cores + self.cores // 2
 
     def now(self, working: int) -> int:
         """How many may work now, of whom `working` do already; at least one."""
