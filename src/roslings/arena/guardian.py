@@ -60,7 +60,7 @@ class Order:
         limits: dict[str, int],
         watch: dict[str, int],
     ) -> None:
-        """`watch`: the most of `memory`, in bytes, and of `pids`, threads too."""
+        """`watch`: the most of `memory`, in bytes, of `pids`, threads too, and of `files`."""
         self.command, self.environment = command, environment
         self.folder, self.walls = folder, walls
         self.head_bytes, self.tail_bytes = head_bytes, tail_bytes
