@@ -280,7 +280,7 @@ def _command(line: CableLine) -> Drive | None:
 def _why_rejected(text: str) -> str:
     if not text.startswith("$"):
         return "it does not begin with $"
-    if "$" in text[1:]:
+    if "$" in text.lstrip("$"):
         return "no new line (\\n) ends the first command"
     try:
         Drive.read(unframed(text[1:].encode("latin-1")))

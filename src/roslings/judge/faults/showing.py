@@ -136,6 +136,11 @@ class HueIgnored(FoundTheDecoy):
     )
 
     @property
+    def expected(self) -> str:
+        """Where the ball of the new colour is."""
+        return f"after ball_hue was set, {super().expected}"
+
+    @property
     def measured(self) -> str:
         """What it found."""
         return f"{self._place}: the ball of the colour before"
@@ -150,7 +155,7 @@ class NotFound(Fault):
     why = "A ball that is not seen is a ball that is run over."
     hint = (
         "Save the mask of this picture (cv2.imwrite) and look at it. Is the ball white in it?"
-        " If not: which limit is too narrow, hue, saturation or value?"
+        " If not: which limit is too narrow, hue (0 to 179 in OpenCV), saturation or value?"
     )
 
     @property
