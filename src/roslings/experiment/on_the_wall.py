@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from roslings.arena import Arena
 from roslings.course import RateContract
 from roslings.evidence import CanarySeen, Endpoint, ExperimentSeen
-from roslings.probe import Probe
+from roslings.probe import Probe, canary
 from roslings.rates import LONGEST_STALL_S, MOST_UNEVEN, NS_PER_S, Rate, measure_rate
 
 FIRST_MESSAGE_WITHIN_S = 10.0
@@ -26,7 +26,7 @@ CANARY_MISSES = 0.5
 @contextmanager
 def singing(hz: float, domain_id: int) -> Iterator[None]:
     """A canary in this domain while the block runs."""
-    command = [sys.executable, "-m", "roslings.probe.canary", str(hz)]
+    command = [sys.executable, canary.__file__, str(hz)]
     environment = {**os.environ, "ROS_DOMAIN_ID": str(domain_id)}
     quiet = subprocess.DEVNULL
     with subprocess.Popen(
@@ -101,8 +101,8 @@ class WallWatch:
         return self.probe.count(self._topic())
 
     def _canary_sings(self) -> bool:
-        canary = self.probe.seen.canary
-        return canary is not None and len(canary.messages) > 0
+        heard = self.probe.seen.canary
+        return heard is not None and len(heard.messages) > 0
 
 
 def longest_wait_s(before_ns: dict[str, int], now_ns: dict[str, int]) -> float:

@@ -232,7 +232,11 @@ class Probe:
     def listen_to_canary(self, hz: float) -> None:
         """Record what the canary says, beside the graph that the student's nodes are in."""
         self.seen.canary = CanarySeen(wanted_hz=hz)
-        self._canary = Recorder(self._eye, canary.endpoint(), self.notify)
+        mouth = Endpoint(
+            kind="publisher", node=f"/{canary.NODE}", topic=canary.TOPIC, type=canary.TYPE,
+            qos=Qos(), gid="canary",
+        )  # fmt: skip
+        self._canary = Recorder(self._eye, mouth, self.notify)
         self.seen.canary.messages = self._canary.seen.messages
 
     def _publisher_for(self, ear: Endpoint) -> Any:
