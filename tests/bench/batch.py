@@ -10,6 +10,7 @@ ten that are all the same: what sharing builds saves.
 
 from __future__ import annotations
 
+import os
 import platform
 import resource
 import shutil
@@ -45,7 +46,7 @@ def main(words: list[str]) -> None:
     print(
         f"{lab.name:12} {'minutes':>8} {'a minute':>9} {'CPU floor':>10} {'part':>6}"
         f" {'CPU each':>9} {'nodes+build':>12} {'ours':>6}"
-        f" {'at once':>8} {'MB each':>8} {'unclear':>8}"
+        f" {'idle':>5} {'at once':>8} {'MB each':>8} {'unclear':>8}"
     )
     for count in map(int, words[1:] or ["10"]):
         show(count, grade(lab, count))
@@ -59,6 +60,8 @@ class Run:
     cpu_s: float
     floor_s: float
     """CPU seconds of colcon and the nodes alone, for one submission."""
+    idle: float
+    """Part of the processors that nobody used, others on this machine included."""
     results: list[Result]
     watcher: Watcher
 
@@ -70,6 +73,8 @@ class Watcher:
     most_at_once: int = 0
     peak_each: float = 0.0
     working: int = 0
+    cpu_s: float = 0.0
+    """Of looking itself, which is no part of grading."""
     _over: threading.Event = field(default_factory=threading.Event)
 
     def __call__(self, standing: Standing) -> None:
@@ -92,6 +97,7 @@ class Watcher:
         while not self._over.wait(LOOK_EVERY_S):
             if self.working:
                 self.peak_each = max(self.peak_each, memory_below() / self.working)
+        self.cpu_s = time.thread_time()
 
 
 def memory_below() -> float:
@@ -137,13 +143,21 @@ def grade(lab: course.Lab, count: int) -> Run:
             with (package / "setup.py").open("a") as setup:
                 setup.write(f"# {number if count else 0}\n")
         with run_folder() as scratch, gradebook(Path(name), lab.name) as book, watcher.looking():
-            began_s, began_cpu_s = time.monotonic(), cpu_s()
+            began_s, began_cpu_s, began_idle_s = time.monotonic(), cpu_s(), idle_s()
             wish = Wish(lab.name, scratch, scratch / LOCK)
             Shift(wish, book, Capacity(), watcher).run(find_submissions(handed_in))
             seconds, used_s = time.monotonic() - began_s, cpu_s() - began_cpu_s
+            idle = (idle_s() - began_idle_s) / (seconds * cores())
             results = list(book.latest().values())
-            floor_s = build_cpu_s(lab, Path(name)) + nodes_cpu_s(book, results)
-    return Run(seconds, used_s, floor_s, results, watcher)
+            builds = 1 if count else 1 / ALIKE
+            floor_s = builds * build_cpu_s(lab, Path(name)) + nodes_cpu_s(book, results)
+    return Run(seconds, used_s - watcher.cpu_s, floor_s, idle, results, watcher)
+
+
+def idle_s() -> float:
+    """Seconds in which this machine's processors had nothing to do, since it was started."""
+    words = Path("/proc/stat").read_text("ascii").split()
+    return (int(words[4]) + int(words[5])) / os.sysconf("SC_CLK_TCK")
 
 
 def cpu_s() -> float:
@@ -186,6 +200,7 @@ def show(count: int, run: Run) -> None:
     print(
         f"{count or f'{ALIKE} alike':<12} {run.seconds / 60:8.2f} {a_minute:9.2f} {floor:10.2f}"
         f" {a_minute / floor:6.0%} {each_s:9.2f} {run.floor_s:12.2f} {each_s - run.floor_s:6.2f}"
+        f" {run.idle:5.0%}"
         f" {run.watcher.most_at_once:8} {run.watcher.peak_each / 1e6:8.0f} {unclear:8}",
         flush=True,
     )

@@ -9,6 +9,7 @@ import gc
 import os
 import re
 import subprocess
+import sys
 from contextlib import suppress
 from functools import cache
 from multiprocessing import get_context
@@ -78,6 +79,8 @@ def _live(begun_by: int, assignment: Assignment, walls: Isolation, told: int, er
     for number, target in ((1, told), (2, errors)):
         os.dup2(target, number)
     os.close(told)
+    sys.stdout = open(1, "w", encoding="utf-8", closefd=False)  # noqa: SIM115
+    sys.stderr = open(2, "w", encoding="utf-8", closefd=False)  # noqa: SIM115
     os.chdir(assignment.folder)
     walls.enter(assignment.room)
     kernel.die_with_parent()
