@@ -1,0 +1,168 @@
+"""Grade rogues, each beside an honest neighbour, and write down what every witness saw."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+from parcels import Parcel
+from pydantic import BaseModel
+from rogue import LAB, Attempt, Truth
+from stage import (
+    LONG_S,
+    Stage,
+    adopting,
+    cgroups,
+    files_in,
+    known,
+    listening,
+    living,
+    quiet,
+    robot,
+    said,
+    signs_of,
+    stage,
+)
+
+from roslings.arena.lease import leased_domain
+from roslings.batch.result import Result
+from roslings.judge.sheet import dependants
+
+Entry = Attempt | Parcel
+NEXT = "-next"
+
+
+class Seen(BaseModel):
+    """What came of one rogue and its neighbour."""
+
+    word: str
+    reason: str = ""
+    score: float | None = None
+    outcomes: dict[str, str] = {}
+    """Check to outcome."""
+    faults: dict[str, str] = {}
+    reached: list[str] = []
+    """Its own words."""
+    held_off: list[str] = []
+    neighbour: str = ""
+    neighbours_score: float | None = None
+    seconds: float = 0.0
+
+
+class Gallery(BaseModel):
+    """What came of all, and what was seen outside."""
+
+    seen: dict[str, Seen]
+    status: int
+    words: str
+    """Of the command."""
+    running: dict[int, str]
+    """What still ran in the end."""
+    left: list[str]
+    """Files that were not there before."""
+    changed: list[str]
+    """What is the instructor's, and is not as it was."""
+    heard: list[str]
+    """On the machine's network, and in its ROS domain."""
+
+
+def hang(entries: Sequence[Entry], ordinary: bool, jobs: int) -> Gallery:
+    """Grade all of them in one go."""
+    with stage(ordinary) as made, leased_domain() as domain:
+        with listening(made.mark, made.home) as ear, robot(domain, made.folder) as heard:
+            for entry in entries:
+                _hand_in(entry, made, ear.port, domain)
+            made.give_away()
+            gallery = _grade(entries, made, jobs)
+        gallery.heard = [*ear.heard, *heard]
+        return gallery
+
+
+def _hand_in(entry: Entry, made: Stage, port: int, domain: int) -> None:
+    """The rogue, and the honest package after it."""
+    place = made.submissions / entry.name
+    if isinstance(entry, Attempt):
+        entry.make(place / LAB.card.package, known(made, token_of(made, entry), port, domain))
+    else:
+        entry.make(place.with_name(place.name + entry.ending))
+    shutil.copytree(LAB.solution, made.submissions / f"{entry.name}{NEXT}" / LAB.card.package)
+
+
+def token_of(made: Stage, entry: Entry) -> str:
+    """Names every file that a rogue leaves."""
+    return f"{made.mark}.{entry.name}"
+
+
+def _grade(entries: Sequence[Entry], made: Stage, jobs: int) -> Gallery:
+    mine = (made.home, made.course, made.submissions)
+    before = {folder: files_in(folder) for folder in mine}
+    groups = cgroups()
+    with adopting() as children:
+        command = made.begin("--jobs", str(jobs))
+        words, _ = command.communicate(timeout=LONG_S)
+        running = quiet(lambda: {**children(), **living(made.mark)})
+    changed = [
+        each.rpartition(" ")[0] for folder in mine for each in files_in(folder) ^ before[folder]
+    ]
+    left = [*map(str, made.scratch.iterdir()), *signs_of(made.mark), *sorted(cgroups() - groups)]
+    seen = {entry.name: _seen(entry, made) for entry in entries}
+    return Gallery(
+        seen=seen, status=command.returncode, words=words, running=running, left=left,
+        changed=changed, heard=[],
+    )  # fmt: skip
+
+
+def _seen(entry: Entry, made: Stage) -> Seen:
+    results = made.results()
+    result, neighbour = results[entry.name], results[f"{entry.name}{NEXT}"]
+    evidence = made.evidence(result)
+    lines = list(said(evidence)) if evidence else []
+    checks = result.verdict.checks if result.verdict else ()
+    return Seen(
+        word=result.word, reason=result.reason, score=result.score,
+        outcomes={check.id: check.outcome for check in checks},
+        faults={check.id: f"{check.fault}: {check.measured or check.why}" for check in checks
+                if check.outcome in ("fail", "inconclusive")},
+        reached=sorted({line for line in lines if line.startswith("GOT")}),
+        held_off=sorted({line for line in lines if line.startswith("held off")})[:40],
+        neighbour=f"{neighbour.word} {neighbour.reason}".strip(),
+        neighbours_score=neighbour.score, seconds=result.seconds,
+    )  # fmt: skip
+
+
+def untrue(truth: Truth, seen: Seen) -> list[str]:
+    """What of the verdict is not true; empty where all is."""
+    if truth.refused:
+        fits = seen.word == "refused" and re.search(truth.refused, seen.reason)
+        return [] if fits else [f"it was to be refused ({truth.refused}): {seen.word} {seen.reason}"]
+    if truth.score and seen.score != truth.score:
+        return [f"its score was to be {truth.score}: {seen.score} {seen.reason} {seen.faults}"]
+    return list(_untrue_checks(truth, seen))
+
+
+def _untrue_checks(truth: Truth, seen: Seen) -> Iterable[str]:
+    failed, skipped, unclear = (
+        {check for check, outcome in seen.outcomes.items() if outcome == word}
+        for word in ("fail", "skip", "inconclusive")
+    )
+    if not seen.outcomes:
+        yield f"there is no verdict: {seen.word} {seen.reason}"
+    elif not set(truth.fails) <= failed:
+        yield f"did not fail: {set(truth.fails) - failed}"
+    if unclear:
+        yield f"inconclusive: {[seen.faults[check] for check in unclear]}"
+    if more := failed - set(truth.fails) - set(truth.may_fail):
+        yield f"failed as well: { {check: seen.faults[check] for check in more} }"
+    if more := skipped - dependants(LAB, failed) - set(truth.may_fail):
+        yield f"was not judged: {more}"
+
+
+
+
+def keep(gallery: Gallery, file: Path) -> None:
+    """For the other processes of this test run."""
+    part = file.with_suffix(".part")
+    part.write_text(gallery.model_dump_json(indent=1), "utf-8")
+    part.rename(file)

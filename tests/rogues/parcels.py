@@ -1,0 +1,149 @@
+"""Archives that attack who unpacks them, each around a whole package; and two that hold no one."""
+
+from __future__ import annotations
+
+import io
+import os
+import stat
+import struct
+import tarfile
+import zipfile
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from rogue import LAB, Truth
+
+Make = Callable[[Path], None]
+ALL = "chatter"
+
+
+@dataclass(frozen=True)
+class Parcel:
+    """One hostile archive, and what is to be said of it."""
+
+    name: str
+    ending: str
+    make: Make
+    refused: str
+
+    @property
+    def truth(self) -> Truth:
+        """Refused, with its reason."""
+        return Truth(refused=self.refused)
+
+
+def package_in_zip(path: Path, folder: str = ALL) -> zipfile.ZipFile:
+    """A zip file with the solution in it, still open."""
+    archive = zipfile.ZipFile(path, "a", zipfile.ZIP_DEFLATED)
+    for file in sorted(LAB.solution.rglob("*")):
+        if file.is_file():
+            archive.write(file, f"{folder}/{file.relative_to(LAB.solution)}")
+    return archive
+
+
+def zip_with(name: str, content: bytes, mode: int = 0) -> Make:
+    """The solution and one more entry."""
+
+    def make(path: Path) -> None:
+        with package_in_zip(path) as archive:
+            info = zipfile.ZipInfo(name)
+            info.external_attr = mode << 16
+            archive.writestr(info, content)
+
+    return make
+
+
+def tar_with(info: tarfile.TarInfo, content: bytes = b"") -> Make:
+    """The solution and one more entry."""
+
+    def make(path: Path) -> None:
+        with tarfile.open(path, "w:gz") as archive:
+            archive.add(LAB.solution, ALL)
+            info.size = len(content)
+            archive.addfile(info, io.BytesIO(content))
+
+    return make
+
+
+def entry(name: str, kind: bytes = tarfile.REGTYPE, target: str = "") -> tarfile.TarInfo:
+    """A header."""
+    info = tarfile.TarInfo(name)
+    info.type, info.linkname = kind, target
+    return info
+
+
+def bomb(path: Path) -> None:
+    """300 MB of zeros, in 300 kB."""
+    with package_in_zip(path) as archive:
+        archive.writestr("chatter/zeros", bytes(300 << 20))
+
+
+def lying_bomb(path: Path) -> None:
+    """The same, and its list says that it has 1,000 bytes."""
+    bomb(path)
+    raw = bytearray(path.read_bytes())
+    struct.pack_into("<I", raw, raw.rindex(b"PK\x01\x02") + 24, 1000)
+    path.write_bytes(raw)
+
+
+def many(path: Path) -> None:
+    """100,000 empty files."""
+    with package_in_zip(path) as archive:
+        for number in range(100_000):
+            archive.writestr(f"chatter/many/{number}", b"")
+
+
+def raw_name(path: Path) -> None:
+    """A name that is no UTF-8."""
+    stand_in, name = b"chatter/xyz", b"chatter/\xff\xfe\xfd"
+    with package_in_zip(path) as archive:
+        archive.writestr(stand_in.decode(), b"1")
+    path.write_bytes(path.read_bytes().replace(stand_in, name))
+
+
+def two_packages(path: Path) -> None:
+    """Which one is meant nobody knows."""
+    package_in_zip(path, "a/chatter").close()
+    package_in_zip(path, "b/chatter").close()
+
+
+def no_package(path: Path) -> None:
+    """Only a text."""
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("readme.txt", "It is on my other computer.")
+
+
+def link_in_folder(path: Path) -> None:
+    """A folder with a link to the machine's own files, and one to the neighbour's package."""
+    path.mkdir()
+    os.symlink("/etc", path / "etc")
+    with package_in_zip(path / "it.zip"):
+        pass
+    with zipfile.ZipFile(path / "it.zip") as archive:
+        archive.extractall(path)
+    (path / "it.zip").unlink()
+    os.symlink("/etc/passwd", path / "chatter/passwd")
+
+
+PARCELS = (
+    Parcel("zip_link", ".zip", zip_with("chatter/it", b"/etc/passwd", stat.S_IFLNK | 0o777),
+           "symbolic link"),
+    Parcel("zip_up", ".zip", zip_with("../../../../../../tmp/up", b"1"), "leads out"),
+    Parcel("zip_absolute", ".zip", zip_with("/tmp/absolute", b"1"), "absolute"),
+    Parcel("zip_bomb", ".zip", bomb, "larger than"),
+    Parcel("zip_lying_bomb", ".zip", lying_bomb, "cannot be unpacked|larger than"),
+    Parcel("zip_100000_files", ".zip", many, "more than 20,000 files"),
+    Parcel("zip_no_utf8", ".zip", raw_name, "no UTF-8"),
+    Parcel("zip_device", ".zip", zip_with("chatter/it", b"", stat.S_IFCHR | 0o666), "neither a file"),
+    Parcel("tar_link", ".tar.gz", tar_with(entry("chatter/it", tarfile.SYMTYPE, "/etc/passwd")),
+           "symbolic link"),
+    Parcel("tar_hard_link", ".tar.gz", tar_with(entry("chatter/it", tarfile.LNKTYPE, "/etc/passwd")),
+           "hard link"),
+    Parcel("tar_up", ".tar.gz", tar_with(entry("chatter/../../up"), b"1"), "leads out"),
+    Parcel("tar_device", ".tar.gz", tar_with(entry("chatter/it", tarfile.BLKTYPE)), "neither a file"),
+    Parcel("tar_no_utf8", ".tar.gz", tar_with(entry("chatter/\udcff"), b"1"), "no UTF-8"),
+    Parcel("two_packages", ".zip", two_packages, "several packages"),
+    Parcel("no_package", ".zip", no_package, "no ROS package"),
+    Parcel("links_in_a_folder", "", link_in_folder, "outside the package|A link in it"),
+)  # fmt: skip

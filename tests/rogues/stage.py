@@ -1,0 +1,357 @@
+"""Where the rogues are graded: a course, a home, a user; and the witnesses who watch outside.
+
+A witness never asks the rogue: it looks at the machine's processes, files, sockets and ROS domain.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import socket
+import sqlite3
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager, suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from rogue import LAB
+
+from roslings.arena import base_environment, kernel
+from roslings.batch.gradebook import gradebook
+from roslings.batch.grading import unpacked
+from roslings.batch.result import Result
+from roslings.course import root
+from roslings.evidence import Evidence
+
+HERE = Path(__file__).parent
+NOBODY = 65534
+LONG_S = 1800.0
+QUIET_WITHIN_S = 60.0
+SECRET = "the instructor's own secret"
+HIDDEN = '''
+from roslings.judge import PackageView, check
+
+POINTS = {"is_hidden": 5}
+SECRET = "%s"
+
+
+@check()
+def test_is_hidden(package: PackageView) -> None:
+    """A check that students do not have."""
+    assert package.files.name
+'''
+COURSE = ("src", "graders", "labs", "days", "glossary", "pyproject.toml")
+SHARED_PLACES = ("/tmp", "/var/tmp", "/dev/shm", "/", "/run", "/etc", "/opt", "/usr")
+
+
+@dataclass
+class Stage:
+    """All that one grading of rogues needs, in folders of its own."""
+
+    folder: Path
+    ordinary: bool
+    """As an ordinary user, where the tests run as root."""
+    mark: str = field(default_factory=lambda: f"rogue-{os.urandom(4).hex()}")
+    """15 letters at most: so long is a process's name."""
+
+    @property
+    def submissions(self) -> Path:
+        """What was handed in."""
+        return self.folder / "in"
+
+    @property
+    def out(self) -> Path:
+        """The gradebook's folder."""
+        return self.folder / "out"
+
+    @property
+    def course(self) -> Path:
+        """The course that grades: its own copy, which a rogue may hurt without harm."""
+        return self.folder / "course"
+
+    @property
+    def home(self) -> Path:
+        """The instructor's."""
+        return self.folder / "home"
+
+    @property
+    def scratch(self) -> Path:
+        """The command's TMPDIR."""
+        return self.folder / "tmp"
+
+    @property
+    def hidden(self) -> Path:
+        """Checks that students do not have."""
+        return self.home / "hidden_topics.py"
+
+    def furnish(self) -> None:
+        """Make all folders."""
+        for folder in (self.submissions, self.home, self.scratch, self.course):
+            folder.mkdir()
+        for name in COURSE:
+            source, to = root() / name, self.course / name
+            if source.is_dir():
+                shutil.copytree(source, to, ignore=shutil.ignore_patterns("__pycache__"))
+            elif source.exists():
+                shutil.copy(source, to)
+        (self.home / "secret.txt").write_text(SECRET)
+        self.hidden.write_text(HIDDEN % SECRET)
+
+    def give_away(self) -> None:
+        """Everything belongs to the ordinary user from now on."""
+        if self.ordinary:
+            for at, folders, files in os.walk(self.folder):
+                for name in (at, *(os.path.join(at, each) for each in (*folders, *files))):  # noqa: PTH118
+                    os.chown(name, NOBODY, NOBODY, follow_symlinks=False)
+
+    def command(self, *more: str) -> list[str]:
+        """`./roslings grade` of all submissions."""
+        words = [sys.executable, "-m", "roslings", "grade", LAB.name, str(self.submissions)]
+        grade = [*words, "--out", str(self.out), "--hidden", str(self.hidden), *more]
+        return [*ordinary_user(), *grade] if self.ordinary else grade
+
+    def environment(self) -> dict[str, str]:
+        """The instructor's variables, one of them a secret."""
+        kept = {name: os.environ[name] for name in ("PATH", "LANG") if name in os.environ}
+        own = {"HOME": str(self.home), "TMPDIR": str(self.scratch), "INSTRUCTORS_TOKEN": SECRET}
+        return {**kept, **own, "PYTHONPATH": str(self.course / "src"), "PYTHONDONTWRITEBYTECODE": "1"}
+
+    def begin(self, *more: str) -> subprocess.Popen[str]:
+        """Start the command, in a session of its own."""
+        return subprocess.Popen(
+            self.command(*more), cwd=self.folder, env=self.environment(), text=True,
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True,
+        )  # fmt: skip
+
+    def results(self) -> dict[str, Result]:
+        """What stands in the gradebook. Raises where that is not whole."""
+        connection = sqlite3.connect(self.out / "gradebook.sqlite")
+        assert connection.execute("PRAGMA integrity_check").fetchall() == [("ok",)]
+        connection.close()
+        with gradebook(self.out, LAB.name) as book:
+            return book.latest()
+
+    def evidence(self, result: Result) -> Evidence | None:
+        """What a result was judged from."""
+        with gradebook(self.out, LAB.name) as book:
+            content = book.evidence(result)
+        return unpacked(content) if content else None
+
+
+@contextmanager
+def stage(ordinary: bool) -> Iterator[Stage]:
+    """A furnished stage; pytest's own folders are closed to other users."""
+    place = Path(tempfile.mkdtemp(prefix="gallery-"))
+    place.chmod(0o755)
+    made = Stage(place, ordinary)
+    try:
+        made.furnish()
+        yield made
+    finally:
+        subprocess.run(["chmod", "-R", "u+rwX", place], check=False, capture_output=True)
+        subprocess.run(["rm", "-rf", place], check=False)
+
+
+# --- an ordinary user --------------------------------------------------------------------------
+
+
+def ordinary_user() -> list[str]:
+    """The beginning of a command that root runs as an ordinary user."""
+    return [
+        "unshare", "--mount", sys.executable, "-I", "-S", str(HERE / "as_ordinary.py"),
+        str(NOBODY), sys.prefix, sys.base_prefix, "--",
+    ]  # fmt: skip
+
+
+# --- witnesses ---------------------------------------------------------------------------------
+
+
+def living(mark: str) -> dict[int, str]:
+    """Every process of this machine that carries the mark: by name, or on its command line."""
+    found = {}
+    for entry in Path("/proc").iterdir():
+        if entry.name.isdigit():
+            with suppress(OSError):
+                words = (entry / "cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace")
+                name = (entry / "comm").read_text(errors="replace").strip()
+                state = (entry / "stat").read_text(errors="replace").rpartition(")")[2].split()[0]
+                if state != "Z" and (mark in words or name == mark[:15]):
+                    found[int(entry.name)] = f"{name}: {words}"
+    return found
+
+
+def children() -> dict[int, str]:
+    """Every process below this one that is no zombie: who lost its parent comes to us."""
+    parents: dict[int, int] = {}
+    words: dict[int, str] = {}
+    for entry in Path("/proc").iterdir():
+        if entry.name.isdigit():
+            with suppress(OSError):
+                state, parent, *_ = (entry / "stat").read_text(errors="replace").rpartition(")")[2].split()
+                if state != "Z":
+                    parents[int(entry.name)] = int(parent)
+                    words[int(entry.name)] = (entry / "cmdline").read_bytes().decode(errors="replace")
+    found: set[int] = set()
+    fresh = {os.getpid()}
+    while fresh := {pid for pid, parent in parents.items() if parent in fresh} - found:
+        found |= fresh
+    return {pid: words[pid] for pid in found}
+
+
+@contextmanager
+def adopting() -> Iterator[Callable[[], dict[int, str]]]:
+    """Orphans of whatever is started meanwhile come to us, however they hide; tells who is there."""
+    kernel.adopt_orphans()
+    before = set(children())
+    yield lambda: {pid: words for pid, words in children().items() if pid not in before}
+
+
+def quiet(left: Callable[[], dict[int, str]]) -> dict[int, str]:
+    """Wait until nothing is left running; what still is."""
+    end_s = time.monotonic() + QUIET_WITHIN_S
+    while (there := left()) and time.monotonic() < end_s:
+        time.sleep(0.1)
+    return there
+
+
+def files_in(folder: Path) -> set[str]:
+    """Every file and folder, with its size where it is a file: what changed can be told."""
+    found = set()
+    for at, folders, files in os.walk(folder):
+        for name in (*folders, *files):
+            path = Path(at, name)
+            with suppress(OSError):
+                stat = path.lstat()
+                found.add(f"{path} {stat.st_mtime_ns if name in files else ''}")
+    return found
+
+
+def cgroups() -> set[str]:
+    """Every control group, by path."""
+    return {at for at, _, _ in os.walk("/sys/fs/cgroup")}
+
+
+def signs_of(token: str) -> list[str]:
+    """Files of a rogue's in the machine's own folders."""
+    found = []
+    for folder in map(Path, SHARED_PLACES):
+        with suppress(OSError):
+            found += [str(path) for path in folder.iterdir() if token in path.name]
+    return found
+
+
+@dataclass
+class Ear:
+    """Listens on the machine's own network for what must not come."""
+
+    port: int
+    heard: list[str] = field(default_factory=list)
+
+
+@contextmanager
+def listening(mark: str, folder: Path) -> Iterator[Ear]:
+    """TCP, UDP and UNIX sockets outside of every sandbox."""
+    with ExitStack() as stack:
+        tcp = stack.enter_context(socket.socket(socket.AF_INET, socket.SOCK_STREAM))
+        tcp.bind(("0.0.0.0", 0))
+        port = tcp.getsockname()[1]
+        udp = stack.enter_context(socket.socket(socket.AF_INET, socket.SOCK_DGRAM))
+        udp.bind(("0.0.0.0", port))
+        abstract = stack.enter_context(socket.socket(socket.AF_UNIX, socket.SOCK_STREAM))
+        abstract.bind("\0" + mark)
+        named = stack.enter_context(socket.socket(socket.AF_UNIX, socket.SOCK_STREAM))
+        named.bind(str(folder / "socket"))
+        (folder / "socket").chmod(0o777)
+        ear = Ear(port)
+        for each in (tcp, abstract, named):
+            each.listen()
+        done = threading.Event()
+        thread = threading.Thread(target=_hear, args=(ear, (tcp, abstract, named), udp, done))
+        thread.start()
+        stack.callback(thread.join)
+        stack.callback(done.set)
+        yield ear
+
+
+def _hear(
+    ear: Ear, streams: tuple[socket.socket, ...], udp: socket.socket, done: threading.Event
+) -> None:
+    for each in (*streams, udp):
+        each.settimeout(0.05)
+    while not done.is_set():
+        for each in streams:
+            with suppress(TimeoutError), each.accept()[0]:
+                ear.heard.append(f"a connection to {each.getsockname()}")
+        with suppress(TimeoutError):
+            ear.heard.append(f"a datagram: {udp.recv(100)!r}")
+
+
+def own_address() -> str:
+    """The address of this machine's network card; loopback where it has none."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as asked, suppress(OSError):
+        asked.connect(("192.0.2.1", 9))  # a datagram socket sends nothing to connect
+        return str(asked.getsockname()[0])
+    return "127.0.0.1"
+
+
+LISTENER = """
+import sys, rclpy
+from std_msgs.msg import String
+rclpy.init()
+node = rclpy.create_node('robot_of_the_machine')
+node.create_subscription(String, 'intruder', lambda m: print(m.data, flush=True), 10)
+print('ready', flush=True)
+rclpy.spin(node)
+"""
+
+
+@contextmanager
+def robot(domain: int, home: Path) -> Iterator[list[str]]:
+    """A node in a ROS domain of the machine itself; what it hears on /intruder."""
+    environment = {
+        **base_environment(home), "ROS_DOMAIN_ID": str(domain),
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+    }  # fmt: skip
+    heard: list[str] = []
+    with subprocess.Popen(
+        [sys.executable, "-c", LISTENER], env=environment, text=True, stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+    ) as node:  # fmt: skip
+        assert node.stdout is not None
+        assert node.stdout.readline() == "ready\n"
+        out = node.stdout
+        thread = threading.Thread(target=lambda: heard.extend(out))
+        thread.start()
+        yield heard
+        node.kill()
+        thread.join()
+
+
+def known(made: Stage, token: str, port: int, domain: int) -> dict[str, str]:
+    """All that an attacker could know of this machine."""
+    return {
+        "mark": made.mark, "token": token, "secret": SECRET, "out": str(made.out),
+        "course": str(made.course), "home": str(made.home), "hidden": str(made.hidden),
+        "submissions": str(made.submissions), "tmp": str(made.scratch), "port": str(port),
+        "address": own_address(), "domain": str(domain), "witness": "roslings.batch.nursery",
+    }  # fmt: skip
+
+
+def said(evidence: Evidence) -> Iterator[str]:
+    """Every line that the package's processes wrote, the build's too."""
+    if evidence.build:
+        yield from evidence.build.output
+    for seen in (*evidence.experiments.values(), *evidence.attempts):
+        for process in seen.processes.values():
+            yield from (line.text for line in process.lines)
+
+
+def as_json(content: object) -> str:
+    """For a file that another process reads."""
+    return json.dumps(content, indent=1)
