@@ -13,8 +13,8 @@ from rogue import LAB, Attempt, Truth
 from stage import (
     LONG_S,
     Stage,
+    abandoned_groups,
     adopting,
-    cgroups,
     files_in,
     known,
     listening,
@@ -98,15 +98,19 @@ def token_of(made: Stage, entry: Entry) -> str:
 def _grade(entries: Sequence[Entry], made: Stage, jobs: int) -> Gallery:
     mine = (made.home, made.course, made.submissions)
     before = {folder: files_in(folder) for folder in mine}
-    groups = cgroups()
+    groups = abandoned_groups()
     with adopting() as children:
-        command = made.begin("--jobs", str(jobs))
+        command = made.begin("--jobs", str(jobs), "--hidden", str(made.hidden))
         words, _ = command.communicate(timeout=LONG_S)
         running = quiet(lambda: {**children(), **living(made.mark)})
     changed = [
         each.rpartition(" ")[0] for folder in mine for each in files_in(folder) ^ before[folder]
     ]
-    left = [*map(str, made.scratch.iterdir()), *signs_of(made.mark), *sorted(cgroups() - groups)]
+    left = [
+        *map(str, made.scratch.iterdir()),
+        *signs_of(made.mark),
+        *sorted(abandoned_groups() - groups),
+    ]
     seen = {entry.name: _seen(entry, made) for entry in entries}
     return Gallery(
         seen=seen, status=command.returncode, words=words, running=running, left=left,
@@ -116,7 +120,14 @@ def _grade(entries: Sequence[Entry], made: Stage, jobs: int) -> Gallery:
 
 def _seen(entry: Entry, made: Stage) -> Seen:
     results = made.results()
-    result, neighbour = results[entry.name], results[f"{entry.name}{NEXT}"]
+    neighbour = results[f"{entry.name}{NEXT}"]
+    more = {"neighbour": f"{neighbour.word} {neighbour.reason}".strip(),
+            "neighbours_score": neighbour.score}  # fmt: skip
+    return seen_of(results[entry.name], made).model_copy(update=more)
+
+
+def seen_of(result: Result, made: Stage) -> Seen:
+    """What stands in the gradebook of one submission."""
     evidence = made.evidence(result)
     lines = list(said(evidence)) if evidence else []
     checks = result.verdict.checks if result.verdict else ()
@@ -127,8 +138,7 @@ def _seen(entry: Entry, made: Stage) -> Seen:
                 if check.outcome in ("fail", "inconclusive")},
         reached=sorted({line for line in lines if line.startswith("GOT")}),
         held_off=sorted({line for line in lines if line.startswith("held off")})[:40],
-        neighbour=f"{neighbour.word} {neighbour.reason}".strip(),
-        neighbours_score=neighbour.score, seconds=result.seconds,
+        seconds=result.seconds,
     )  # fmt: skip
 
 
@@ -136,7 +146,9 @@ def untrue(truth: Truth, seen: Seen) -> list[str]:
     """What of the verdict is not true; empty where all is."""
     if truth.refused:
         fits = seen.word == "refused" and re.search(truth.refused, seen.reason)
-        return [] if fits else [f"it was to be refused ({truth.refused}): {seen.word} {seen.reason}"]
+        return (
+            [] if fits else [f"it was to be refused ({truth.refused}): {seen.word} {seen.reason}"]
+        )
     if truth.score and seen.score != truth.score:
         return [f"its score was to be {truth.score}: {seen.score} {seen.reason} {seen.faults}"]
     return list(_untrue_checks(truth, seen))
@@ -157,8 +169,6 @@ def _untrue_checks(truth: Truth, seen: Seen) -> Iterable[str]:
         yield f"failed as well: { {check: seen.faults[check] for check in more} }"
     if more := skipped - dependants(LAB, failed) - set(truth.may_fail):
         yield f"was not judged: {more}"
-
-
 
 
 def keep(gallery: Gallery, file: Path) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import os
 import stat
 import struct
 import tarfile
@@ -117,15 +116,18 @@ def no_package(path: Path) -> None:
 def link_in_folder(path: Path) -> None:
     """A folder with a link to the machine's own files, and one to the neighbour's package."""
     path.mkdir()
-    os.symlink("/etc", path / "etc")
+    (path / "etc").symlink_to("/etc")
     with package_in_zip(path / "it.zip"):
         pass
     with zipfile.ZipFile(path / "it.zip") as archive:
         archive.extractall(path)
     (path / "it.zip").unlink()
-    os.symlink("/etc/passwd", path / "chatter/passwd")
+    (path / "chatter/passwd").symlink_to("/etc/passwd")
 
 
+NOT_PLAIN = "neither a file"
+SYMLINK = tar_with(entry("chatter/it", tarfile.SYMTYPE, "/etc/passwd"))
+HARD_LINK = tar_with(entry("chatter/it", tarfile.LNKTYPE, "/etc/passwd"))
 PARCELS = (
     Parcel("zip_link", ".zip", zip_with("chatter/it", b"/etc/passwd", stat.S_IFLNK | 0o777),
            "symbolic link"),
@@ -135,13 +137,11 @@ PARCELS = (
     Parcel("zip_lying_bomb", ".zip", lying_bomb, "cannot be unpacked|larger than"),
     Parcel("zip_100000_files", ".zip", many, "more than 20,000 files"),
     Parcel("zip_no_utf8", ".zip", raw_name, "no UTF-8"),
-    Parcel("zip_device", ".zip", zip_with("chatter/it", b"", stat.S_IFCHR | 0o666), "neither a file"),
-    Parcel("tar_link", ".tar.gz", tar_with(entry("chatter/it", tarfile.SYMTYPE, "/etc/passwd")),
-           "symbolic link"),
-    Parcel("tar_hard_link", ".tar.gz", tar_with(entry("chatter/it", tarfile.LNKTYPE, "/etc/passwd")),
-           "hard link"),
+    Parcel("zip_device", ".zip", zip_with("chatter/it", b"", stat.S_IFCHR | 0o666), NOT_PLAIN),
+    Parcel("tar_link", ".tar.gz", SYMLINK, "symbolic link"),
+    Parcel("tar_hard_link", ".tar.gz", HARD_LINK, "hard link"),
     Parcel("tar_up", ".tar.gz", tar_with(entry("chatter/../../up"), b"1"), "leads out"),
-    Parcel("tar_device", ".tar.gz", tar_with(entry("chatter/it", tarfile.BLKTYPE)), "neither a file"),
+    Parcel("tar_device", ".tar.gz", tar_with(entry("chatter/it", tarfile.BLKTYPE)), NOT_PLAIN),
     Parcel("tar_no_utf8", ".tar.gz", tar_with(entry("chatter/\udcff"), b"1"), "no UTF-8"),
     Parcel("two_packages", ".zip", two_packages, "several packages"),
     Parcel("no_package", ".zip", no_package, "no ROS package"),

@@ -5,7 +5,6 @@ A witness never asks the rogue: it looks at the machine's processes, files, sock
 
 from __future__ import annotations
 
-import json
 import os
 import shutil
 import socket
@@ -112,15 +111,20 @@ class Stage:
 
     def command(self, *more: str) -> list[str]:
         """`./roslings grade` of all submissions."""
-        words = [sys.executable, "-m", "roslings", "grade", LAB.name, str(self.submissions)]
-        grade = [*words, "--out", str(self.out), "--hidden", str(self.hidden), *more]
-        return [*ordinary_user(), *grade] if self.ordinary else grade
+        grade = ["grade", LAB.name, str(self.submissions), "--out", str(self.out), *more]
+        words = [sys.executable, "-m", "roslings", *grade]
+        return [*ordinary_user(), *words] if self.ordinary else words
 
     def environment(self) -> dict[str, str]:
         """The instructor's variables, one of them a secret."""
         kept = {name: os.environ[name] for name in ("PATH", "LANG") if name in os.environ}
         own = {"HOME": str(self.home), "TMPDIR": str(self.scratch), "INSTRUCTORS_TOKEN": SECRET}
-        return {**kept, **own, "PYTHONPATH": str(self.course / "src"), "PYTHONDONTWRITEBYTECODE": "1"}
+        return {
+            **kept,
+            **own,
+            "PYTHONPATH": str(self.course / "src"),
+            "PYTHONDONTWRITEBYTECODE": "1",
+        }
 
     def begin(self, *more: str) -> subprocess.Popen[str]:
         """Start the command, in a session of its own."""
@@ -178,7 +182,9 @@ def living(mark: str) -> dict[int, str]:
     for entry in Path("/proc").iterdir():
         if entry.name.isdigit():
             with suppress(OSError):
-                words = (entry / "cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace")
+                words = (
+                    (entry / "cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace")
+                )
                 name = (entry / "comm").read_text(errors="replace").strip()
                 state = (entry / "stat").read_text(errors="replace").rpartition(")")[2].split()[0]
                 if state != "Z" and (mark in words or name == mark[:15]):
@@ -193,10 +199,14 @@ def children() -> dict[int, str]:
     for entry in Path("/proc").iterdir():
         if entry.name.isdigit():
             with suppress(OSError):
-                state, parent, *_ = (entry / "stat").read_text(errors="replace").rpartition(")")[2].split()
+                state, parent, *_ = (
+                    (entry / "stat").read_text(errors="replace").rpartition(")")[2].split()
+                )
                 if state != "Z":
                     parents[int(entry.name)] = int(parent)
-                    words[int(entry.name)] = (entry / "cmdline").read_bytes().decode(errors="replace")
+                    words[int(entry.name)] = (
+                        (entry / "cmdline").read_bytes().decode(errors="replace")
+                    )
     found: set[int] = set()
     fresh = {os.getpid()}
     while fresh := {pid for pid, parent in parents.items() if parent in fresh} - found:
@@ -206,7 +216,7 @@ def children() -> dict[int, str]:
 
 @contextmanager
 def adopting() -> Iterator[Callable[[], dict[int, str]]]:
-    """Orphans of whatever is started meanwhile come to us, however they hide; tells who is there."""
+    """Orphans of what is started meanwhile come to us, however they hide; who is there."""
     kernel.adopt_orphans()
     before = set(children())
     yield lambda: {pid: words for pid, words in children().items() if pid not in before}
@@ -224,6 +234,7 @@ def files_in(folder: Path) -> set[str]:
     """Every file and folder, with its size where it is a file: what changed can be told."""
     found = set()
     for at, folders, files in os.walk(folder):
+        folders[:] = [name for name in folders if name != "__pycache__"]
         for name in (*folders, *files):
             path = Path(at, name)
             with suppress(OSError):
@@ -232,9 +243,14 @@ def files_in(folder: Path) -> set[str]:
     return found
 
 
-def cgroups() -> set[str]:
-    """Every control group, by path."""
-    return {at for at, _, _ in os.walk("/sys/fs/cgroup")}
+def abandoned_groups() -> set[str]:
+    """Control groups of gradings that have ended: their names hold the maker's pid."""
+    found = set()
+    for at, _, _ in os.walk("/sys/fs/cgroup"):
+        word, _, rest = Path(at).name.partition("-")
+        if word == "roslings" and not Path("/proc", rest.partition("-")[0]).exists():
+            found.add(at)
+    return found
 
 
 def signs_of(token: str) -> list[str]:
@@ -350,8 +366,3 @@ def said(evidence: Evidence) -> Iterator[str]:
     for seen in (*evidence.experiments.values(), *evidence.attempts):
         for process in seen.processes.values():
             yield from (line.text for line in process.lines)
-
-
-def as_json(content: object) -> str:
-    """For a file that another process reads."""
-    return json.dumps(content, indent=1)

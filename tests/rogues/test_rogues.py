@@ -119,7 +119,9 @@ def test_a_rogue_is_contained(rogue: str, user: str, graded_as: Callable[[str], 
 @needs_sandbox
 @pytest.mark.parametrize("user", USERS)
 @pytest.mark.parametrize("rogue", ["zip_link"])
-def test_nothing_is_left_of_them(rogue: str, user: str, graded_as: Callable[[str], Gallery]) -> None:
+def test_nothing_is_left_of_them(
+    rogue: str, user: str, graded_as: Callable[[str], Gallery]
+) -> None:
     """No process, no file, no word to anybody; all that is the instructor's is as it was."""
     insist_on_nothing_left(graded_as(user))
 
