@@ -46,6 +46,8 @@ class Seen(BaseModel):
     reached: list[str] = []
     """Its own words."""
     held_off: list[str] = []
+    last_words: list[str] = []
+    """Of the build, or of its last process."""
     neighbour: str = ""
     neighbours_score: float | None = None
     seconds: float = 0.0
@@ -138,7 +140,7 @@ def seen_of(result: Result, made: Stage) -> Seen:
                 if check.outcome in ("fail", "inconclusive")},
         reached=sorted({line for line in lines if line.startswith("GOT")}),
         held_off=sorted({line for line in lines if line.startswith("held off")})[:40],
-        seconds=result.seconds,
+        last_words=lines[-12:], seconds=result.seconds,
     )  # fmt: skip
 
 

@@ -26,7 +26,7 @@ def mark() -> None:
 
 def got(what: str) -> None:
     """Say that something was reached; a build ends there, so that the words are its last."""
-    print(f"\nGOT {what}", flush=True)
+    print(f"\nGOT {what}", file=sys.stderr, flush=True)
     if PLACE == "build":
         sys.exit(f"GOT {what}")
 
@@ -36,7 +36,7 @@ def attempt(what: str, act: Callable[[], object]) -> None:
     try:
         reached = act()
     except Exception as error:
-        print(f"held off: {what}: {error}", flush=True)
+        print(f"held off: {what}: {error}", file=sys.stderr, flush=True)
         return
     if reached is not False:
         got(what)

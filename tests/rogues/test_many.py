@@ -28,7 +28,7 @@ from parcels import PARCELS, Parcel
 from rogue import LAB, Attempt, Truth, attempts
 from stage import LONG_S, Stage, abandoned_groups, adopting, children, known, quiet, stage
 
-from roslings.arena import sandbox_missing
+from roslings.arena import choose_isolation
 from roslings.course import Mutant
 
 MANY = int(os.environ.get("ROSLINGS_MANY", "24"))
@@ -37,10 +37,11 @@ SEED = 20_261_121
 LONG = frozenset({"endless_loop-build"})
 """Takes the three minutes that a build may take; once, in the gallery, is enough."""
 
-MISSING = sandbox_missing()
+LACK = choose_isolation().lack
+NO_SANDBOX = f"{LACK.reason}: {LACK.next_step}" if LACK else ""
 pytestmark = [
     pytest.mark.slow,
-    pytest.mark.skipif(MISSING is not None, reason=f"no sandbox: {MISSING}"),
+    pytest.mark.skipif(bool(LACK), reason=NO_SANDBOX),
 ]
 
 

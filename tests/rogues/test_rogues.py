@@ -23,7 +23,7 @@ from gallery import Entry, Gallery, hang, keep, untrue
 from parcels import PARCELS, Parcel
 from rogue import Attempt, attempts
 
-from roslings.arena import sandbox_missing
+from roslings.arena import choose_isolation
 from roslings.batch.opening import package_in
 from roslings.batch.trouble import Refused
 
@@ -32,8 +32,9 @@ HARMLESS = ("exits_0_from_atexit-run", "fake_std_msgs", "reads-build", "zip_link
 """A few for every run of the tests."""
 
 JOBS = 3
-MISSING = sandbox_missing()
-needs_sandbox = pytest.mark.skipif(MISSING is not None, reason=f"no sandbox: {MISSING}")
+LACK = choose_isolation().lack
+NO_SANDBOX = f"{LACK.reason}: {LACK.next_step}" if LACK else ""
+needs_sandbox = pytest.mark.skipif(bool(LACK), reason=NO_SANDBOX)
 needs_root = pytest.mark.skipif(os.geteuid() != 0, reason="these tests run as an ordinary user")
 USERS = [pytest.param("root", marks=needs_root), "ordinary"]
 
