@@ -244,12 +244,13 @@ def files_in(folder: Path) -> set[str]:
 
 
 def abandoned_groups() -> set[str]:
-    """Control groups of gradings that have ended: their names hold the maker's pid."""
+    """Control groups of gradings that have ended, below our own: their names hold the maker's pid."""
     found = set()
-    for at, _, _ in os.walk("/sys/fs/cgroup"):
-        word, _, rest = Path(at).name.partition("-")
-        if word == "roslings" and not Path("/proc", rest.partition("-")[0]).exists():
-            found.add(at)
+    for line in Path("/proc/self/cgroup").read_text("utf-8").splitlines():
+        _, controller, own = line.split(":", 2)
+        for each in Path("/sys/fs/cgroup", controller, own[1:]).glob("roslings-*"):
+            if not Path("/proc", each.name.split("-")[1]).exists():
+                found.add(str(each))
     return found
 
 
