@@ -24,13 +24,17 @@ from roslings.probe.clock import Barrier, SimClock
 from roslings.probe.content import from_plain
 from roslings.probe.events import no_ear_events, no_mouth_events
 from roslings.probe.graph import read_graph
-from roslings.probe.recorder import Allowance, Read, Recorder, can_record
+from roslings.probe.recorder import Read, Recorder, Store, can_record
 from roslings.rates import place_on_ticks
 
 NAME = "_roslings_probe"
 LOOK_EVERY_S = 0.02
 HEARTBEAT_S = 0.01
 MOST_LOG_LINES = 2000
+LONGEST_LOG_LINE = 2000
+MOST_LOGGERS = 200
+MOST_TOPICS = 200
+"""Each one recorded costs us a subscription, and those who publish on it time."""
 Condition = Callable[[], bool]
 
 
@@ -54,7 +58,7 @@ class Probe:
         self.seen = seen
         self._records = record
         self._domain_id = domain_id
-        self._large = Allowance(large_bytes)
+        self._store = Store(large_bytes)
         self._recorders: dict[str, Recorder] = {}
         self._publishers: dict[str, Any] = {}
         self._readers: dict[str, Read] = {}
@@ -251,9 +255,9 @@ class Probe:
 
     def _record(self, endpoint: Endpoint) -> None:
         recorder = self._recorders.get(endpoint.topic)
-        if recorder is None and can_record(endpoint):
+        if recorder is None and len(self._recorders) < MOST_TOPICS and can_record(endpoint):
             self._recorders[endpoint.topic] = Recorder(
-                self._eye, endpoint, self.notify, self._large, self._readers
+                self._eye, endpoint, self.notify, self._store, self._readers
             )
 
     def _hear_logs(self) -> None:
@@ -266,10 +270,11 @@ class Probe:
         )
 
     def _take_log(self, log: Any) -> None:
-        lines = self.seen.rosout.setdefault(log.name, [])
-        if len(lines) < MOST_LOG_LINES:
-            now_ns = time.monotonic_ns()
-            lines.append(LogLine(arrival_ns=now_ns, text=log.msg, source="rosout"))
+        logs = self.seen.rosout
+        lines = logs.setdefault(log.name, []) if len(logs) < MOST_LOGGERS else logs.get(log.name)
+        if lines is not None and len(lines) < MOST_LOG_LINES:
+            text, now_ns = log.msg[:LONGEST_LOG_LINE], time.monotonic_ns()
+            lines.append(LogLine(arrival_ns=now_ns, text=text, source="rosout"))
         self.notify()
 
     def _spin(self) -> None:

@@ -15,22 +15,42 @@ QUEUE_DEPTH = 5000
 
 LONGEST_BACKLOG_NS = 60 * 10**9
 MOST_MESSAGES = 20_000
+MOST_MESSAGES_IN_ALL = 100_000
 LARGEST_CONTENT = 64 * 1024
+MOST_RAW_BYTES = 64 * 1024 * 1024
+MOST_CONTENT_CHARACTERS = 16 * 1024 * 1024
 Read = Callable[[Any], Any]
 """Makes the plain values of a message that are to be kept."""
 
 
 class Allowance:
-    """How many bytes of large messages may be kept: one for all topics of an experiment."""
+    """How much of something may be kept: one for all topics of an experiment."""
 
-    def __init__(self, left_bytes: int = 0) -> None:
-        self._left_bytes = left_bytes
+    def __init__(self, left: int = 0) -> None:
+        self._left = left
 
     def take(self, size: int) -> bool:
-        """Take `size` bytes of it, where as much is left."""
-        fits = size <= self._left_bytes
-        self._left_bytes -= size if fits else 0
+        """Take `size` of it, where as much is left."""
+        fits = size <= self._left
+        self._left -= size if fits else 0
         return fits
+
+
+class Store:
+    """What all topics of an experiment may keep together, so that no node fills our memory.
+
+    `large_bytes` are for messages above LARGEST_CONTENT, whose contents are never read.
+    """
+
+    def __init__(self, large_bytes: int = 0) -> None:
+        self.messages = Allowance(MOST_MESSAGES_IN_ALL)
+        self.contents = Allowance(MOST_CONTENT_CHARACTERS)
+        self._raw = Allowance(MOST_RAW_BYTES)
+        self._large = Allowance(large_bytes)
+
+    def keeps(self, raw: bytes) -> bool:
+        """Whether there is room for the bytes of a message."""
+        return (self._raw if len(raw) <= LARGEST_CONTENT else self._large).take(len(raw))
 
 
 class Recorder:
@@ -41,10 +61,10 @@ class Recorder:
         eye: Any,
         endpoint: Endpoint,
         heard: Callable[[], None],
-        large: Allowance | None = None,
+        store: Store | None = None,
         readers: Mapping[str, Read] | None = None,
     ) -> None:
-        """Keeps messages above LARGEST_CONTENT as long as `large` lets it.
+        """Keeps what `store` has room for.
 
         A type in `readers`, which may change, is read when a message comes, whatever its size.
 
@@ -54,7 +74,7 @@ class Recorder:
         self.reliability = endpoint.qos.reliability
         self._class = message_class(endpoint.type)
         self._heard = heard
-        self._large = large or Allowance()
+        self._store = store or Store()
         self._readers = {} if readers is None else readers
         self._raw: list[bytes] = []
         self._subscription = eye.create_subscription(
@@ -64,15 +84,14 @@ class Recorder:
 
     def _take(self, raw: bytes, info: Any) -> None:
         arrival_ns = _arrival_ns(info)
-        if len(self.seen.messages) >= MOST_MESSAGES:
-            self.seen.not_kept += 1
-        else:
+        if len(self.seen.messages) < MOST_MESSAGES and self._store.messages.take(1):
             self._keep(raw, info, arrival_ns)
+        else:
+            self.seen.not_kept += 1
         self._heard()
 
     def _keep(self, raw: bytes, info: Any, arrival_ns: int) -> None:
-        keep = len(raw) <= LARGEST_CONTENT or self._large.take(len(raw))
-        self._raw.append(raw if keep else b"")
+        self._raw.append(raw if self._store.keeps(raw) else b"")
         self.seen.messages.append(
             MessageSeen(
                 source_ns=info["source_timestamp"] or None,
@@ -95,7 +114,9 @@ class Recorder:
         """Turn the bytes into values, after the watch, so that reading delays no message."""
         for message, raw in zip(self.seen.messages, self._raw, strict=True):
             if message.content is None and 0 < len(raw) <= LARGEST_CONTENT:
-                message.content = to_plain(self._message(raw))
+                content = to_plain(self._message(raw))
+                if self._store.contents.take(len(str(content))):
+                    message.content = content
 
     def _message(self, raw: bytes) -> Any:
         from rclpy.serialization import deserialize_message
