@@ -156,6 +156,9 @@ class CanarySeen(Record):
 
     wanted_hz: float
     messages: list[MessageSeen] = Field(default_factory=list)
+    imitated: bool = Field(
+        default=False, description="Somebody else published on its topic: it tells nothing"
+    )
 
 
 class ServiceEnd(Record):

@@ -244,7 +244,7 @@ def files_in(folder: Path) -> set[str]:
 
 
 def abandoned_groups() -> set[str]:
-    """Control groups of gradings that have ended, below our own: their names hold the maker's pid."""
+    """Control groups below our own whose maker has ended: their names hold its pid."""
     found = set()
     for line in Path("/proc/self/cgroup").read_text("utf-8").splitlines():
         _, controller, own = line.split(":", 2)

@@ -29,6 +29,8 @@ from roslings.rates import place_on_ticks
 
 NAME = "_roslings_probe"
 LOOK_EVERY_S = 0.02
+REST_AFTER_LOOK = 3.0
+"""Times the look's own duration: to read a graph of 2,000 topics takes long, and a processor."""
 HEARTBEAT_S = 0.01
 MOST_LOG_LINES = 2000
 LONGEST_LOG_LINE = 2000
@@ -65,6 +67,9 @@ class Probe:
         self._changed = threading.Condition()
         self._closing = threading.Event()
         self._called_off = False
+        self._rests_until_s = 0.0
+        self._canaries = 0
+        """Those begun so far; one that was ended may still be in the graph."""
 
     def __enter__(self) -> Probe:
         import rclpy
@@ -147,13 +152,22 @@ class Probe:
         The fullest graph is the one that is kept: a node that crashes leaves the graph before its
         process ends, and must not blur what was there.
         """
+        began_s = time.monotonic()
+        if began_s >= self._rests_until_s:
+            self._read_graph()
+            now_s = time.monotonic()
+            self._rests_until_s = now_s + REST_AFTER_LOOK * (now_s - began_s)
+        return self.seen.graph
+
+    def _read_graph(self) -> None:
         graph = read_graph(self._eye)
         if fullness(graph) >= fullness(self.seen.graph):
             self.seen.graph = graph
         for endpoint in own_endpoints(graph):
             if self._records and endpoint.kind == "publisher":
                 self._record(endpoint)
-        return self.seen.graph
+        if self.seen.canary and self._eye.count_publishers(canary.TOPIC) > self._canaries:
+            self.seen.canary.imitated = True
 
     def count(self, topic: str) -> int:
         """How many messages came on `topic` so far."""
@@ -235,6 +249,7 @@ class Probe:
 
     def listen_to_canary(self, hz: float) -> None:
         """Record what the canary says, beside the graph that the student's nodes are in."""
+        self._canaries += 1
         self.seen.canary = CanarySeen(wanted_hz=hz)
         mouth = Endpoint(
             kind="publisher", node=f"/{canary.NODE}", topic=canary.TOPIC, type=canary.TYPE,
