@@ -161,6 +161,8 @@ def _untrue_checks(truth: Truth, seen: Seen) -> Iterable[str]:
         {check for check, outcome in seen.outcomes.items() if outcome == word}
         for word in ("fail", "skip", "inconclusive")
     )
+    if truth.may_be_unclear and unclear:
+        return
     if not seen.outcomes:
         yield f"there is no verdict: {seen.word} {seen.reason}"
     elif not set(truth.fails) <= failed:

@@ -54,6 +54,9 @@ class Truth(Contract):
         default=(), description="Checks that may fail: the attack can hurt its own package there"
     )
     refused: str | None = Field(default=None, description="A part of the reason")
+    may_be_unclear: bool = Field(
+        default=False, description="It takes the processors: that may hide what its node did"
+    )
 
     @model_validator(mode="after")
     def _says_something(self) -> Truth:

@@ -80,7 +80,9 @@ class Handed:
     def is_exact(self) -> bool:
         """There is just one true verdict, and `check` can be asked for it."""
         truth = self.truth
-        return not truth.refused and not (truth.may_fail and isinstance(self.source, Attempt))
+        if truth.may_be_unclear or truth.refused:
+            return False
+        return not (truth.may_fail and isinstance(self.source, Attempt))
 
 
 def mixed(count: int) -> list[Handed]:
@@ -150,7 +152,7 @@ def test_killed_and_resumed_nothing_is_lost_doubled_or_left(ordinary: bool) -> N
             assert quiet(left) == {}
         command = made.begin()
         words, _ = command.communicate(timeout=LONG_S * 4)
-        assert command.returncode == 0, words
+        assert command.returncode in (0, 3), words
         assert quiet(left) == {}
         assert list(made.scratch.iterdir()) == []
         assert abandoned_groups() - groups == set()
@@ -174,9 +176,11 @@ def end_in_the_middle(
 
 
 def insist_on_each(handed: list[Handed], made: Stage) -> None:
-    """Each has one conclusive result, and that one is true."""
+    """Each has one result that counts, and that one is true."""
     clear = Counter(name for name, word, _ in rows(made).elements() if word != "inconclusive")
-    assert clear == Counter(each.name for each in handed)
+    free = {each.name for each in handed if each.truth.may_be_unclear}
+    assert max(clear.values()) == 1
+    assert {each.name for each in handed} - set(clear) <= free
     results = made.results()
     wrong = {each.name: untrue(each.truth, seen_of(results[each.name], made)) for each in handed}
     assert {name: why for name, why in wrong.items() if why} == {}
