@@ -110,6 +110,7 @@ def come_up(process: ProcessView) -> None:
         how = f"it ended by itself after {process.ran_s:.1f} s ({describe_end(seen)})"
         raise faults.DidNotComeUp(seen.executable, how, log=process.last_lines())
     if not process.shown:
+        require_steady(process.experiment.stall_s)
         how = "it runs, but no node of it appeared in the graph"
         raise faults.DidNotComeUp(seen.executable, how, log=process.last_lines())
 
@@ -308,6 +309,8 @@ def hold_just(nodes: Sequence[NodeContract], topic: TopicContract) -> Demand[Exp
         graph = experiment.seen.graph
         wanted = tuple(sorted(node.node for node in nodes))
         there = tuple(sorted(set(graph.nodes)))
+        if set(wanted) - set(there):
+            require_steady(experiment.seen.stall_s)
         if there != wanted:
             raise faults.NotTheAskedGraph(wanted, there, "the nodes are")
         ends = {(e.node, e.kind) for e in own_endpoints(graph) if e.topic == topic.topic}
