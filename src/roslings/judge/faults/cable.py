@@ -89,12 +89,22 @@ class SpeedsSwapped(WrongSpeeds):
 
     hint = "The board tells the left wheel first. Your velocity has the right wheel first."
 
+    @property
+    def measured(self) -> str:
+        """That they are exchanged."""
+        return f"[{self.left:.3f}, {self.right:.3f}]: left and right are exchanged"
+
 
 @dataclass(eq=False)
 class SpeedsInMilliradians(WrongSpeeds):
     """Not divided by 1000."""
 
     hint = "The board tells mrad/s; ROS wants rad/s (REP 103). Divide by 1000."
+
+    @property
+    def measured(self) -> str:
+        """The unit that it has."""
+        return f"[{self.left:.3f}, {self.right:.3f}]: these are mrad/s"
 
 
 @dataclass(eq=False)

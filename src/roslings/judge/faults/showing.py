@@ -237,7 +237,8 @@ class RowsNotCut(EndedByPicture):
     @property
     def measured(self) -> str:
         """What it did with them."""
-        return "the idle bytes at the end of each row were taken for pixels"
+        ended = "the node ended with an error: " if self.log else ""
+        return f"{ended}the idle bytes at the end of each row were taken for pixels"
 
 
 @dataclass(eq=False)
@@ -248,10 +249,16 @@ class FoundWhereNothingIs(Fault):
     picture: str
     found: tuple[float, float]
     why = "The robot drives to a ball that is not there."
-    hint = (
-        "Noise has every hue, but grey has little saturation: ask for more of it. Take single"
-        " dots away (MORPH_OPEN), and ask for a least size."
-    )
+
+    @property
+    def hint(self) -> str:
+        """The place that stands for none, or what noise looks like."""
+        if self.found == (0.0, 0.0):
+            return "Where your search finds nothing, publish no message: 0, 0 is a place, too."
+        return (
+            "Noise has every hue, but grey has little saturation: ask for more of it. Take single"
+            " dots away (MORPH_OPEN), and ask for a least size."
+        )
 
     @property
     def expected(self) -> str:
