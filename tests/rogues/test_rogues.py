@@ -6,6 +6,8 @@ is left. A rogue says what it reached; witnesses outside say whether that is so.
     ./roslings test tests/rogues                                 a few that do no harm
     ./roslings test tests/rogues/test_rogues.py -m slow          all of them
     ./roslings test tests/rogues -m slow -k "root and fork_bomb" one of them
+
+`ROSLINGS_GALLERY=FILE` keeps what was seen of each: verdict, words, what was held off.
 """
 
 from __future__ import annotations
