@@ -58,6 +58,7 @@ class Stage:
     """As an ordinary user, where the tests run as root."""
     mark: str = field(default_factory=lambda: f"rogue-{os.urandom(4).hex()}")
     """15 letters at most: so long is a process's name."""
+    begun: list[subprocess.Popen[str]] = field(default_factory=list)
 
     @property
     def submissions(self) -> Path:
@@ -127,11 +128,19 @@ class Stage:
         }
 
     def begin(self, *more: str) -> subprocess.Popen[str]:
-        """Start the command, in a session of its own."""
-        return subprocess.Popen(
+        """Start the command, in a session of its own; it ends with the stage at the latest."""
+        command = subprocess.Popen(
             self.command(*more), cwd=self.folder, env=self.environment(), text=True,
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True,
         )  # fmt: skip
+        self.begun.append(command)
+        return command
+
+    def end_all(self) -> None:
+        """End what still runs: a test that fails, or is interrupted, leaves nothing."""
+        for command in self.begun:
+            command.kill()
+            command.wait()
 
     def results(self) -> dict[str, Result]:
         """What stands in the gradebook. Raises where that is not whole."""
@@ -158,6 +167,7 @@ def stage(ordinary: bool) -> Iterator[Stage]:
         made.furnish()
         yield made
     finally:
+        made.end_all()
         subprocess.run(["chmod", "-R", "u+rwX", place], check=False, capture_output=True)
         subprocess.run(["rm", "-rf", place], check=False)
 
