@@ -178,12 +178,13 @@ class Scene:
     def _let_begin(self, process: Process, nodes: Counter[str], up_s: float) -> None:
         """Wait until its nodes spin, as far as they ever do: no node ends well while it is made.
 
-        A node is in the graph before its constructor has ended.
+        A node is in the graph before its constructor has ended. Then the graph has all of it.
         """
         for node in nodes:
             left_s = up_s + SPINS_WITHIN_S - time.monotonic()
             if left_s > 0 and process.alive:
                 self._probe.turned(node, left_s)
+        self._probe.look_now()
 
     def _end(self, process: Process) -> None:
         began_s = time.monotonic()

@@ -154,12 +154,13 @@ class Probe:
         """
         began_s = time.monotonic()
         if began_s >= self._rests_until_s:
-            self._read_graph()
+            self.look_now()
             now_s = time.monotonic()
             self._rests_until_s = now_s + REST_AFTER_LOOK * (now_s - began_s)
         return self.seen.graph
 
-    def _read_graph(self) -> None:
+    def look_now(self) -> None:
+        """Read it without resting, where something is complete now."""
         graph = read_graph(self._eye)
         if fullness(graph) >= fullness(self.seen.graph):
             self.seen.graph = graph

@@ -59,16 +59,16 @@ def changes(
 
 
 def _changes(folder: Path, stop: Callable[[], bool], begin: bool) -> Iterator[frozenset[Path]]:
+    at_first: frozenset[Path] | None = frozenset() if begin else None
     while _is_back(folder, stop):
         with _held(folder) as is_still_there:
             for found in _watch(folder):
                 if stop() or not is_still_there():
                     break
-                if found or begin:
-                    begin = False
-                    yield frozenset(Path(path) for _, path in found)
-        if _is_back(folder, stop):
-            yield frozenset({folder})
+                if found or at_first is not None:
+                    yield frozenset(Path(path) for _, path in found) | (at_first or frozenset())
+                    at_first = None
+        at_first = frozenset({folder})  # told when the new watch has begun: no save is missed
 
 
 def _watch(folder: Path) -> Iterator[set[tuple[Change, str]]]:
