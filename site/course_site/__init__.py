@@ -18,6 +18,7 @@ from course_site import (
     one_sheet,
     path_of_days,
     quizzes,
+    small_scripts,
     tables,
     words,
 )
@@ -32,6 +33,6 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_config_value("course_digest", "", "env")
     for part in (maths, words, tables, glossary_page, quizzes, path_of_days, day_box):
         part.setup(app)
-    for part in (doctor_page, api, navigation, few_scripts, few_tags, one_sheet):
+    for part in (doctor_page, api, navigation, few_scripts, few_tags, small_scripts, one_sheet):
         part.setup(app)
     return {"version": "1", "parallel_read_safe": False, "parallel_write_safe": True}

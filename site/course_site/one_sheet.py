@@ -14,10 +14,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from rcssmin import cssmin
 from sphinx.application import Sphinx
 
 SHEET = "all.css"
-STRING_OR_COMMENT = re.compile(r"""("(?:\\.|[^"\\])*"|'(?:\\.|[^'\\])*')|/\*.*?\*/""", re.DOTALL)
 PIECE = re.compile(r"""(?:"(?:\\.|[^"\\])*"|'(?:\\.|[^'\\])*'|url\([^"')]*\)|[^{};"'])*[{};]?""")
 HOLDS_RULES = ("@media", "@supports", "@layer", "@container")
 NAME = re.compile(r"[.#](-?[A-Za-z_][\w-]*)")
@@ -32,10 +32,9 @@ WORD = re.compile(r"[A-Za-z_][\w-]{2,}")  # shorter ones are variables of a pack
 
 
 def without_unused(css: str, known: Set[str]) -> str:
-    """The same sheet: no comments, no indents, and no rule that needs a name outside of `known`."""
-    plain = STRING_OR_COMMENT.sub(lambda found: found[1] or "", css)
-    pieces = [found[0] for found in PIECE.finditer(plain) if found[0].strip()]
-    return "\n".join(_rules(iter(pieces), known))
+    """The same sheet: no comments, no blanks, and no rule that needs a name outside of `known`."""
+    pieces = [found[0] for found in PIECE.finditer(cssmin(css)) if found[0].strip()]
+    return "".join(_rules(iter(pieces), known))
 
 
 def _rules(pieces: Iterator[str], known: Set[str]) -> Iterator[str]:
@@ -44,11 +43,11 @@ def _rules(pieces: Iterator[str], known: Set[str]) -> Iterator[str]:
         if piece.endswith("}"):
             return
         if not piece.endswith("{"):
-            yield _tidy(piece)
+            yield piece
             continue
-        head = _tidy(piece.removesuffix("{"))
+        head = piece.removesuffix("{")
         if head.startswith(HOLDS_RULES):
-            inside = "\n".join(_rules(pieces, known))
+            inside = "".join(_rules(pieces, known))
         else:
             inside = "".join(_block(pieces))
             head = head if head.startswith("@") else ",".join(_useful(head, known))
@@ -62,13 +61,9 @@ def _block(pieces: Iterator[str]) -> Iterator[str]:
     for piece in pieces:
         depth += piece.endswith("{") - piece.endswith("}")
         if not depth:
-            yield _tidy(piece.removesuffix("}"))
+            yield piece.removesuffix("}")
             return
-        yield _tidy(piece)
-
-
-def _tidy(text: str) -> str:
-    return " ".join(line.strip() for line in text.strip().splitlines())
+        yield piece
 
 
 def _useful(selectors: str, known: Set[str]) -> Iterator[str]:
@@ -151,7 +146,7 @@ class OneSheet:
         site = Path(app.outdir)
         known = known_names(site)
         sheets = [(site / name).read_text("utf-8") for name in self.names]
-        text = "\n".join(without_unused(sheet, known) for sheet in sheets)
+        text = "".join(without_unused(sheet, known) for sheet in sheets)
         less = without_unasked(text, variables_asked(site))
         (site / "_static" / SHEET).write_text(less, encoding="utf-8")
 

@@ -350,13 +350,15 @@ def robot(domain: int, home: Path) -> Iterator[list[str]]:
         [sys.executable, "-c", LISTENER], env=environment, text=True, stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
     ) as node:  # fmt: skip
-        assert node.stdout is not None
-        assert node.stdout.readline() == "ready\n"
         out = node.stdout
+        assert out is not None
         thread = threading.Thread(target=lambda: heard.extend(out))
-        thread.start()
-        yield heard
-        node.kill()
+        try:
+            assert out.readline() == "ready\n"
+            thread.start()
+            yield heard
+        finally:
+            node.kill()
         thread.join()
 
 

@@ -10,6 +10,7 @@ import pytest
 from site_rules import pages_of
 from two_days_site import Visit
 
+ROOT = Path(__file__).resolve().parents[2]
 SHEETS = ("pygments.css", "styles/furo.css", "mystnb.*.css", "styles/furo-extensions.css")
 OURS = "course.css"
 SEEN = (
@@ -58,6 +59,14 @@ def test_the_sheet_is_small(site: Path) -> None:
     assert ".button.plain" in text
     whole = [next((site / "_static").glob(sheet)) for sheet in (*SHEETS, OURS)]
     assert len(text) < sum(file.stat().st_size for file in whole) / 2
+
+
+def test_the_scripts_are_small(site: Path) -> None:
+    """They lose their comments, and nothing that a reader's browser runs."""
+    for script in (ROOT / "site" / "static").glob("*.js"):
+        small = (site / "_static" / script.name).read_text("utf-8")
+        assert not any(line.lstrip().startswith("//") for line in small.splitlines())
+        assert 0 < len(small) < len(script.read_text("utf-8"))
 
 
 def test_each_page_links_one_sheet_and_few_scripts(site: Path) -> None:
