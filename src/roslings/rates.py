@@ -87,6 +87,10 @@ class Rate:
         odd = [p for p in self.periods_s if not 0.5 <= p * self.hz <= 1.5]
         return len(odd) / len(self.periods_s)
 
+    def far_above(self, limit_hz: float) -> bool:
+        """Twice as often: a busy computer delays a node, and makes none faster."""
+        return self.low_hz > 2 * limit_hz
+
     @property
     def in_groups(self) -> bool:
         """Most periods are far from the mean: no longer watch makes that even."""

@@ -137,12 +137,7 @@ def grade(lab: course.Lab, count: int) -> Run:
     watcher = Watcher()
     with tempfile.TemporaryDirectory() as name:
         before_s = build_cpu_s(lab, Path(name, "before"))
-        handed_in = Path(name) / "in"
-        for number in range(count or ALIKE):
-            package = handed_in / f"s{number:04}" / lab.card.package
-            shutil.copytree(lab.solution, package)
-            with (package / "setup.py").open("a") as setup:
-                setup.write(f"# {number if count else 0}\n")
+        handed_in = hand_in(lab, count, Path(name) / "in")
         with run_folder() as scratch, gradebook(Path(name), lab.name) as book, watcher.looking():
             began_s, began_cpu_s, began_idle_s = time.monotonic(), cpu_s(), idle_s()
             wish = Wish(lab.name, scratch, scratch / LOCK)
@@ -154,6 +149,16 @@ def grade(lab: course.Lab, count: int) -> Run:
             builds = 1 if count else 1 / ALIKE
             floor_s = builds * build_s + nodes_cpu_s(book, results)
     return Run(seconds, used_s - watcher.cpu_s, floor_s, idle, results, watcher)
+
+
+def hand_in(lab: course.Lab, count: int, folder: Path) -> Path:
+    """So many different copies of the solution; 0 for ten equal ones."""
+    for number in range(count or ALIKE):
+        package = folder / f"s{number:04}" / lab.card.package
+        shutil.copytree(lab.solution, package)
+        with (package / "setup.py").open("a") as setup:
+            setup.write(f"# {number if count else 0}\n")
+    return folder
 
 
 def idle_s() -> float:

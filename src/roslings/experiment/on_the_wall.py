@@ -112,6 +112,8 @@ def longest_wait_s(before_ns: dict[str, int], now_ns: dict[str, int]) -> float:
 
 def trouble(seen: ExperimentSeen, rate: Rate | None, limit: RateContract) -> str | None:
     """Why this computer, not the node, decides what was seen here; None where it does not."""
+    if rate and rate.far_above(limit.high_hz):
+        return None
     if seen.canary and not seen.canary.imitated and (missed := _missed(seen.canary, limit)):
         return missed
     limits_hz = (limit.low_hz, limit.high_hz)
