@@ -19,6 +19,7 @@ import sys
 import time
 from collections import Counter
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -122,7 +123,7 @@ def kill_command(command: subprocess.Popen[str]) -> None:
 def kill_all(command: subprocess.Popen[str]) -> None:
     """All at once, as when the memory is gone."""
     for pid in children():
-        if pid != os.getpid():
+        with suppress(ProcessLookupError):  # the first may have ended the others
             os.kill(pid, signal.SIGKILL)
 
 
