@@ -62,7 +62,18 @@ class WallWatch:
             if self._count():
                 self._watch_rate()
         if self.arena.all_alive() or self._canary_sings():
-            seen.machine_fault = trouble(seen, self._rate(), self.limit)
+            seen.machine_fault = self._unheard() or trouble(seen, self._rate(), self.limit)
+
+    def _unheard(self) -> str | None:
+        """Silence is the node's own only where it would have been heard."""
+        publisher = self.publisher()
+        silent = publisher is not None and not self._count() and self.arena.all_alive()
+        if not silent or self.probe.connected(self._topic()):
+            return None
+        return (
+            f"your publisher on {self._topic()} is there, but in {FIRST_MESSAGE_WITHIN_S:g} s no"
+            " connection to it came up"
+        )
 
     def _watch_rate(self) -> None:
         self._began = [process.waits_ns() for process in self.arena.processes]

@@ -175,6 +175,11 @@ class Probe:
         recorder = self._recorders.get(topic)
         return len(recorder.seen.messages) if recorder else 0
 
+    def connected(self, topic: str) -> bool:
+        """What a publisher on `topic` sends is heard."""
+        recorder = self._recorders.get(topic)
+        return recorder is not None and recorder.connected
+
     def messages(self, topic: str) -> list[Any]:
         """The messages on `topic` so far, without their contents."""
         recorder = self._recorders.get(topic)

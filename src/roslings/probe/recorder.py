@@ -106,6 +106,11 @@ class Recorder:
         read = self._readers.get(self.seen.type)
         return read(self._message(raw)) if read else None
 
+    @property
+    def connected(self) -> bool:
+        """A publisher and this subscription have found each other: what it sends is heard."""
+        return int(self._subscription.get_publisher_count()) > 0
+
     def raw_messages(self) -> Iterator[tuple[MessageSeen, bytes]]:
         """Each message whose bytes were kept, and these, as they came."""
         return ((m, raw) for m, raw in zip(self.seen.messages, self._raw, strict=True) if raw)

@@ -1,0 +1,31 @@
+"""More topics than the grader listens to, and its own comes last: that is not silence."""
+
+import rclpy
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from std_msgs.msg import String
+
+
+class Talker(Node):
+    """Steady, and too much."""
+
+    def __init__(self):
+        super().__init__("talker")
+        self.many = [self.create_publisher(String, f"a{n}", 10) for n in range(250)]
+        self.voice = self.create_publisher(String, "chatter", 10)
+        self.timer = self.create_timer(0.5, self.talk)
+        self.count = 0
+
+    def talk(self):
+        """One turn."""
+        self.voice.publish(String(data=f"Hello robotics {self.count}"))
+        self.count += 1
+
+
+try:
+    rclpy.init()
+    rclpy.spin(Talker())
+except (KeyboardInterrupt, ExternalShutdownException):
+    pass
+finally:
+    rclpy.try_shutdown()
