@@ -124,7 +124,7 @@ def test_type(alone: ExperimentView) -> None:
     alone.publisher(NODE, STATUS).must(carry_its_type, match_qos)
 
 
-@check(needs=["runs"])
+@check(needs=["stays"])
 def test_rate(alone: ExperimentView) -> None:
     """It publishes at {STATUS.rate.hz:g} Hz, evenly."""
     alone.topic(STATUS).must(have_rate(STATUS))

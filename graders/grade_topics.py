@@ -126,7 +126,7 @@ def test_talker_qos(talking: ExperimentView) -> None:
     talking.publisher(TALKER, CHATTER).must(match_qos)
 
 
-@check(needs=["talker_runs"])
+@check(needs=["talker_stays"])
 def test_rate(talking: ExperimentView) -> None:
     """{CHATTER.topic} carries {CHATTER.rate.hz:g} messages a second, evenly."""
     talking.topic(CHATTER).must(have_rate(CHATTER))
