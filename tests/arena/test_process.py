@@ -214,6 +214,20 @@ def wait_for(condition: object) -> None:
         time.sleep(0.01)
 
 
+def test_a_process_that_waits_is_told_from_one_that_works(tmp_path: Path, namespaces: bool) -> None:
+    """And one that is gone does neither."""
+    sleeper = launch(tmp_path, namespaces, *python("import time; time.sleep(1000)"))
+    with Process("it", sleeper) as process:
+        deadline_s = time.monotonic() + LONG_S
+        while not process.asleep():  # it is still being started
+            assert time.monotonic() < deadline_s
+    assert not process.asleep()
+    source = "print('works', flush=True)\nwhile True: pass"
+    with Process("it", launch(tmp_path, namespaces, *python(source))) as process:
+        assert process.wait_until(lambda: bool(process.seen.lines), LONG_S)
+        assert not any(process.asleep() for _ in range(20))
+
+
 def test_the_time_without_a_processor_is_known_by_thread(tmp_path: Path, namespaces: bool) -> None:
     """It never shrinks, and grows where several busy threads of one process share the cores."""
     source = f"""

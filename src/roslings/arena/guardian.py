@@ -3,12 +3,15 @@
     python -I -S guardian.py FD
 
 FD is one end of a stream socket pair; the arena holds the other. It first sends one line of
-JSON (`Order`), later a signal's name, or `WAITS`, a line. The guardian answers one line of JSON
-an event:
+JSON (`Order`), later a signal's name, `WAITS`, or `STATE`, a line. The guardian answers one line
+of JSON an event:
 
     {"started": PID}                       {"said": TEXT, "at": NS}
     {"exited": STATUS, "at": NS, ...}      {"refused": REASON}
-    {"waits": {THREAD: NS}}                ready to run, and no processor free, since it began
+    {"answer": {THREAD: NS}}               to WAITS: ready to run, and no processor free, since
+                                           it began
+    {"answer": LETTER}                     to STATE: of its main thread, as in proc(5); empty where
+                                           it has ended
 
 Where the order says `namespaces`, the process lives in a pid namespace whose first process is
 this guardian: when the guardian goes, the kernel ends all that the process started. So it is
@@ -192,7 +195,9 @@ class Guardian:
         orders = self.channel.recv(4096)
         for name in orders.decode().split():
             if name == "WAITS":
-                self.tell({"waits": waits()})
+                self.tell({"answer": waits()})
+            elif name == "STATE":
+                self.tell({"answer": state(self.pid)})
             elif self.exited is None:
                 os.kill(self.pid, signal.Signals[name])
         return bool(orders)
@@ -310,6 +315,14 @@ def waits() -> dict[str, int]:
             for thread in os.listdir(f"/proc/{pid}/task"):  # noqa: PTH208
                 found[thread] = int(read(f"/proc/{pid}/task/{thread}/schedstat").split()[1])
     return found
+
+
+def state(pid: int) -> str:
+    """What the main thread of a process does: R runs or could, S sleeps; empty where it is gone."""
+    try:
+        return read(f"/proc/{pid}/stat").rpartition(b")")[2].split()[0].decode()
+    except OSError:
+        return ""
 
 
 def living() -> list[tuple[int, int]]:

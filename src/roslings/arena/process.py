@@ -23,7 +23,7 @@ Listener = Callable[[], None]
 HEAD_BYTES = 512 * 1024
 TAIL_BYTES = 64 * 1024
 LONGEST_LINE = 2000
-WAITS_WITHIN_S = 5.0
+ANSWERS_WITHIN_S = 5.0
 PATIENCE = {"SIGINT": 2.0, "SIGTERM": 1.0, "SIGKILL": 10.0}
 """Seconds given after each signal when a block ends and the process still runs."""
 
@@ -93,7 +93,7 @@ class Process:
         self._started = False
         self._gone = False
         self._refused: str | None = None
-        self._waits: dict[str, int] | None = None
+        self._answer: object = None
         self._around = ExitStack()
 
     def __enter__(self) -> Process:
@@ -168,11 +168,19 @@ class Process:
 
         Empty where the kernel does not tell, and when the process is gone.
         """
+        return self._ask("WAITS") or {}  # type: ignore[return-value]  # the guardian's own
+
+    def asleep(self) -> bool:
+        """Its main thread waits for something, as a node's does between its callbacks."""
+        return self._ask("STATE") == "S"
+
+    def _ask(self, what: str) -> object:
+        """The guardian's answer; None when the process is gone."""
         with self._changed:
-            self._waits = None
-            self._send("WAITS")
-            self._changed.wait_for(lambda: self._waits is not None or self._gone, WAITS_WITHIN_S)
-            return self._waits or {}
+            self._answer = None
+            self._send(what)
+            self._changed.wait_for(lambda: self._answer is not None or self._gone, ANSWERS_WITHIN_S)
+            return self._answer
 
     def _ask_to_end(self) -> None:
         self._asked_to_end = True
@@ -226,8 +234,8 @@ class Process:
             self._hear(str(event["said"]).encode("latin-1"), int(str(event["at"])))
         elif "exited" in event:
             self._note_end(event)
-        elif "waits" in event:
-            self._waits = event["waits"]  # type: ignore[assignment]  # the guardian's own
+        elif "answer" in event:
+            self._answer = event["answer"]
         elif "refused" in event:
             self._refused = str(event["refused"])
 

@@ -29,6 +29,9 @@ HEARD_WITHIN_S = 10.0
 AFTER_THE_TURN_S = 1.0
 INTERRUPT_SLACK_S = 1.0
 SPINS_WITHIN_S = 3.0
+RESTS_WITHIN_S = 1.0
+LOOKS_AT_REST = 3
+LOOK_AGAIN_S = 0.005
 
 
 class Scene:
@@ -185,6 +188,18 @@ class Scene:
             if left_s > 0 and process.alive:
                 self._probe.turned(node, left_s)
         self._probe.look_now()
+        self._let_rest(process)
+
+    def _let_rest(self, process: Process) -> None:
+        """Wait until it waits, as a node mostly does when somebody presses Ctrl-C.
+
+        In the middle of a callback Python can hear Ctrl-C before rclpy does: then a second
+        shutdown() is the first, and one mistake in fifty is not seen on a busy computer.
+        """
+        end_s, looks = time.monotonic() + RESTS_WITHIN_S, 0
+        while looks < LOOKS_AT_REST and process.alive and time.monotonic() < end_s:
+            looks = looks + 1 if process.asleep() else 0
+            process.wait_ended(LOOK_AGAIN_S)
 
     def _end(self, process: Process) -> None:
         began_s = time.monotonic()
