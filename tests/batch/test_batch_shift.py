@@ -163,7 +163,7 @@ class Machine:
 
 def test_idle_processors_let_more_in() -> None:
     """One by one, up to a bound, and back when nothing is left to spare."""
-    capacity = Capacity(cores=2, look=Machine(0, *[0.6] * 20, *[0.01] * 30))
+    capacity = Capacity(cores=2, look=Machine(0, *[0.6] * 20, *[0.0] * 30))
     found = [capacity.now(working) for working in [2, *[99] * 50]]
     assert found[:3] == [3, 4, 5]
     assert max(found) == 8

@@ -13,7 +13,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-SPARE, BUSY = 0.1, 0.02
+SPARE, BUSY = 0.05, 0.005
 """Idle part of the processors above which one more is let in, and below which one fewer."""
 LOOK_EVERY_S = 3.0
 MOST_PER_CORE = 4
