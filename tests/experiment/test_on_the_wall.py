@@ -12,10 +12,10 @@ from roslings.rates import Rate
 LIMIT = RateContract(hz=2.0, within=0.02)
 
 
-def watched(hz: float, wanted_hz: float = 2.0, stall_s: float = 0.0) -> str | None:
+def watched(hz: float, stall_s: float = 0.0) -> str | None:
     """A node that came at `hz`, on a computer whose canary did not come up."""
     seen = ExperimentSeen(
-        name="alone", clock="wall", canary=CanarySeen(wanted_hz=wanted_hz), stall_s=stall_s
+        name="alone", clock="wall", canary=CanarySeen(wanted_hz=LIMIT.hz), stall_s=stall_s
     )
     periods_s = (1 / hz,) * 20
     return trouble(seen, Rate(hz, 0.001, periods_s, 0, True), LIMIT)

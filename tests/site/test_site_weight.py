@@ -10,7 +10,8 @@ import pytest
 from site_rules import pages_of
 from two_days_site import Visit
 
-ROOT = Path(__file__).resolve().parents[2]
+from roslings.course import root
+
 SHEETS = ("pygments.css", "styles/furo.css", "mystnb.*.css", "styles/furo-extensions.css")
 OURS = "course.css"
 SEEN = (
@@ -63,7 +64,7 @@ def test_the_sheet_is_small(site: Path) -> None:
 
 def test_the_scripts_are_small(site: Path) -> None:
     """They lose their comments, and nothing that a reader's browser runs."""
-    for script in (ROOT / "site" / "static").glob("*.js"):
+    for script in (root() / "site" / "static").glob("*.js"):
         small = (site / "_static" / script.name).read_text("utf-8")
         assert not any(line.lstrip().startswith("//") for line in small.splitlines())
         assert 0 < len(small) < len(script.read_text("utf-8"))

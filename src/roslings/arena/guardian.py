@@ -320,7 +320,7 @@ def waits() -> dict[str, int]:
 def state(pid: int) -> str:
     """What the main thread of a process does: R runs or could, S sleeps; empty where it is gone."""
     try:
-        return read(f"/proc/{pid}/stat").rpartition(b")")[2].split()[0].decode()
+        return stat_of(pid)[0].decode()
     except OSError:
         return ""
 
@@ -331,12 +331,20 @@ def living() -> list[tuple[int, int]]:
     for name in os.listdir("/proc"):  # noqa: PTH208
         if name.isdigit():
             try:
-                after_name = read(f"/proc/{name}/stat").rpartition(b")")[2].split()
+                letter, parent, *_ = stat_of(int(name))
             except OSError:
                 continue
-            if after_name[0] != b"Z":
-                pairs.append((int(name), int(after_name[1])))
+            if letter != b"Z":
+                pairs.append((int(name), int(parent)))
     return pairs
+
+
+def stat_of(pid: int) -> list[bytes]:
+    """What proc(5) has in /proc/PID/stat after the name: state, parent's pid, and more.
+
+    Raises OSError where the process is gone.
+    """
+    return read(f"/proc/{pid}/stat").rpartition(b")")[2].split()
 
 
 def read(path: str) -> bytes:

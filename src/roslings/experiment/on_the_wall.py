@@ -66,12 +66,12 @@ class WallWatch:
 
     def _unheard(self) -> str | None:
         """Silence is the node's own only where it would have been heard."""
-        publisher = self.publisher()
-        silent = publisher is not None and not self._count() and self.arena.all_alive()
-        if not silent or self.probe.connected(self._topic()):
+        topic = self._topic()
+        silent = topic and not self._count() and self.arena.all_alive()
+        if not silent or self.probe.connected(topic):
             return None
         return (
-            f"your publisher on {self._topic()} is there, but in {FIRST_MESSAGE_WITHIN_S:g} s no"
+            f"your publisher on {topic} is there, but in {FIRST_MESSAGE_WITHIN_S:g} s no"
             " connection to it came up"
         )
 

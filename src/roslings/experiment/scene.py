@@ -82,6 +82,8 @@ class Scene:
             up_s = time.monotonic()
             yield process
             self._let_begin(process, Counter(self.seen.graph.nodes) - known, up_s)
+            self._probe.look_now()  # the graph has all of it now
+            self._let_rest(process)
             self._end(process)
 
     def watch(self, contract: TopicContract) -> None:
@@ -181,14 +183,12 @@ class Scene:
     def _let_begin(self, process: Process, nodes: Counter[str], up_s: float) -> None:
         """Wait until its nodes spin, as far as they ever do: no node ends well while it is made.
 
-        A node is in the graph before its constructor has ended. Then the graph has all of it.
+        A node is in the graph before its constructor has ended.
         """
         for node in nodes:
             left_s = up_s + SPINS_WITHIN_S - time.monotonic()
             if left_s > 0 and process.alive:
                 self._probe.turned(node, left_s)
-        self._probe.look_now()
-        self._let_rest(process)
 
     def _let_rest(self, process: Process) -> None:
         """Wait until it waits, as a node mostly does when somebody presses Ctrl-C.
