@@ -28,6 +28,7 @@ nb_execution_raise_on_error = True
 nb_execution_timeout = 60
 nb_execution_show_tb = True
 nb_merge_streams = True
+nb_render_error_lexer = "none"  # our errors are sentences: "and" in one is no keyword
 # `./roslings lab` writes a kernel of this name; here the one that came with ipykernel does.
 nb_kernel_rgx_aliases = {"roslings": "python3"}
 nb_ipywidgets_js = {}  # these come from another host

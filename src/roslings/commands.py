@@ -179,8 +179,9 @@ def grade_all(options: argparse.Namespace) -> int:
 
 def cluster(options: argparse.Namespace) -> int:
     """Run a part of a Dask cluster, in this environment, until Ctrl-C."""
-    command = [sys.executable, "-m", "dask", options.part, *options.rest]
-    return subprocess.run(command, check=False).returncode
+    from roslings.batch.cluster import run_part
+
+    return run_part(options.part, options.rest)
 
 
 def _late_rule(options: argparse.Namespace) -> LateRule | None:

@@ -89,6 +89,29 @@ class Ending(Record):
 
     signal: str
     after_s: float | None = Field(description="None where it did not end and was killed")
+    watched_s: float = Field(description="So long was its end waited for")
+    waited_s: float = Field(
+        default=0.0,
+        description="Of these: its main thread was ready to run, and no processor was free for it",
+    )
+    others_waited_s: float = Field(
+        default=0.0,
+        description="The same of its other threads, added up; of all where it did not end",
+    )
+
+    @property
+    def own_s(self) -> float | None:
+        """What it took by itself, whatever else the machine had to do."""
+        return None if self.after_s is None else self.after_s - self.waited_s
+
+    @property
+    def least_own_s(self) -> float:
+        """As `own_s`, if all its threads waited one after the other.
+
+        Where it did not end: the time of its own that it had to end in, at least.
+        """
+        passed_s = self.watched_s if self.own_s is None else self.own_s
+        return passed_s - self.others_waited_s
 
 
 class ProcessSeen(Record):

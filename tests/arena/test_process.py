@@ -49,6 +49,13 @@ def test_its_lines_and_its_status_are_seen(tmp_path: Path, namespaces: bool) -> 
     assert seen.ended_by_itself
 
 
+def test_every_byte_arrives(tmp_path: Path, namespaces: bool) -> None:
+    """Quotes, backslashes, and what is no UTF-8."""
+    seen = run(tmp_path, namespaces, *python("import os; os.write(1, bytes(range(256)))"))
+    text = bytes(range(256)).decode("utf-8", errors="replace")
+    assert texts(seen) == [part.rstrip("\r") for part in text.split("\n")]
+
+
 def test_python_does_not_hold_its_lines_back(tmp_path: Path, namespaces: bool) -> None:
     """A print() is seen while the process still runs, without PYTHONUNBUFFERED."""
     source = "import time; print('I heard it'); time.sleep(1000)"
@@ -79,6 +86,64 @@ def test_ctrl_c_reaches_the_process(tmp_path: Path, namespaces: bool) -> None:
     assert process.seen.ending is not None
     assert process.seen.ending.after_s is not None
     assert not process.seen.ended_by_itself
+
+
+BUSY = "while True: pass"
+SLOW_TO_END = """
+import signal, time
+def end(*_):
+    until_s = time.process_time() + 1.0
+    while time.process_time() < until_s:
+        pass
+    raise SystemExit(0)
+signal.signal(signal.SIGINT, end)
+print("ready", flush=True)
+while True:
+    signal.pause()
+"""
+
+
+ENDS_IN_A_THREAD = """
+import signal, threading, time
+def work():
+    until_s = time.thread_time() + 1.0
+    while time.thread_time() < until_s:
+        pass
+def end(*_):
+    working = threading.Thread(target=work)
+    working.start()
+    working.join()
+    raise SystemExit(0)
+signal.signal(signal.SIGINT, end)
+print("ready", flush=True)
+while True:
+    signal.pause()
+"""
+
+
+@pytest.mark.skipif(
+    not Path("/proc/self/schedstat").exists(), reason="the kernel does not count it"
+)
+@pytest.mark.parametrize("program", [SLOW_TO_END, ENDS_IN_A_THREAD], ids=["main", "thread"])
+def test_while_it_waits_for_a_processor_its_time_stands_still(
+    tmp_path: Path, namespaces: bool, program: str
+) -> None:
+    """Three others on its processor: by itself it takes a second, with them more."""
+    one = {min(os.sched_getaffinity(0))}
+    pinned = f"import os; os.sched_setaffinity(0, {one})\n"
+    others = [subprocess.Popen([sys.executable, "-S", "-c", pinned + BUSY]) for _ in range(3)]
+    try:
+        with Process("it", launch(tmp_path, namespaces, *python(pinned + program))) as process:
+            assert process.wait_until(lambda: bool(process.seen.lines), LONG_S)
+            assert process.interrupt(1.5)
+    finally:
+        for other in others:
+            other.kill()
+            other.wait()
+    ending = process.seen.ending
+    assert ending and ending.after_s
+    assert (ending.waited_s if program == SLOW_TO_END else ending.others_waited_s) > 0.1
+    assert ending.least_own_s < ending.after_s - 0.1
 
 
 def test_ctrl_c_works_under_a_parent_that_ignores_it(tmp_path: Path) -> None:

@@ -10,7 +10,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 import pytest
@@ -42,13 +42,25 @@ def running(*words: str, **more: str) -> Iterator[subprocess.Popen[bytes]]:
 
 
 def end(process: subprocess.Popen[bytes]) -> None:
-    """The command and the process of Dask below it."""
-    if process.poll() is None:
-        os.killpg(process.pid, signal.SIGTERM)
-        try:
-            process.wait(30)
-        except subprocess.TimeoutExpired:
-            os.killpg(process.pid, signal.SIGKILL)
+    """Ask the command, which has ended Dask when it ends."""
+    started = children(process.pid)
+    process.terminate()
+    process.wait(LONG_S)
+    assert not any(map(alive, started))
+
+
+def children(pid: int) -> list[int]:
+    """What a process has started; nothing where it has ended."""
+    with suppress(OSError):
+        return list(map(int, Path(f"/proc/{pid}/task/{pid}/children").read_text().split()))
+    return []
+
+
+def alive(pid: int) -> bool:
+    """It runs, or could."""
+    with suppress(OSError):
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    return False
 
 
 @contextmanager
@@ -134,7 +146,7 @@ def test_a_worker_that_dies_loses_nothing(tmp_path: Path) -> None:
         ]  # fmt: skip
         with subprocess.Popen(command, stderr=subprocess.DEVNULL) as grading:
             until(lambda: any((tmp_path / "tmp").glob("roslings-*/room")) or bool(grading.poll()))
-            os.killpg(first.pid, signal.SIGKILL)
+            first.kill()
             assert grading.wait(LONG_S) == 0
         with gradebook(tmp_path / "out", "topics") as book:
             words = {name: result.word for name, result in book.latest().items()}
@@ -154,6 +166,34 @@ def test_a_worker_with_another_course_is_refused(tmp_path: Path) -> None:
             graded(tmp_path / "in", address, tmp_path / "out")
         with gradebook(tmp_path / "out", "topics") as book:
             assert book.latest() == {}
+
+
+STUBBORN = """
+import sys
+from roslings.batch.cluster import run_until_asked
+shell = "trap '' TERM INT; echo $$; while :; do sleep 1; done"
+sys.exit(run_until_asked(["/bin/sh", "-c", shell], 0.5))
+"""
+
+
+@pytest.mark.parametrize("sent", [signal.SIGTERM, signal.SIGINT, signal.SIGKILL])
+def test_what_does_not_end_is_ended(sent: signal.Signals) -> None:
+    """Dask's worker may wait for a task of its own for ever; and the command may be killed."""
+    command = [sys.executable, "-c", STUBBORN]
+    with subprocess.Popen(command, stdout=subprocess.PIPE) as process:
+        assert process.stdout
+        pid = int(process.stdout.readline())
+        process.send_signal(sent)
+        assert process.wait(LONG_S) == (-sent if sent == signal.SIGKILL else 0)
+    until(lambda: not alive(pid))
+
+
+def test_a_part_that_cannot_start_says_so() -> None:
+    """With Dask's own words, and its exit code."""
+    words = ["-m", "roslings", "cluster", "worker", "no address at all", "--no-such-option"]
+    ran = subprocess.run([sys.executable, *words], capture_output=True, text=True, check=False)
+    assert ran.returncode == 2
+    assert "no-such-option" in ran.stderr
 
 
 def test_no_scheduler_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import shutil
+import threading
+from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
@@ -14,6 +17,7 @@ from roslings.course.files import BadCourseFile
 from roslings.evidence import BuildSeen, Evidence, MachineSeen
 from roslings.judge import judge
 from roslings.report.evidence_file import evidence_bytes
+from roslings.workspace import shared_build as building
 from roslings.workspace.inspect import inspect_package
 from roslings.workspace.shared_build import shared_build
 
@@ -92,6 +96,29 @@ def test_regrade_writes_the_other_shapes_too(tmp_path: Path) -> None:
     options = [word for name, path in places.items() for word in (f"--{name}", str(path))]
     assert main([*words, *options]) == 1
     assert all(b"has_picture" in path.read_bytes() for path in places.values())
+
+
+def test_one_build_a_processor(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The next one waits for its turn, but not for ever: those before it may be endless."""
+    entered = threading.Event()
+
+    def enter() -> None:
+        with building._turn(tmp_path):
+            entered.set()
+
+    with ExitStack() as others:
+        for _ in os.sched_getaffinity(0):
+            others.enter_context(building._turn(tmp_path))
+        monkeypatch.setattr(building, "WAITS_FOR_ITS_TURN_S", 0.0)
+        enter()
+        assert entered.is_set()
+        entered.clear()
+        monkeypatch.setattr(building, "WAITS_FOR_ITS_TURN_S", 1e6)
+        waiting = threading.Thread(target=enter)
+        waiting.start()
+        assert not entered.wait(1.0)
+    waiting.join()
+    assert entered.is_set()
 
 
 def test_equal_packages_share_a_build(tmp_path: Path) -> None:

@@ -20,13 +20,16 @@ import tempfile
 import threading
 import time
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
+from statistics import mean
 
 from roslings import course
 from roslings.arena import base_environment
-from roslings.batch.capacity import Capacity, cores
+from roslings.arena.kernel import cores
+from roslings.batch.capacity import Capacity
 from roslings.batch.gradebook import Gradebook, gradebook
 from roslings.batch.grading import unpacked
 from roslings.batch.result import Result
@@ -35,8 +38,12 @@ from roslings.batch.submissions import find_submissions
 from roslings.experiment.run_folder import LOCK, run_folder
 from roslings.workspace.build import colcon
 
-LOOK_EVERY_S = 1.0
+LOOK_EVERY_S = 5.0
 ALIKE = 10
+BUILDS = 4
+"""So often, on each processor, before and after."""
+BUILD_EVERY_S = 120.0
+"""And so often in between."""
 
 
 def main(words: list[str]) -> None:
@@ -68,7 +75,7 @@ class Run:
 
 @dataclass
 class Watcher:
-    """Looks at the memory of all that works, again and again."""
+    """Looks at the memory of all that works; seldom, for one look takes 0.08 s of a processor."""
 
     most_at_once: int = 0
     peak_each: float = 0.0
@@ -98,6 +105,51 @@ class Watcher:
             if self.working:
                 self.peak_each = max(self.peak_each, memory_below() / self.working)
         self.cpu_s = time.thread_time()
+
+
+@dataclass
+class Yardstick:
+    """CPU seconds of one `colcon build`, with nothing around it, while all processors are busy.
+
+    A machine that others use has slow minutes and quick ones, so it is measured before and after
+    the gradings, and now and then between them. These builds count neither as grading nor as floor,
+    though the gradings have to wait for them.
+    """
+
+    lab: course.Lab
+    folder: Path
+    each_s: list[float] = field(default_factory=list)
+
+    def measure_alone(self) -> None:
+        """Several, one on each processor."""
+        for _ in range(BUILDS):
+            with ThreadPoolExecutor(cores()) as pool:
+                self.each_s += pool.map(self._build, range(cores()))
+
+    @contextmanager
+    def measuring(self) -> Iterator[list[float]]:
+        """One now and then, until the block ends; the list holds these."""
+        over, between_s = threading.Event(), list[float]()
+        thread = threading.Thread(target=self._measure_between, args=(over, between_s))
+        thread.start()
+        try:
+            yield between_s
+        finally:
+            over.set()
+            thread.join()
+            self.each_s += between_s
+
+    def _measure_between(self, over: threading.Event, between_s: list[float]) -> None:
+        while not over.wait(BUILD_EVERY_S):
+            between_s.append(self._build())
+
+    def _build(self, _: int = 0) -> float:
+        folder = Path(tempfile.mkdtemp(dir=self.folder))
+        build = start_build(self.lab, folder)
+        _, status, used = os.wait4(build.pid, 0)
+        build.returncode = os.waitstatus_to_exitcode(status)
+        assert build.returncode == 0
+        return used.ru_utime + used.ru_stime
 
 
 def memory_below() -> float:
@@ -136,18 +188,21 @@ def grade(lab: course.Lab, count: int) -> Run:
     """Grade `count` different copies of the solution; 0 for ten equal ones."""
     watcher = Watcher()
     with tempfile.TemporaryDirectory() as name:
-        before_s = build_cpu_s(lab, Path(name, "before"))
+        yardstick = Yardstick(lab, Path(name))
+        yardstick.measure_alone()
         handed_in = hand_in(lab, count, Path(name) / "in")
         with run_folder() as scratch, gradebook(Path(name), lab.name) as book, watcher.looking():
             began_s, began_cpu_s, began_idle_s = time.monotonic(), cpu_s(), idle_s()
             wish = Wish(lab.name, scratch, scratch / LOCK)
-            Shift(wish, book, Capacity(), watcher).run(find_submissions(handed_in))
-            seconds, used_s = time.monotonic() - began_s, cpu_s() - began_cpu_s
-            idle = (idle_s() - began_idle_s) / (seconds * cores())
+            with yardstick.measuring() as between_s:
+                Shift(wish, book, Capacity(), watcher).run(find_submissions(handed_in))
+                seconds = time.monotonic() - began_s
+                idle = (idle_s() - began_idle_s) / (seconds * cores())
+            used_s = cpu_s() - began_cpu_s - sum(between_s)
             results = list(book.latest().values())
-            build_s = (before_s + build_cpu_s(lab, Path(name, "after"))) / 2
+            yardstick.measure_alone()
             builds = 1 if count else 1 / ALIKE
-            floor_s = builds * build_s + nodes_cpu_s(book, results)
+            floor_s = builds * mean(yardstick.each_s) + nodes_cpu_s(book, results)
     return Run(seconds, used_s - watcher.cpu_s, floor_s, idle, results, watcher)
 
 
@@ -173,19 +228,15 @@ def cpu_s() -> float:
     return sum(u.ru_utime + u.ru_stime for u in map(resource.getrusage, whose))
 
 
-def build_cpu_s(lab: course.Lab, folder: Path) -> float:
-    """CPU of one `colcon build`, with nothing around it.
-
-    A busy machine has slower CPU seconds, so it is measured before and after the gradings.
-    """
+def start_build(lab: course.Lab, folder: Path) -> subprocess.Popen[bytes]:
+    """Begin a `colcon build` of the solution in a folder of its own."""
     shutil.copytree(lab.solution, folder / "src" / lab.card.package)
     (folder / "home").mkdir()
-    before_s = cpu_s()
-    subprocess.run(
-        [colcon(), "build"], cwd=folder, env=base_environment(folder / "home"), check=True,
-        capture_output=True,
+    quiet = subprocess.DEVNULL
+    return subprocess.Popen(
+        [colcon(), "build"], cwd=folder, env=base_environment(folder / "home"), stdout=quiet,
+        stderr=quiet,
     )  # fmt: skip
-    return cpu_s() - before_s
 
 
 def nodes_cpu_s(book: Gradebook, results: list[Result]) -> float:

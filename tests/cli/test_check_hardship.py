@@ -329,6 +329,49 @@ def test_a_killed_check_leaves_nothing_that_runs(package: Path, tmp_path: Path) 
     assert verdict(tmp_path, package)["score"] == 100
 
 
+ENDED_WHILE = """
+import os, signal, shutil
+from pathlib import Path
+from roslings.experiment import run_folder as module
+
+def end(*_, **__):
+    os.kill(os.getpid(), signal.SIGKILL)
+
+{when}
+with module.run_folder() as folder:
+    (folder / "src/chatter").mkdir(parents=True)
+    (folder / "src/chatter").chmod(0o500)
+"""
+
+
+@pytest.mark.parametrize(
+    "when",
+    [
+        "module.fcntl.flock = end",
+        "Path.rename = end",
+        "shutil.rmtree = end",
+        "whole = shutil.rmtree; shutil.rmtree = lambda *a, **k: (whole(*a, **k), end())",
+        "Path.iterdir = end",
+    ],
+)
+def test_whoever_is_killed_meanwhile_leaves_what_is_swept(
+    when: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """While the folder is made, and while it is removed."""
+    from roslings.experiment.run_folder import sweep
+
+    monkeypatch.setenv("TMPDIR", str(tmp_path))
+    monkeypatch.setattr(tempfile, "tempdir", None)
+    script = ENDED_WHILE.format(when=when)
+    ran = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=False
+    )
+    assert ran.returncode == -signal.SIGKILL, ran.stderr
+    assert list(tmp_path.iterdir())
+    sweep()
+    assert not list(tmp_path.iterdir())
+
+
 def test_temporary_files_of_others_are_left_alone(tmp_path: Path) -> None:
     """The sweep takes folders of runs, and no other."""
     from roslings.experiment.run_folder import sweep

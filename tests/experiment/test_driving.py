@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+import random
 from collections.abc import Iterator
+from typing import cast
 
 import pytest
 
@@ -11,7 +13,8 @@ from roslings.arena.lease import leased_domain
 from roslings.devices.rover import Pose, Rover
 from roslings.evidence import ExperimentSeen
 from roslings.experiment import acting
-from roslings.experiment.driving import FLOOR, Robot
+from roslings.experiment.driving import FLOOR, Robot, start_near
+from roslings.experiment.scene import Scene
 from roslings.probe import Probe
 
 pytest.importorskip("rclpy")
@@ -72,3 +75,20 @@ def test_a_robot_that_stands_is_not_waited_for(
         assert probe.until(acting.Rest(robot, {"x": 1.0, "y": 0.0}).is_over, WITHIN_S)
         monkeypatch.setattr(acting, "STRAYS_S", 1000.0)
         assert not acting.Rest(robot, {"x": 1.0, "y": 0.0}).is_over()
+
+
+class Dice:
+    """What a scene has of chance."""
+
+    def between(self, low: float, high: float) -> float:
+        """Any number."""
+        return random.uniform(low, high)
+
+
+def test_a_start_is_beside_its_goal_and_above_it() -> None:
+    """So that who looks along x only, or along y only, is far from the truth."""
+    found = [start_near(cast(Scene, Dice()), 3.0, 5.0, 1.0, 1.3) for _ in range(1000)]
+    ways = [(pose.x_m - 3.0, pose.y_m - 5.0) for pose in found]
+    assert all(1.0 <= math.hypot(*way) <= 1.3 for way in ways)
+    assert all(max(map(abs, way)) < 0.82 * math.hypot(*way) for way in ways)
+    assert len({(x > 0, y > 0) for x, y in ways}) == 4

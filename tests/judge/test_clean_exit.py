@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from roslings.evidence import Ending, ExperimentSeen, LogLine, ProcessSeen
-from roslings.judge import exit_cleanly
-from roslings.judge.faults import UncleanExit
+from roslings.judge import end_within, exit_cleanly
+from roslings.judge.faults import DoesNotEnd, Inconclusive, UncleanExit
 from roslings.judge.views import ProcessView
 
 ALREADY = "RCLError: failed to shutdown: rcl_shutdown already called on the given context"
@@ -19,10 +19,35 @@ def ended(status: int, *lines: str) -> ProcessView:
         started_ns=0,
         ended_ns=1,
         status=status,
-        ending=Ending(signal="SIGINT", after_s=0.1),
+        ending=Ending(signal="SIGINT", after_s=0.1, watched_s=0.1),
         lines=[LogLine(arrival_ns=0, text=line, source="terminal") for line in lines],
     )
     return ProcessView(process, ExperimentSeen(name="x", clock="wall"))
+
+
+def ended_after(after_s: float | None, waited_s: float, others_s: float = 0.0) -> ProcessView:
+    """A process that took so long to end after Ctrl-C; None where 10 s were not enough."""
+    process = ended(0)
+    process.seen.ending = Ending(
+        signal="SIGINT", after_s=after_s, watched_s=after_s or 10.0, waited_s=waited_s,
+        others_waited_s=others_s,
+    )  # fmt: skip
+    return process
+
+
+def test_to_wait_for_a_processor_is_no_time_of_its_own() -> None:
+    """A busy computer makes every end late."""
+    end_within(2.0)(ended_after(2.9, 1.2))
+    for late in (ended_after(2.9, 0.3), ended_after(2.9, 0.3, 0.5), ended_after(None, 0.0, 7.0)):
+        with pytest.raises(DoesNotEnd):
+            end_within(2.0)(late)
+
+
+@pytest.mark.parametrize("late", [ended_after(2.9, 0.3, 0.7), ended_after(None, 0.0, 9.0)])
+def test_what_its_threads_waited_for_is_nobodys_fault(late: ProcessView) -> None:
+    """Whether they waited one after the other or at the same time, nobody knows."""
+    with pytest.raises(Inconclusive, match="waited for a processor for"):
+        end_within(2.0)(late)
 
 
 def test_a_quiet_end_is_clean() -> None:

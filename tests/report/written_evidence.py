@@ -57,7 +57,7 @@ def process(name: str, *texts: str) -> ProcessSeen:
         started_ns=START_NS,
         ended_ns=START_NS + 6_000_000_000,
         status=0,
-        ending=Ending(signal="SIGINT", after_s=0.1),
+        ending=Ending(signal="SIGINT", after_s=0.1, watched_s=0.1),
         lines=[
             LogLine(arrival_ns=START_NS + 10**9, text=text, source="terminal") for text in texts
         ],

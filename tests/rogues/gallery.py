@@ -29,6 +29,7 @@ from stage import (
 from roslings.arena.lease import leased_domain
 from roslings.batch.result import Result
 from roslings.judge.sheet import dependants
+from roslings.verdict import CheckResult
 
 Entry = Attempt | Parcel
 NEXT = "-next"
@@ -50,6 +51,7 @@ class Seen(BaseModel):
     """Of the build, or of its last process."""
     neighbour: str = ""
     neighbours_score: float | None = None
+    neighbours_faults: dict[str, str] = {}
     seconds: float = 0.0
 
 
@@ -124,7 +126,8 @@ def _seen(entry: Entry, made: Stage) -> Seen:
     results = made.results()
     neighbour = results[f"{entry.name}{NEXT}"]
     more = {"neighbour": f"{neighbour.word} {neighbour.reason}".strip(),
-            "neighbours_score": neighbour.score}  # fmt: skip
+            "neighbours_score": neighbour.score,
+            "neighbours_faults": seen_of(neighbour, made).faults}  # fmt: skip
     return seen_of(results[entry.name], made).model_copy(update=more)
 
 
@@ -136,12 +139,17 @@ def seen_of(result: Result, made: Stage) -> Seen:
     return Seen(
         word=result.word, reason=result.reason, score=result.score,
         outcomes={check.id: check.outcome for check in checks},
-        faults={check.id: f"{check.fault}: {check.measured or check.why}" for check in checks
+        faults={check.id: told(check) for check in checks
                 if check.outcome in ("fail", "inconclusive")},
         reached=sorted({line for line in lines if line.startswith("GOT")}),
         held_off=sorted({line for line in lines if line.startswith("held off")})[:40],
         last_words=lines[-12:], seconds=result.seconds,
     )  # fmt: skip
+
+
+def told(check: CheckResult) -> str:
+    """What the verdict says of a check, and the node's last lines."""
+    return "\n".join((f"{check.fault}: {check.measured or check.why}", *check.log))
 
 
 def untrue(truth: Truth, seen: Seen) -> list[str]:

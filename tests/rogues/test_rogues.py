@@ -138,7 +138,8 @@ def insist_on(name: str, gallery: Gallery) -> None:
     seen = gallery.seen[name]
     assert seen.reached == []
     assert untrue(ENTRIES[name].truth, seen) == []
-    assert (seen.neighbour, seen.neighbours_score) == ("pass", 100)
+    honest = (seen.neighbour, seen.neighbours_score, seen.neighbours_faults)
+    assert honest == ("pass", 100, {})
 
 
 def insist_on_nothing_left(gallery: Gallery) -> None:

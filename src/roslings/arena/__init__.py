@@ -14,10 +14,11 @@ from roslings.arena.environment import (
 )
 from roslings.arena.isolation import Isolation, Lack, choose_isolation
 from roslings.arena.lease import NoFreeDomain
-from roslings.arena.process import CannotStart, Launch, Process
+from roslings.arena.process import LONGEST_WAIT_S, CannotStart, Launch, Process
 from roslings.arena.sandbox import Sandbox
 
 __all__ = [
+    "LONGEST_WAIT_S",
     "QUICK_DISCOVERY",
     "Arena",
     "CannotStart",

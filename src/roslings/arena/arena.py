@@ -84,6 +84,11 @@ class Arena:
         """Where a device must appear for the processes to see it."""
         return self._place.devices
 
+    def waited_s(self) -> float:
+        """The longest time that a thread of theirs was ready to run and no processor was free."""
+        waits_ns = (ns for each in self.processes for ns in each.waits_ns().values())
+        return max(waits_ns, default=0) / 1e9
+
     def all_alive(self) -> bool:
         """Every process that was started still runs."""
         return all(process.alive for process in self.processes)

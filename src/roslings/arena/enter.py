@@ -16,7 +16,6 @@ import socket
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))  # noqa: PTH100, PTH120
-import guardian  # type: ignore[import-not-found]
 import kernel  # type: ignore[import-not-found]
 
 REFUSED = 97
@@ -43,6 +42,8 @@ def main(arguments: list[str]) -> None:
 
 def try_namespaces() -> None:
     """Prove that multicast comes back on loopback, and that a guardian's namespaces nest."""
+    import guardian  # type: ignore[import-not-found]
+
     hear_oneself()
     guardian.enter_namespaces()
 

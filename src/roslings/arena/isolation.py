@@ -23,7 +23,14 @@ from roslings.arena.environment import HERE, Wall
 from roslings.arena.sandbox import Sandbox
 
 ENTER = HERE / "enter.py"
-GUARDIAN = HERE / "guardian.py"
+GUARD = """
+import gc, sys
+gc.disable()
+sys.path.insert(0, sys.argv[1])
+import guardian
+guardian.main(int(sys.argv[2]))
+"""
+"""As a module, not as a script: a script is compiled anew each time."""
 BARE = (sys.executable, "-I", "-S")
 """A Python without site packages: quick to start, and without the threads that forbid unshare."""
 
@@ -31,6 +38,11 @@ ROOM_BYTES = 512 * MB
 """For one package's build and installation."""
 TRIED_WITHIN_S = 60
 USERS_FORBIDDEN = Path("/proc/sys/kernel/apparmor_restrict_unprivileged_userns")
+
+
+def guardian_command(channel: int) -> list[str]:
+    """Start a guardian; `channel` is its end of a stream socket pair."""
+    return [*BARE, "-c", GUARD, str(HERE), str(channel)]
 
 
 @dataclass(frozen=True)

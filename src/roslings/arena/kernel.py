@@ -1,16 +1,12 @@
 """The Linux calls behind an arena that Python 3.10 does not offer by itself.
 
-Standard library only: the two scripts beside this file run it in a bare interpreter.
+Standard library only: the guardian and the script beside this file run it in a bare interpreter.
 """
 
 from __future__ import annotations
 
 import ctypes
-import fcntl
 import os
-import signal
-import socket
-import struct
 
 CLONE_NEWNS = 0x00020000
 CLONE_NEWIPC = 0x08000000
@@ -22,6 +18,7 @@ BYTES_A_FILE = 16384
 """On average; a file takes memory of the kernel even where it is empty."""
 
 _PR_SET_PDEATHSIG = 1
+_SIGKILL = 9
 _PR_SET_DUMPABLE = 4
 _PR_SET_CHILD_SUBREAPER = 36
 _MS_NOSUID_NODEV = 0x2 | 0x4
@@ -106,17 +103,17 @@ def _write(path: str, text: str) -> None:
 
 def raise_loopback() -> None:
     """Bring `lo` up in a new network namespace, with multicast, which DDS discovery needs."""
+    import fcntl  # these three would double what a guardian imports, and it has no use for them
+    import socket
+    import struct
+
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as control:
         request = struct.pack("16sH14x", b"lo", _IFF_UP_LOOPBACK_RUNNING_MULTICAST)
         fcntl.ioctl(control, _SIOCSIFFLAGS, request)
         route = _Route(flags=_RTF_UP, device=b"lo")
-        route.destination[:] = _address("224.0.0.0")
-        route.netmask[:] = _address("240.0.0.0")
+        for place, dotted in ((route.destination, "224.0.0.0"), (route.netmask, "240.0.0.0")):
+            place[:] = struct.pack("=HH4s8x", socket.AF_INET, 0, socket.inet_aton(dotted))
         fcntl.ioctl(control, _SIOCADDRT, route)
-
-
-def _address(dotted: str) -> bytes:
-    return struct.pack("=HH4s8x", socket.AF_INET, 0, socket.inet_aton(dotted))
 
 
 def mount_private(kind: str, place: str) -> None:
@@ -148,9 +145,14 @@ def keep_mounts_private() -> None:
 
 def die_with_parent() -> None:
     """Have the kernel kill this process when its parent ends."""
-    _call("prctl", _PR_SET_PDEATHSIG, int(signal.SIGKILL), 0, 0, 0)
+    _call("prctl", _PR_SET_PDEATHSIG, _SIGKILL, 0, 0, 0)
 
 
 def adopt_orphans() -> None:
     """Become the parent of every descendant whose own parent ended."""
     _call("prctl", _PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
+
+
+def cores() -> int:
+    """The processors that this process may use."""
+    return len(os.sched_getaffinity(0))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import marshal
 import socket
 import subprocess
 import threading
@@ -15,7 +16,7 @@ from types import TracebackType
 from typing import Literal
 
 from roslings.arena.cgroup import Group
-from roslings.arena.isolation import BARE, GUARDIAN
+from roslings.arena.isolation import guardian_command
 from roslings.arena.sandbox import Sandbox
 from roslings.evidence import Ending, LogLine, ProcessSeen
 
@@ -24,6 +25,9 @@ HEAD_BYTES = 512 * 1024
 TAIL_BYTES = 64 * 1024
 LONGEST_LINE = 2000
 ANSWERS_WITHIN_S = 5.0
+LONGEST_WAIT_S = 20.0
+"""For a processor: who waits longer is not waited for."""
+LOOK_AGAIN_S = 0.1
 PATIENCE = {"SIGINT": 2.0, "SIGTERM": 1.0, "SIGKILL": 10.0}
 """Seconds given after each signal when a block ends and the process still runs."""
 
@@ -48,7 +52,7 @@ class Launch:
     sandbox: Sandbox | None = None
 
     def order(self) -> bytes:
-        """The line that the guardian reads."""
+        """What the guardian reads first."""
         words = {
             "command": self.command,
             "environment": self.environment,
@@ -59,7 +63,8 @@ class Launch:
             "limits": {**(self.sandbox.bounds.limits() if self.sandbox else {}), **self.limits},
             "watch": self.sandbox.watch if self.sandbox else {},
         }
-        return json.dumps(words).encode() + b"\n"
+        order = marshal.dumps(words)
+        return b"%d\n%b" % (len(order), order)
 
     @property
     def walls(self) -> Literal["none", "namespaces", "sandbox"]:
@@ -78,6 +83,21 @@ class Launch:
             yield guardian, Group(())
 
 
+@dataclass
+class Waiting:
+    """How long the threads of a process were ready to run, and no processor was free for them."""
+
+    before_ns: dict[str, int]
+    """By thread, when it began."""
+    now_ns: dict[str, int] = field(default_factory=dict)
+    """By thread, as it was last seen: a thread that has ended is not forgotten."""
+
+    def sum_s(self, without: str = "") -> float:
+        """Of all threads together, but of one."""
+        now = self.now_ns.items()
+        return sum(ns - self.before_ns.get(each, 0) for each, ns in now if each != without) / 1e9
+
+
 class Process:
     """A running process behind its guardian. Leaving the `with` block ends it, orphans included."""
 
@@ -94,12 +114,15 @@ class Process:
         self._gone = False
         self._refused: str | None = None
         self._answer: object = None
+        self._main_thread = ""
+        self._waited_ns: int | None = None
+        """Its main thread, for a processor, from start to end; None where nobody knows."""
         self._around = ExitStack()
 
     def __enter__(self) -> Process:
         ours, theirs = socket.socketpair()
         with theirs:
-            guardian = [*BARE, str(GUARDIAN), str(theirs.fileno())]
+            guardian = guardian_command(theirs.fileno())
             around = self._launch.command_of(guardian)
             command, self._group = self._around.enter_context(around)
             self._guardian = subprocess.Popen(
@@ -192,14 +215,52 @@ class Process:
         """Send a signal, wait, and write down the first one's effect."""
         if not self.alive:
             return True
+        waiting = Waiting(self._own_waits_ns() or {})
         sent_ns = time.monotonic_ns()
         self._send(name)
-        ended = self.wait_ended(patience_s)
+        ended = self._wait_own_time(patience_s, waiting)
         if self.seen.ending is None:
-            ended_ns = self.seen.ended_ns
-            after_s = (ended_ns - sent_ns) / 1e9 if ended and ended_ns else None
-            self.seen.ending = Ending(signal=name, after_s=after_s)
+            self.seen.ending = self._ending(name, sent_ns, waiting)
         return ended
+
+    def _ending(self, name: str, sent_ns: int, waiting: Waiting) -> Ending:
+        watched_s = (time.monotonic_ns() - sent_ns) / 1e9
+        if self.seen.ended_ns is None:
+            others_s = waiting.sum_s()
+            return Ending(signal=name, after_s=None, watched_s=watched_s, others_waited_s=others_s)
+        return Ending(
+            signal=name, after_s=(self.seen.ended_ns - sent_ns) / 1e9, watched_s=watched_s,
+            waited_s=self._waited_since(waiting.before_ns),
+            others_waited_s=waiting.sum_s(without=self._main_thread),
+        )  # fmt: skip
+
+    def _own_waits_ns(self) -> dict[str, int] | None:
+        """As `waits_ns`, of the process itself without its children; None when it is gone."""
+        return self._ask("OWN_WAITS")  # type: ignore[return-value]  # the guardian's own
+
+    def _waited_since(self, before: dict[str, int]) -> float:
+        """How long its main thread waited for a processor, to its end; 0 where nobody knows."""
+        if self._waited_ns is None or self._main_thread not in before:
+            return 0.0
+        return (self._waited_ns - before[self._main_thread]) / 1e9
+
+    def _wait_own_time(self, within_s: float, waiting: Waiting) -> bool:
+        """Wait for its end; while it waits for a processor, its time stands still, up to a bound.
+
+        Its threads end one after the other, so the waiting of all counts.
+        """
+        began_s = time.monotonic()
+        while True:
+            given_s = within_s + min(waiting.sum_s(), LONGEST_WAIT_S)
+            left_s = began_s + given_s - time.monotonic()
+            if self.wait_ended(min(max(left_s, 0), LOOK_AGAIN_S)):
+                return True
+            if left_s <= 0:
+                return False
+            now_ns = self._own_waits_ns()
+            if now_ns is None:  # it has just ended; we are told soon
+                return self.wait_ended(ANSWERS_WITHIN_S)
+            waiting.now_ns.update(now_ns)
 
     def _send(self, name: str) -> None:
         try:
@@ -230,6 +291,7 @@ class Process:
     def _take(self, event: dict[str, object]) -> None:
         if "started" in event:
             self._started = True
+            self._main_thread = str(event["started"])
         elif "said" in event:
             self._hear(str(event["said"]).encode("latin-1"), int(str(event["at"])))
         elif "exited" in event:
@@ -257,6 +319,7 @@ class Process:
             seen.status = int(str(event["exited"]))
             seen.ended_ns = int(str(event["at"]))
             seen.cpu_s = float(str(event["cpu_s"]))
+            self._waited_ns = event["waited_ns"]  # type: ignore[assignment]  # the guardian's own
             seen.peak_memory_bytes = int(str(event["peak_memory_bytes"]))
             seen.ended_by_itself = not self._asked_to_end
         seen.left_behind = int(str(event["left_behind"]))

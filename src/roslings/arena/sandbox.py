@@ -9,13 +9,16 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Iterator, Mapping, Sequence
+from compileall import compile_file
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
+from functools import cache
+from importlib.util import cache_from_source
 from pathlib import Path
 
 from roslings.arena import cgroup
 from roslings.arena.bounds import MB, Bounds
-from roslings.arena.environment import HERE, base_environment
+from roslings.arena.environment import HERE, QUICK_DISCOVERY, base_environment
 
 USER = "1000"
 """The same for everybody, as in arena/etc."""
@@ -24,7 +27,7 @@ SYSTEM = ("/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32")
 """Beside /usr; most systems have them as symbolic links into it."""
 SETTINGS = ("ld.so.cache", "ld.so.conf", "ld.so.conf.d", "alternatives", "localtime", "fonts")
 OWN_SETTINGS = {name: HERE / "etc" / name for name in ("passwd", "group")}
-ENGINE_SHOWN = ("guardian.py", "kernel.py", "quick_discovery.xml")
+GUARDIAN = (HERE / "guardian.py", HERE / "kernel.py")
 SHARED_MEMORY_BYTES = 64 * MB
 LISTS_OF_FOLDERS = ("AMENT_PREFIX_PATH", "LD_LIBRARY_PATH", "PYTHONPATH")
 
@@ -99,26 +102,46 @@ def _empty(place: Path, most_bytes: int) -> Iterator[str]:
 
 def _system() -> Iterator[Path]:
     yield Path("/usr")
-    yield from (
-        Path(name) for name in SYSTEM if Path(name).is_dir() and not Path(name).is_symlink()
-    )
-    yield from filter(Path.exists, (Path("/etc", name) for name in SETTINGS))
-    yield from (HERE / name for name in ENGINE_SHOWN)
+    yield from _once_for_all()
     yield from installations(base_environment(Path("/tmp")))
 
 
+@cache
+def _once_for_all() -> tuple[Path, ...]:
+    """What every process may see of the system, and what a guardian needs of the engine."""
+    folders = [Path(name) for name in SYSTEM if not Path(name).is_symlink()]
+    settings = [Path("/etc", name) for name in SETTINGS]
+    shown = [*folders, *settings, QUICK_DISCOVERY, *GUARDIAN, *map(compiled, GUARDIAN)]
+    return tuple(filter(Path.exists, shown))
+
+
+def compiled(module: Path) -> Path:
+    """Where Python keeps the module compiled, which no guardian could write; made where it lacks.
+
+    An installation that nobody may write goes without.
+    """
+    compile_file(module, quiet=2)
+    return Path(cache_from_source(str(module)))
+
+
+@cache
 def _links() -> list[tuple[str, str]]:
     return [(name, str(Path(name).readlink())) for name in SYSTEM if Path(name).is_symlink()]
 
 
-def installations(environment: Mapping[str, str]) -> list[Path]:
+def installations(environment: Mapping[str, str]) -> tuple[Path, ...]:
     """Where Python, its packages and ROS lie, as far as that is not within /usr.
 
     Each is a whole prefix, or a folder that a variable of `environment` names: ours, never one
     that a build has made.
     """
-    named = [environment.get(name, "").split(os.pathsep) for name in LISTS_OF_FOLDERS]
-    folders = [Path(part) for parts in named for part in parts if part]
+    return _outermost(tuple(environment.get(name, "") for name in LISTS_OF_FOLDERS))
+
+
+@cache
+def _outermost(lists: tuple[str, ...]) -> tuple[Path, ...]:
+    """The prefixes, and those of the listed folders that lie in no other."""
+    folders = [Path(part) for each in lists for part in each.split(os.pathsep) if part]
     python = [
         Path(sys.base_prefix),
         Path(sys.prefix),
@@ -129,4 +152,4 @@ def installations(environment: Mapping[str, str]) -> list[Path]:
         inside = any(path.is_relative_to(other) for other in (Path("/usr"), *found))
         if path.is_absolute() and path.is_dir() and not inside:
             found.append(path)
-    return found
+    return tuple(found)

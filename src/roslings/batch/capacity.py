@@ -1,8 +1,8 @@
 """How many gradings at once: measured, because most of a grading is waiting.
 
-It begins with three for two cores: a grading keeps two thirds of a core busy. While the processors
-have time to spare and there is memory for one more, one more is let in; when nothing is left to
-spare, one fewer, down to one for each core.
+It begins with two for each core: a grading keeps half a core busy. While the processors have time
+to spare and there is memory for one more, one more is let in; when nothing is left to spare, one
+fewer, down to one for each core.
 """
 
 from __future__ import annotations
@@ -13,9 +13,14 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-SPARE, BUSY = 0.05, 0.005
+from roslings.arena.kernel import cores
+
+SPARE, BUSY = 0.03, 0.005
 """Idle part of the processors above which one more is let in, and below which one fewer."""
 LOOK_EVERY_S = 3.0
+NEWEST = 0.3
+"""What the newest look weighs in the mean: those that build at the same time wait at the same time,
+so that one look often sees only the one or only the other."""
 MOST_PER_CORE = 4
 NEEDS_BYTES = 500_000_000
 """Memory that one grading may come to need: grader, probe, colcon and nodes."""
@@ -48,11 +53,6 @@ def _free_bytes() -> int:
     return os.sysconf("SC_AVPHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
 
 
-def cores() -> int:
-    """The processors that this process may use."""
-    return len(os.sched_getaffinity(0))
-
-
 @dataclass
 class Capacity:
     """How many may work at once, by what was seen of the machine so far."""
@@ -63,9 +63,11 @@ class Capacity:
     look: Callable[[], Look] = look
     allowed: int = 0
     _last: Look | None = None
+    _idle: float | None = None
+    """The idle part of the processors: a mean in which older looks weigh less and less."""
 
     def __post_init__(self) -> None:
-        self.allowed = self.fixed or self.cores + self.cores // 2
+        self.allowed = self.fixed or 2 * self.cores
 
     def now(self, working: int) -> int:
         """How many may work now, of whom `working` do already; at least one."""
@@ -75,7 +77,7 @@ class Capacity:
         if self._last is None:
             self._last = seen
         elif seen.at_s - self._last.at_s >= LOOK_EVERY_S:
-            self._adjust(self._idle_part(seen), working)
+            self._adjust(self._mean_with(self._idle_part(seen)), working)
             self._last = seen
         return max(1, min(self.allowed, working + seen.free_bytes // NEEDS_BYTES))
 
@@ -83,6 +85,11 @@ class Capacity:
         assert self._last is not None
         passed_s = seen.at_s - self._last.at_s
         return (seen.idle_s - self._last.idle_s) / (passed_s * (os.cpu_count() or 1))
+
+    def _mean_with(self, idle: float) -> float:
+        mean = idle if self._idle is None else (1 - NEWEST) * self._idle + NEWEST * idle
+        self._idle = mean
+        return mean
 
     def _adjust(self, idle: float, working: int) -> None:
         if idle > SPARE and working >= self.allowed:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib.util
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from types import ModuleType
 from typing import Any, Literal, overload
@@ -66,7 +67,12 @@ def experiment(
 
 
 def load_grader(path: Path) -> ModuleType:
-    """Import a grader's file: the course's own code, never the student's."""
+    """Import a grader's file, once: the course's own code, never the student's."""
+    return _loaded(path, path.stat().st_mtime_ns)
+
+
+@cache
+def _loaded(path: Path, changed_ns: int) -> ModuleType:
     spec = importlib.util.spec_from_file_location(path.stem, path)
     if spec is None or spec.loader is None:
         raise FileNotFoundError(path)

@@ -30,6 +30,7 @@ KNOWS_AFTER = 3
 STANDS_M_S = 0.005
 STANDS_RAD_S = 0.02
 STANDS_WITHIN_S = 1.5
+DIAGONAL_RAD = (math.radians(35), math.radians(55))
 
 
 class Robot:
@@ -173,8 +174,12 @@ def _found(
 
 
 def start_near(scene: Scene, x_m: float, y_m: float, nearest_m: float, farthest_m: float) -> Pose:
-    """A place that nobody can know before, so far from a point; it looks elsewhere."""
-    angle = scene.between(-math.pi, math.pi)
+    """A place that nobody can know before, so far from a point; it looks elsewhere.
+
+    It lies about as far along x as along y: whoever forgets one of them is far from the truth.
+    """
+    quarter = math.floor(scene.between(0, 4)) * math.pi / 2
+    angle = quarter + scene.between(*DIAGONAL_RAD)
     way_m = scene.between(nearest_m, farthest_m)
     back = angle + math.pi + scene.between(-1.2, 1.2)
     return Pose(

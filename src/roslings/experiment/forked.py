@@ -5,7 +5,6 @@ For a process that measures often. It must have no threads of its own.
 
 from __future__ import annotations
 
-import gc
 import os
 import re
 import subprocess
@@ -38,8 +37,6 @@ def load_beforehand(name: str, hidden: Path | None = None) -> None:
         load_ros(TYPES.findall(task.card.model_dump_json()))
         for grader in task.graders:
             load_grader(grader)
-    gc.collect()
-    gc.freeze()  # what is shared stays shared
 
 
 class Fork:

@@ -48,6 +48,8 @@ class WallWatch:
     publisher: Callable[[], Endpoint | None]
     until: Callable[[Callable[[], bool], float], bool]
     """Waits for a condition, as long as every process lives."""
+    until_there: Callable[[Callable[[], bool]], bool]
+    """Waits for what a node does first; longer where it waits for a processor."""
     _began: list[dict[str, int]] = field(default_factory=list)
     _judged: int = -1
     _sure: bool = False
@@ -57,7 +59,7 @@ class WallWatch:
         seen = self.probe.seen
         with singing(self.limit.hz, self.arena.domain_id):
             self.probe.listen_to_canary(self.limit.hz)
-            self.until(lambda: bool(self._count()), FIRST_MESSAGE_WITHIN_S)
+            self.until_there(lambda: bool(self._count()))
             self.until(self._canary_sings, CANARY_WITHIN_S)
             if self._count():
                 self._watch_rate()

@@ -7,30 +7,75 @@ import os
 import shutil
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
+from typing import IO
 
 LOCK = "lock"
+"""Held as long as the run lives. It is there before all else, and the last to go."""
+UNLOCKED = "unlocked"
+"""The same file before it is held."""
 
 
 @contextmanager
 def run_folder() -> Iterator[Path]:
     """A private folder, held by a lock that ends with this process."""
     sweep()
-    with tempfile.TemporaryDirectory(prefix=_prefix(), ignore_cleanup_errors=True) as name:
-        unlocked = Path(name) / "unlocked"
-        with unlocked.open("w") as lock:
+    folder, lock = _made()
+    with lock:
+        try:
+            yield folder
+        finally:
+            _remove(folder)
+
+
+def _made() -> tuple[Path, IO[str]]:
+    """A new folder and its lock, held; made once more where somebody's sweep was quicker."""
+    while True:
+        folder = Path(tempfile.mkdtemp(prefix=_prefix()))
+        with ExitStack() as closing, suppress(FileNotFoundError):
+            lock = closing.enter_context((folder / UNLOCKED).open("w"))
             fcntl.flock(lock, fcntl.LOCK_EX)
-            unlocked.rename(Path(name) / LOCK)  # a lock file in its place is always held
-            yield Path(name)
+            (folder / UNLOCKED).rename(folder / LOCK)  # a lock file in its place is always held
+            closing.pop_all()
+            return folder, lock
 
 
 def sweep() -> None:
-    """Remove folders of runs that were killed: their lock is free."""
+    """Remove folders of runs that were killed: their lock is free, or not there and nothing is."""
     for folder in Path(tempfile.gettempdir()).glob(f"{_prefix()}*"):
-        with suppress(OSError), (folder / LOCK).open("r+") as lock:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            shutil.rmtree(folder, ignore_errors=True)
+        for name in (LOCK, UNLOCKED):
+            with suppress(OSError), (folder / name).open("r+") as lock:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                _remove(folder)
+        with suppress(OSError):
+            folder.rmdir()
+
+
+def _remove(folder: Path) -> None:
+    """The lock last: who is killed meanwhile leaves a folder that the next sweep knows."""
+    _open_all(folder)
+    with suppress(OSError):
+        for entry in folder.iterdir():
+            if entry.name not in (LOCK, UNLOCKED):
+                _remove_entry(entry)
+    shutil.rmtree(folder, ignore_errors=True)
+
+
+def _open_all(folder: Path) -> None:
+    """A build may leave folders that not even their owner can write."""
+    for path, names, _ in os.walk(folder):
+        for each in (Path(path, name) for name in names):
+            if not each.is_symlink():
+                with suppress(OSError):
+                    each.chmod(0o700)
+
+
+def _remove_entry(entry: Path) -> None:
+    if entry.is_dir() and not entry.is_symlink():
+        shutil.rmtree(entry, ignore_errors=True)
+    else:
+        entry.unlink()
 
 
 def is_abandoned(folder: Path) -> bool:

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from roslings.arena import Arena, Process
+from roslings.arena import LONGEST_WAIT_S, Arena, Process
 from roslings.course import NodeContract, TopicContract
 from roslings.evidence import Endpoint, ExperimentSeen
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S, WallWatch
@@ -107,7 +107,7 @@ class Scene:
             self.seen.ignores_clock = isinstance(reason, IgnoresTheClock)
 
     def _publisher_in_time(self, contract: TopicContract) -> Endpoint:
-        self._until_alive(lambda: self._publisher(contract) is not None, FIRST_MESSAGE_WITHIN_S)
+        self._until_there(lambda: self._publisher(contract) is not None)
         publisher = self._publisher(contract)
         if publisher is None:
             raise NotBelieved("it publishes nothing")
@@ -116,9 +116,11 @@ class Scene:
     def _watch_on_the_wall(self, contract: TopicContract) -> None:
         if contract.rate:
             find = functools.partial(self._publisher, contract)
-            WallWatch(self._probe, self._arena, contract.rate, find, self._until_alive).watch()
+            WallWatch(
+                self._probe, self._arena, contract.rate, find, self._until_alive, self._until_there
+            ).watch()
         else:
-            self._until_alive(lambda: self._heard(contract) > 0, FIRST_MESSAGE_WITHIN_S)
+            self._until_there(lambda: self._heard(contract) > 0)
 
     def say_sentences(self, listener: Process, contract: TopicContract, count: int) -> None:
         """Say random sentences on a topic, or on the one nearest to it, and wait for each echo."""
@@ -133,7 +135,7 @@ class Scene:
         def find() -> Endpoint | None:
             return nearest_endpoint(self.seen.graph, "subscription", contract.topic, contract.type)
 
-        self._until_alive(lambda: find() is not None, FIRST_MESSAGE_WITHIN_S)
+        self._until_there(lambda: find() is not None)
         return find()
 
     def sentence(self) -> str:
@@ -170,7 +172,7 @@ class Scene:
             return len(kinds) == 2
 
         with self._timed_watching():
-            self._until_alive(both, FIRST_MESSAGE_WITHIN_S)
+            self._until_there(both)
 
     def _wait_up(self, process: Process, known: Counter[str]) -> None:
         began_s = time.monotonic()
@@ -215,6 +217,11 @@ class Scene:
         """Wait for the condition, as long as every process lives."""
         self._probe.until(lambda: condition() or not self._arena.all_alive(), within_s)
         return condition()
+
+    def _until_there(self, condition: Callable[[], bool]) -> bool:
+        """As `_until_alive`; what the processes waited for a processor comes on top, to a bound."""
+        there = self._until_alive(condition, FIRST_MESSAGE_WITHIN_S)
+        return there or self._until_alive(condition, min(self._arena.waited_s(), LONGEST_WAIT_S))
 
     def _publisher(self, contract: TopicContract) -> Endpoint | None:
         return nearest_endpoint(self.seen.graph, "publisher", contract.topic, contract.type)

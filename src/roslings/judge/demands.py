@@ -8,7 +8,7 @@ from itertools import pairwise
 from typing import TypeVar
 
 from roslings.course import CourseError, NodeContract, RateContract, TopicContract
-from roslings.evidence import ExperimentSeen, Spoken
+from roslings.evidence import Ending, ExperimentSeen, Spoken
 from roslings.judge import faults
 from roslings.judge.views import (
     Demand,
@@ -35,6 +35,16 @@ def require_steady(stall_s: float) -> None:
     if stall_s > LONGEST_STALL_S:
         raise faults.Inconclusive(
             f"this computer stood still for {stall_s:.1f} s while your nodes ran;"
+            " close other programs and check again"
+        )
+
+
+def require_processors(executable: str, ending: Ending, limit_s: float) -> None:
+    """Before its ending is held against the student: it had its time. Raises Inconclusive."""
+    if ending.least_own_s <= limit_s:
+        raise faults.Inconclusive(
+            f"{executable} ended late, but its threads waited for a processor for"
+            f" {ending.waited_s + ending.others_waited_s:.1f} s meanwhile;"
             " close other programs and check again"
         )
 
@@ -144,9 +154,11 @@ def end_within(limit_s: float) -> Demand[ProcessView]:
         seen = process.seen
         if seen.ending is None:
             raise faults.NothingToJudge("it ended before it was asked to")
-        if seen.ending.after_s is None or seen.ending.after_s > limit_s:
+        own_s = seen.ending.own_s
+        if own_s is None or own_s > limit_s:
             require_steady(process.experiment.stall_s)
-            raise faults.DoesNotEnd(seen.executable, limit_s, seen.ending.after_s)
+            require_processors(seen.executable, seen.ending, limit_s)
+            raise faults.DoesNotEnd(seen.executable, limit_s, own_s)
         if seen.left_behind:
             raise faults.LeavesProcesses(seen.executable, seen.left_behind)
 

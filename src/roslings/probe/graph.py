@@ -2,22 +2,79 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import Any, Literal
+from collections.abc import Iterable, Iterator
+from typing import Any, Literal, NamedTuple
 
 from roslings.evidence import Endpoint, GraphSeen, Qos
 
 UNLIMITED_NS = 2**63 - 1
+UNNAMED = "_NODE_NAME_UNKNOWN_"
+"""What rcl calls the node of an endpoint until discovery has brought its name."""
+Found = tuple[Literal["publisher", "subscription"], str, Any]
+"""What an endpoint is, its topic, and what rclpy tells of it."""
+
+
+class Outline(NamedTuple):
+    """All that is quick to read; `counts` are publishers and subscriptions, topic by topic."""
+
+    nodes: list[tuple[str, str]]
+    topics: list[tuple[str, list[str]]]
+    services: list[tuple[str, list[str]]]
+    counts: list[tuple[int, int]]
+
+
+class Looker:
+    """Reads the graph again when something in it has changed.
+
+    To read all endpoints takes rclpy ten times as long as to count them.
+    """
+
+    def __init__(self, eye: Any) -> None:
+        self._eye = eye
+        self._outline: Outline | None = None
+        self._all_named = False
+
+    def changed(self) -> GraphSeen | None:
+        """The graph; None where it is what was read last."""
+        outline = outline_of(self._eye)
+        if self._all_named and outline == self._outline:
+            return None
+        return self._read(outline)
+
+    def read(self) -> GraphSeen:
+        """The graph, whatever was read before."""
+        return self._read(outline_of(self._eye))
+
+    def _read(self, outline: Outline) -> GraphSeen:
+        """`outline` is older: what comes meanwhile is seen next time."""
+        found = list(_endpoints(self._eye, outline))
+        self._outline = outline
+        self._all_named = all(info.node_name != UNNAMED for _, _, info in found)
+        return _graph(outline, found)
+
+
+def outline_of(eye: Any) -> Outline:
+    """The outline of the graph as node `eye` sees it."""
+    topics = eye.get_topic_names_and_types()
+    return Outline(
+        nodes=eye.get_node_names_and_namespaces(),
+        topics=topics,
+        services=eye.get_service_names_and_types(),
+        counts=[(eye.count_publishers(name), eye.count_subscribers(name)) for name, _ in topics],
+    )
 
 
 def read_graph(eye: Any) -> GraphSeen:
     """The graph as node `eye` sees it, without `eye` itself and without hidden nodes."""
-    names = (join(space, name) for name, space in eye.get_node_names_and_namespaces())
-    topics = eye.get_topic_names_and_types()
+    return Looker(eye).read()
+
+
+def _graph(outline: Outline, found: Iterable[Found]) -> GraphSeen:
+    names = (join(space, name) for name, space in outline.nodes)
     return GraphSeen(
         nodes=sorted(name for name in names if not is_hidden(name)),
-        endpoints=[endpoint for name, _ in topics for endpoint in _endpoints(eye, name)],
-        services={name: list(types) for name, types in eye.get_service_names_and_types()},
+        endpoints=list(_visible(found)),
+        services={name: list(types) for name, types in outline.services},
     )
 
 
@@ -31,15 +88,16 @@ def is_hidden(full_name: str) -> bool:
     return full_name.rpartition("/")[2].startswith("_")
 
 
-def _endpoints(eye: Any, topic: str) -> Iterable[Endpoint]:
-    yield from _visible("publisher", topic, eye.get_publishers_info_by_topic(topic))
-    yield from _visible("subscription", topic, eye.get_subscriptions_info_by_topic(topic))
+def _endpoints(eye: Any, outline: Outline) -> Iterator[Found]:
+    for topic, _ in outline.topics:
+        for info in eye.get_publishers_info_by_topic(topic):
+            yield "publisher", topic, info
+        for info in eye.get_subscriptions_info_by_topic(topic):
+            yield "subscription", topic, info
 
 
-def _visible(
-    kind: Literal["publisher", "subscription"], topic: str, infos: Iterable[Any]
-) -> Iterable[Endpoint]:
-    for info in infos:
+def _visible(found: Iterable[Found]) -> Iterator[Endpoint]:
+    for kind, topic, info in found:
         node = join(info.node_namespace, info.node_name)
         if not is_hidden(node):
             yield Endpoint(

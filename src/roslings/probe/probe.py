@@ -23,15 +23,15 @@ from roslings.probe import canary
 from roslings.probe.clock import Barrier, SimClock
 from roslings.probe.content import from_plain
 from roslings.probe.events import no_ear_events, no_mouth_events
-from roslings.probe.graph import read_graph
+from roslings.probe.graph import Looker
 from roslings.probe.recorder import Read, Recorder, Store, can_record
 from roslings.rates import place_on_ticks
 
 NAME = "_roslings_probe"
-LOOK_EVERY_S = 0.02
+LOOK_EVERY_S = 0.04
 REST_AFTER_LOOK = 3.0
 """Times the look's own duration: to read a graph of 2,000 topics takes long, and a processor."""
-HEARTBEAT_S = 0.01
+HEARTBEAT_S = 0.02
 MOST_LOG_LINES = 2000
 LONGEST_LOG_LINE = 2000
 MOST_LOGGERS = 200
@@ -85,6 +85,7 @@ class Probe:
         )  # fmt: skip
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self._eye)
+        self._looker = Looker(self._eye)
         self._hear_logs()
         self._threads = [
             threading.Thread(target=self._spin, name="probe"),
@@ -125,7 +126,7 @@ class Probe:
     def until(self, condition: Condition, within_s: float) -> bool:
         """Watch until `condition()` is true, at most `within_s`. Whether it became true.
 
-        The graph is read at every look, and each new topic is recorded from then on.
+        The graph is looked at each time, and each new topic is recorded from then on.
         Raises CalledOff when another thread has called this watch off.
         """
         deadline_s = time.monotonic() + within_s
@@ -147,21 +148,24 @@ class Probe:
         self.notify()
 
     def look(self) -> GraphSeen:
-        """Read the graph once, and start to record what is new in it.
+        """Read the graph if it has changed, and start to record what is new in it.
 
         The fullest graph is the one that is kept: a node that crashes leaves the graph before its
         process ends, and must not blur what was there.
         """
         began_s = time.monotonic()
         if began_s >= self._rests_until_s:
-            self.look_now()
+            if graph := self._looker.changed():
+                self._take_graph(graph)
             now_s = time.monotonic()
             self._rests_until_s = now_s + REST_AFTER_LOOK * (now_s - began_s)
         return self.seen.graph
 
     def look_now(self) -> None:
-        """Read it without resting, where something is complete now."""
-        graph = read_graph(self._eye)
+        """Read all of it without resting, where it is complete now."""
+        self._take_graph(self._looker.read())
+
+    def _take_graph(self, graph: GraphSeen) -> None:
         if fullness(graph) >= fullness(self.seen.graph):
             self.seen.graph = graph
         for endpoint in own_endpoints(graph):
@@ -305,7 +309,8 @@ class Probe:
     def _beat(self) -> None:
         """Notice when this machine does not run us: then it may not run the student either."""
         before_s = time.monotonic()
-        while not self._closing.wait(HEARTBEAT_S):
+        while not self._closing.is_set():
+            time.sleep(HEARTBEAT_S)  # cheaper than to wait for an event
             now_s = time.monotonic()
             self.seen.stall_s = max(self.seen.stall_s, now_s - before_s - HEARTBEAT_S)
             before_s = now_s

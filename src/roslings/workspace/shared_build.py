@@ -7,13 +7,16 @@ import hashlib
 import os
 import shutil
 import sys
+import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
+from typing import IO
 
 from pydantic import BaseModel
 
 from roslings.arena import Installed, Place, base_environment
+from roslings.arena.kernel import cores
 from roslings.evidence import BuildSeen
 from roslings.workspace.build import BuildRoom, build
 from roslings.workspace.foreign import copy_foreign
@@ -21,6 +24,9 @@ from roslings.workspace.sources import sources
 
 OF_ONE_RUN = ("HOME", "TMPDIR", "ROS_LOG_DIR")
 """Variables that name a run's own folders; the rest of a build's environment can be shared."""
+WAITS_FOR_ITS_TURN_S = 20.0
+"""Others' builds may be endless ones."""
+LOOK_AGAIN_S = 0.05
 
 
 class Built(BaseModel):
@@ -52,7 +58,8 @@ def shared_build(
             built = Built.model_validate_json(kept.read_text("utf-8"))
             built.seen.seconds = 0.0
             return built.seen, built.installed(place.home)
-        return _build_in(shared, source, room, place)
+        with _turn(builds):
+            return _build_in(shared, source, room, place)
 
 
 def _build_in(
@@ -102,3 +109,27 @@ def _held(place: Path) -> Iterator[None]:
     with (place / "lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         yield
+
+
+@contextmanager
+def _turn(builds: Path) -> Iterator[None]:
+    """One build a processor at a time, as long as none of them takes long.
+
+    More at once would end no sooner, and keep the processors from those whose nodes run.
+    """
+    until_s = time.monotonic() + WAITS_FOR_ITS_TURN_S
+    with ExitStack() as opened:
+        turns = [
+            opened.enter_context((builds / f"turn-{number}").open("w")) for number in range(cores())
+        ]
+        while not any(map(_taken, turns)) and time.monotonic() < until_s:
+            time.sleep(LOOK_AGAIN_S)
+        yield
+
+
+def _taken(turn: IO[str]) -> bool:
+    try:
+        fcntl.flock(turn, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    return True

@@ -13,7 +13,7 @@ KERNEL = "roslings"
 TAGS = frozenset({"predict", "run", "explain", "change", "raises-exception"})
 ID = re.compile(r"^[a-z][a-z0-9]*(-[a-z0-9]+)*$")
 MACHINE = re.compile(
-    r"/home/(?!you\b|pi\b|ubuntu\b)\w+|/root/|/Users/\w+|/tmp/ipykernel|site-packages"
+    r"/(?:home/(?!you\b|pi\b|ubuntu\b)\w+|(?:root)/|Users/\w+|tmp/ipykernel)|site-packages"
 )
 
 

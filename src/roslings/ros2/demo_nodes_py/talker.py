@@ -1,6 +1,7 @@
 """`ros2 run demo_nodes_py talker`: says hello once a second, and counts."""
 
 import rclpy
+from rclpy._rclpy_pybind11 import RCLError
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from std_msgs.msg import String
@@ -24,14 +25,19 @@ class Talker(Node):
 
 
 def main() -> None:
-    """Run the node until Ctrl-C."""
+    """Run the node until Ctrl-C.
+
+    No try_shutdown(): rclpy's signal handler ends the context in a thread of its own, and may come
+    between the two steps of that call, or while the executor works with the context.
+    """
     try:
         rclpy.init()
         rclpy.spin(Talker())
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
-    finally:
-        rclpy.try_shutdown()
+    except RCLError:
+        if rclpy.ok():
+            raise
 
 
 if __name__ == "__main__":
