@@ -20,15 +20,18 @@ ROOMS_BELOW = {
     "verdict": set[str](),
     "rates": {"evidence"},
     "near": {"evidence"},
+    "endings": {"evidence"},
     "course": set[str](),
     "lessons": set[str](),
     "arena": {"evidence"},
     "probe": {"evidence", "near", "rates", "arena"},
     "workspace": {"evidence", "verdict", "course", "arena"},
     "experiment": {
-        "evidence", "near", "rates", "course", "arena", "probe", "workspace", "devices",
+        "evidence", "near", "rates", "endings", "course", "arena", "probe", "workspace", "devices",
     },
-    "judge": {"evidence", "verdict", "near", "rates", "course", "experiment", "devices"},
+    "judge": {
+        "evidence", "verdict", "near", "rates", "endings", "course", "experiment", "devices",
+    },
     "report": {"evidence", "verdict", "near", "rates"},
     "saving": {"course", "evidence", "experiment", "report", "verdict"},
     "batch": {

@@ -83,6 +83,13 @@ class LogLine(Record):
     text: str
     source: Literal["terminal", "rosout"]
 
+    @property
+    def plain(self) -> str:
+        """A line of get_logger() without `[INFO] [1700000000.0] [talker]: ` before it."""
+        if self.text.startswith("[") and "]: " in self.text:
+            return self.text.partition("]: ")[2]
+        return self.text
+
 
 class Ending(Record):
     """How a process ended after a signal."""
@@ -456,6 +463,11 @@ class ExperimentSeen(Record):
     ignores_clock: bool = Field(
         default=False, description="... because the node takes its time from elsewhere"
     )
+
+    @property
+    def doubt(self) -> str | None:
+        """Why its times say nothing about the student; None where they do."""
+        return self.machine_fault or self.not_believed
 
     @property
     def cpu_wait_s(self) -> float:

@@ -28,6 +28,7 @@ RATE = RateContract(hz=2.0, within=0.05)
 TOPIC = TopicContract(topic="/chatter", type="std_msgs/msg/String", rate=RATE)
 RUNS = TypeAdapter(list[ExperimentSeen])
 PROGRAM = "talker"
+NODE = NodeContract(node="/talker", executable=PROGRAM, publishes=(TOPIC,))
 
 
 def watched(
@@ -59,7 +60,7 @@ def main(script: Path, clock: Clock, wall: Wall, limit: RateContract) -> None:
         order.make_folders()
         os.environ.update(ros_environment(order.wall), ROS_LOG_DIR=str(home / "log"))
         stage = Stage(installed(script, home), order, 2.0)
-        runs = list(stage.runs_of(talking, 0, []))
+        runs = stage.runs_of(talking, 0, [])
     print(RUNS.dump_json(runs).decode())
 
 

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
+from roslings.endings import must_end_again
 from roslings.evidence import Ending, ExperimentSeen, LogLine, ProcessSeen
 from roslings.judge import end_within, exit_cleanly
 from roslings.judge.faults import DoesNotEnd, Inconclusive, UncleanExit
@@ -23,6 +26,11 @@ def ended(status: int, *lines: str) -> ProcessView:
         lines=[LogLine(arrival_ns=0, text=line, source="terminal") for line in lines],
     )
     return ProcessView(process, ExperimentSeen(name="x", clock="wall"))
+
+
+def ended_run(process: ProcessView) -> ExperimentSeen:
+    """An experiment with this one process."""
+    return process.experiment.model_copy(update={"processes": {"it": process.seen}})
 
 
 def ended_after(after_s: float | None, waited_s: float, others_s: float = 0.0) -> ProcessView:
@@ -48,6 +56,30 @@ def test_what_its_threads_waited_for_is_nobodys_fault(late: ProcessView) -> None
     """Whether they waited one after the other or at the same time, nobody knows."""
     with pytest.raises(Inconclusive, match="waited for a processor for"):
         end_within(2.0)(late)
+
+
+@pytest.mark.parametrize(("before", "now"), [(0, 1), (1, 0)])
+def test_an_end_that_is_bad_in_one_of_two_runs_is_unclear(before: int, now: int) -> None:
+    """Whichever came first."""
+    process = replace(ended(now), before=(ended(before).seen,))
+    with pytest.raises(Inconclusive, match="in one of two runs"):
+        exit_cleanly(process)
+
+
+def test_an_end_that_is_bad_in_both_runs_is_a_fault() -> None:
+    """Seen twice."""
+    with pytest.raises(UncleanExit):
+        exit_cleanly(replace(ended(1), before=(ended(1).seen,)))
+    with pytest.raises(DoesNotEnd):
+        end_within(2.0)(replace(ended_after(2.9, 0.3), before=(ended_after(None, 0.0).seen,)))
+
+
+def test_a_bad_end_is_looked_at_again_unless_it_was_seen_before() -> None:
+    """Another experiment can be the second witness."""
+    good, bad = ended_run(ended(0)), ended_run(ended(1))
+    assert must_end_again(bad, [good], 2.0)
+    assert not must_end_again(bad, [bad], 2.0)
+    assert not must_end_again(good, [bad], 2.0)
 
 
 def test_a_quiet_end_is_clean() -> None:

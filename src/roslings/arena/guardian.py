@@ -8,9 +8,9 @@ bytes of an `Order` on a line, and the bytes, of `marshal`; later a signal's nam
 
     {"started": PID}                       {"said": TEXT, "at": NS}
     {"exited": STATUS, "at": NS, ...}      {"refused": REASON}
-    {"answer": {THREAD: NS}}               to WAITS: ready to run, and no processor free, since
-                                           it began
-    {"answer": LETTER}                     to STATE: of its main thread, as in proc(5); empty where
+    {"answer": {THREAD: NS}, "to": ...}    to WAITS: ready to run, and no processor free, since
+                                           it began; to OWN_WAITS: without its children
+    {"answer": LETTER, "to": "STATE"}      to STATE: of its main thread, as in proc(5); empty where
                                            it has ended
 
 Where the order says `namespaces`, the process lives in a pid namespace whose first process is
@@ -192,11 +192,11 @@ class Guardian:
             return False
         for name in orders.decode().split():
             if name == "WAITS":
-                self.tell({"answer": waits(descendants())})
+                self.tell({"answer": waits(descendants()), "to": name})
             elif name == "OWN_WAITS":
-                self.tell({"answer": waits([self.pid])})
+                self.tell({"answer": waits([self.pid]), "to": name})
             elif name == "STATE":
-                self.tell({"answer": state(self.pid)})
+                self.tell({"answer": state(self.pid), "to": name})
             elif self.exited is None:
                 os.kill(self.pid, getattr(signal, name))
         return bool(orders)

@@ -113,6 +113,7 @@ class Process:
         self._started = False
         self._gone = False
         self._refused: str | None = None
+        self._asked = ""
         self._answer: object = None
         self._main_thread = ""
         self._waited_ns: int | None = None
@@ -200,7 +201,7 @@ class Process:
     def _ask(self, what: str) -> object:
         """The guardian's answer; None when the process is gone."""
         with self._changed:
-            self._answer = None
+            self._asked, self._answer = what, None
             self._send(what)
             self._changed.wait_for(lambda: self._answer is not None or self._gone, ANSWERS_WITHIN_S)
             return self._answer
@@ -296,7 +297,7 @@ class Process:
             self._hear(str(event["said"]).encode("latin-1"), int(str(event["at"])))
         elif "exited" in event:
             self._note_end(event)
-        elif "answer" in event:
+        elif event.get("to") == self._asked:  # a late answer to an earlier question is not it
             self._answer = event["answer"]
         elif "refused" in event:
             self._refused = str(event["refused"])

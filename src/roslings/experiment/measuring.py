@@ -21,6 +21,7 @@ from typing import Literal
 from roslings.arena import CannotStart, Installed, kernel, opened, ros_environment
 from roslings.course import lab
 from roslings.devices.trouble import DeviceTrouble
+from roslings.endings import must_end_again
 from roslings.evidence import BuildSeen, Evidence, ExperimentSeen
 from roslings.experiment.alongside import Alongside
 from roslings.experiment.assignment import Assignment
@@ -97,7 +98,7 @@ def _run_all(stage: Stage, declared: Sequence[Experiment], evidence: Evidence) -
             runs = alongside.runs_of(each)
             if runs is None:
                 say(f"Watching: {each.about}")
-                runs = list(stage.runs_of(each, number, _asked_for(each, evidence)))
+                runs = stage.runs_of(each, number, _asked_for(each, evidence))
             *attempts, evidence.experiments[each.name] = runs
             evidence.attempts.extend(attempts)
 
@@ -154,7 +155,7 @@ class Stage:
 
     def run_alone(self, each: Experiment, number: int) -> list[ExperimentSeen]:
         """Run an experiment that asks for no other's evidence."""
-        return list(self.runs_of(each, number, ()))
+        return self.runs_of(each, number, ())
 
     def call_off(self) -> None:
         """Make all that watch end soon."""
@@ -163,8 +164,20 @@ class Stage:
 
     def runs_of(
         self, each: Experiment, number: int, earlier: Sequence[ExperimentSeen]
+    ) -> list[ExperimentSeen]:
+        """Run an experiment until one run is to be believed; that one comes last.
+
+        Where a node ended badly in it, all that once more.
+        """
+        runs = [*self._until_believed(each, number, earlier)]
+        if must_end_again(runs[-1], [*earlier, *runs[:-1]], self.ends_within_s):
+            say("A node did not end well; once more, to be sure")
+            runs += self._until_believed(each, number, earlier)
+        return runs
+
+    def _until_believed(
+        self, each: Experiment, number: int, earlier: Sequence[ExperimentSeen]
     ) -> Iterator[ExperimentSeen]:
-        """Run an experiment until one run is to be believed; that one comes last."""
         choice = self.assignment.clock if each.clock == "auto" else "wall"
         if choice != "wall":
             yield (seen := self.run(each, "sim", number, earlier))

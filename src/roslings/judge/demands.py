@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise
 from typing import TypeVar
 
 from roslings.course import CourseError, NodeContract, RateContract, TopicContract
-from roslings.evidence import Ending, ExperimentSeen, Spoken
+from roslings.endings import is_late, is_unclean, tracebacks
+from roslings.evidence import Ending, ExperimentSeen, ProcessSeen, Spoken
 from roslings.judge import faults
 from roslings.judge.views import (
     Demand,
@@ -154,11 +155,11 @@ def end_within(limit_s: float) -> Demand[ProcessView]:
         seen = process.seen
         if seen.ending is None:
             raise faults.NothingToJudge("it ended before it was asked to")
-        own_s = seen.ending.own_s
-        if own_s is None or own_s > limit_s:
+        if is_late(seen, limit_s):
             require_steady(process.experiment.stall_s)
             require_processors(seen.executable, seen.ending, limit_s)
-            raise faults.DoesNotEnd(seen.executable, limit_s, own_s)
+        if agreed(process, lambda each: is_late(each, limit_s), "ended late"):
+            raise faults.DoesNotEnd(seen.executable, limit_s, seen.ending.own_s)
         if seen.left_behind:
             raise faults.LeavesProcesses(seen.executable, seen.left_behind)
 
@@ -170,55 +171,20 @@ def exit_cleanly(process: ProcessView) -> None:
     seen = process.seen
     if seen.ending is None or seen.ending.after_s is None:
         raise faults.NothingToJudge("it did not end after Ctrl-C")
-    traces = _tracebacks(process.texts)
-    if (seen.status != 0 or traces) and not _is_race_in_rclpy(seen.status, traces):
-        how = describe_end(seen) + (", with a traceback" if traces else "")
+    how = describe_end(seen) + (", with a traceback" if tracebacks(seen) else "")
+    if agreed(process, is_unclean, "ended with an error"):
         raise faults.UncleanExit(seen.executable, how, log=process.last_lines())
 
 
-def _tracebacks(texts: Sequence[str]) -> list[list[str]]:
-    """Each traceback's lines, from the line before it, which tells what Python did with it."""
-    starts = [i for i, text in enumerate(texts) if text.startswith("Traceback")]
-    ends = [*starts, len(texts)][1:]
-    return [list(texts[max(i - 1, 0) : end]) for i, end in zip(starts, ends, strict=True)]
-
-
-def _is_race_in_rclpy(status: int | None, traces: list[list[str]]) -> bool:
-    """Ctrl-C ended rclpy's context while rclpy itself worked with it: no fault of the student's.
-
-    rclpy's signal handler shuts the context down in another thread, whatever the node does then.
-    Seen where that came between the two steps of try_shutdown(), in a callback that publishes,
-    and before a wait: once in some twenty endings of a node that is busy with messages; one in
-    four with a 2 kHz timer. The last traceback is the one that the node ended with. One before
-    it can be Ctrl-C in a destructor, where Python says so and goes on.
-    """
-    if not traces:
-        return False
-    last = traces[-1]
-    if status == 0:
-        return all(_is_interrupted_destructor(trace) for trace in traces)
-    return _between_two_steps_of_try_shutdown(last) or _in_the_executor(last)
-
-
-def _is_interrupted_destructor(trace: list[str]) -> bool:
-    return "Exception ignored in" in trace[0] and any(
-        text.startswith("KeyboardInterrupt") for text in trace
-    )
-
-
-def _between_two_steps_of_try_shutdown(trace: list[str]) -> bool:
-    inside = any("in try_shutdown" in text for text in trace)
-    return inside and any("rcl_shutdown already called" in text for text in trace)
-
-
-def _in_the_executor(trace: list[str]) -> bool:
-    """Not what a node does by itself after spin(): that fails each time, and is to be mended."""
-    spinning = any("/rclpy/executors.py" in text for text in trace)
-    return spinning and any(_tells_of_ended_context(text) for text in trace)
-
-
-def _tells_of_ended_context(text: str) -> bool:
-    return "RCLError" in text and ("context is invalid" in text or "context is not valid" in text)
+def agreed(process: ProcessView, bad: Callable[[ProcessSeen], bool], what: str) -> bool:
+    """Whether it ended badly each time that it was run. Raises Inconclusive where only once."""
+    now = bad(process.seen)
+    if any(bad(each) is not now for each in process.before):
+        raise faults.Inconclusive(
+            f"{process.seen.executable} {what} in one of two runs, and in the other it did not;"
+            " check again"
+        )
+    return now
 
 
 def log_each(node: NodeContract, texts: Sequence[str]) -> Demand[ProcessView]:

@@ -15,7 +15,7 @@ def launch_of(experiment: ExperimentView) -> ProcessView:
     """The process of the launch. Raises NothingToJudge where there was none."""
     if LABEL not in experiment.seen.processes:
         raise NothingToJudge("nothing was launched")
-    return ProcessView(experiment.seen.processes[LABEL], experiment.seen)
+    return experiment.labelled(LABEL)
 
 
 def start_all(names: Sequence[str]) -> Demand[ExperimentView]:

@@ -74,11 +74,13 @@ class ProcessView(View):
 
     seen: ProcessSeen
     experiment: ExperimentSeen
+    before: tuple[ProcessSeen, ...] = ()
+    """As it ended in earlier runs of the experiment, which were made again for its end alone."""
 
     @property
     def texts(self) -> list[str]:
         """Everything it wrote: to the terminal and to the log, without logger's decorations."""
-        return [_undecorated(line.text) for line in self._lines() if line.text.strip()]
+        return [line.plain for line in self._lines() if line.text.strip()]
 
     def last_lines(self, count: int = LAST_LINES) -> tuple[str, ...]:
         """The end of what it wrote to the terminal."""
@@ -190,12 +192,20 @@ class ExperimentView(View):
     """All that was seen in one experiment."""
 
     seen: ExperimentSeen
+    before: tuple[ExperimentSeen, ...] = ()
+    """Earlier runs that were believed, and made again to see a second time how they end."""
 
     def process(self, node: NodeContract) -> ProcessView:
         """The process of a node. Raises NothingToJudge where it was never started."""
         if node.executable not in self.seen.processes:
             raise NothingToJudge(f"{node.executable} was not started")
-        return ProcessView(self.seen.processes[node.executable], self.seen)
+        return self.labelled(node.executable)
+
+    def labelled(self, label: str) -> ProcessView:
+        """The process that the experiment gave this name. Raises KeyError."""
+        runs = [each.processes[label] for each in self.before if label in each.processes]
+        before = tuple(process for process in runs if process.ending)
+        return ProcessView(self.seen.processes[label], self.seen, before)
 
     def node(self, node: NodeContract) -> NodeView:
         """The node, or the nearest to it. Raises NothingToJudge where there is none."""
@@ -278,14 +288,14 @@ def text_pattern(template: str) -> TextPattern:
     return TextPattern(before, "".join(text for text, *_ in parts[1:]))
 
 
-def _undecorated(line: str) -> str:
-    """A line of get_logger() without `[INFO] [1700000000.0] [talker]: ` before it."""
-    if line.startswith("[") and "]: " in line:
-        return line.partition("]: ")[2]
-    return line
-
-
 def views_of(evidence: Evidence) -> dict[str, View]:
     """What a check can ask for by name: `package`, and each experiment."""
-    experiments = {name: ExperimentView(seen) for name, seen in evidence.experiments.items()}
+    experiments = {
+        name: ExperimentView(seen, tuple(_runs_before(name, evidence)))
+        for name, seen in evidence.experiments.items()
+    }
     return {"package": PackageView(evidence.package, evidence.build), **experiments}
+
+
+def _runs_before(name: str, evidence: Evidence) -> Iterator[ExperimentSeen]:
+    return (seen for seen in evidence.attempts if seen.name == name and not seen.doubt)

@@ -18,6 +18,7 @@ from roslings.verdict import Verdict
 
 WIDE, NARROW = (720.0, 270.0), (340.0, 230.0)
 CLOCKS = {"sim": "in simulated time", "wall": "in real time"}
+SECOND_END = "a node did not end well, so it was made once more, to be sure"
 MOST_LOG_LINES = 400
 
 
@@ -43,7 +44,7 @@ def _topic(each: Watched) -> Markup:
 
 
 def _plots(each: Watched) -> Iterator[Markup]:
-    if doubt := _doubt(each.experiment):
+    if doubt := each.experiment.doubt:
         yield tag("p", f"These times are not believed: {doubt}.", class_="about")
     if not each.intervals:
         return
@@ -55,15 +56,10 @@ def _plots(each: Watched) -> Iterator[Markup]:
     yield tag("figcaption", describe(each))
 
 
-def _doubt(seen: ExperimentSeen) -> str | None:
-    """Why the times of a run say nothing about the student."""
-    return seen.machine_fault or seen.not_believed
-
-
 def set_aside(evidence: Evidence) -> Iterator[Markup]:
     """The runs that were made again, and why."""
     runs = [
-        tag("li", f"{seen.name}, {CLOCKS[seen.clock]}: {_doubt(seen) or 'made again'}")
+        tag("li", f"{seen.name}, {CLOCKS[seen.clock]}: {seen.doubt or SECOND_END}")
         for seen in evidence.attempts
     ]
     if runs:

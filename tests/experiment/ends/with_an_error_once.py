@@ -1,0 +1,17 @@
+"""An error after Ctrl-C, at its first run only."""
+
+import sys
+from pathlib import Path
+
+import rclpy
+from rclpy.executors import ExternalShutdownException
+
+MARK = Path(__file__).with_name("was_here")
+first = not MARK.exists()
+MARK.touch()
+rclpy.init()
+node = rclpy.create_node("talker")
+try:
+    rclpy.spin(node)
+except (KeyboardInterrupt, ExternalShutdownException):
+    sys.exit(3 if first else 0)

@@ -1,0 +1,38 @@
+"""A bad end is looked at a second time: it is a fault where it comes twice."""
+
+from __future__ import annotations
+
+import pytest
+from watching import HERE, NODE, watched
+
+from roslings.judge import end_within, exit_cleanly
+from roslings.judge.faults import Inconclusive, UncleanExit
+from roslings.judge.views import ExperimentView, ProcessView
+
+ENDS_WITHIN_S = 2.0
+
+
+def ended(name: str) -> ProcessView:
+    """The process of a script that was run twice, since its first end was bad."""
+    first, second = watched(HERE / "ends" / f"{name}.py")
+    return ExperimentView(second, (first,)).process(NODE)
+
+
+def test_an_error_that_comes_each_time_is_a_fault() -> None:
+    """The same is seen twice."""
+    with pytest.raises(UncleanExit, match="exit code 3"):
+        ended("with_an_error").must(end_within(ENDS_WITHIN_S), exit_cleanly)
+
+
+def test_an_error_that_comes_once_is_unclear() -> None:
+    """Neither a fault nor none."""
+    process = ended("with_an_error_once")
+    process.must(end_within(ENDS_WITHIN_S))
+    with pytest.raises(Inconclusive, match="talker ended with an error in one of two runs"):
+        process.must(exit_cleanly)
+
+
+def test_a_late_end_that_comes_once_is_unclear() -> None:
+    """Whatever kept it: the computer, or the student's code."""
+    with pytest.raises(Inconclusive, match="talker ended late in one of two runs"):
+        ended("late_once").must(end_within(ENDS_WITHIN_S))
