@@ -44,7 +44,7 @@
   function answerTo(verdict) {
     if (verdict.problem) return verdict.problem;
     if (verdict.outcome === "inconclusive") {
-      return "This verdict says that the computer was at fault. Run ./roslings doctor, then check again.";
+      return "This verdict says that not everything could be told. Run ./roslings doctor, then check again.";
     }
     if (verdict.outcome === "fail") {
       return `This verdict has ${verdict.score} of 100 points. Mend what it names, check again, load it again.`;

@@ -64,7 +64,7 @@ def check(lab: Lab, package: Path, folder: Path, clock: str = "auto") -> Answer:
 
 
 def conclusive(lab: Lab, package: Path, folder: Path) -> Answer:
-    """Grade it, and again while the answer is that this computer was too busy to tell.
+    """Grade it, and again while the answer is that it could not be told.
 
     That is what a student is told to do then; a wrong answer is never asked for twice.
     """

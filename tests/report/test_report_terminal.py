@@ -122,12 +122,12 @@ def test_skipped_checks_say_once_what_must_be_mended_first() -> None:
 
 
 def test_inconclusive_has_its_reason_and_no_score() -> None:
-    """It says that the machine was at fault, and what to do."""
+    """It says that nothing is lost, and what to do."""
     text = " ".join(shown(written.inconclusive()).split())
     assert "? open ?/15 /chatter carries two messages a second." in text
     assert "This machine was too busy: the observer itself stood still for 2.1 s." in text
     assert "Score none yet." in text
-    assert "not your fault" in text
+    assert "costs you nothing" in text
     assert "./roslings doctor" in text
 
 

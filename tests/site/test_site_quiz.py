@@ -281,7 +281,7 @@ def test_a_day_is_done_after_its_quiz_and_its_verdict(visit: Visit) -> None:
     for text, told in (
         ("{}", "not a verdict"),
         (verdict(outcome="fail", score=80), "80 of 100"),
-        (verdict(outcome="inconclusive", score=None), "computer was at fault"),
+        (verdict(outcome="inconclusive", score=None), "not everything could be told"),
         (verdict(lab="services"), "kept for the day of that lab"),
     ):
         load(page, "Load the verdict", text)

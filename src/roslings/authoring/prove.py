@@ -123,7 +123,7 @@ def _is_caught(lab: Lab, mutant: Mutant, result: Result) -> Proof:
 def _open(about: str, result: Result) -> Proof | None:
     """Nothing can be said where the machine could not tell, or where nothing was graded."""
     if result.word == "inconclusive":
-        return Proof(about, "this computer was too busy to tell; prove it again", is_open=True)
+        return Proof(about, "not everything could be told; prove it again", is_open=True)
     if result.word == "refused":
         return Proof(about, result.reason)
     return None

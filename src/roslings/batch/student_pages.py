@@ -76,7 +76,7 @@ def _write_report(book: Gradebook, lab: Lab, result: Result, verdict: Verdict, p
 def _page_without(result: Result) -> str:
     words = {
         "refused": "This could not be graded as it was handed in",
-        "inconclusive": "No verdict: the computer that graded is at fault, not the package",
+        "inconclusive": "No verdict yet: not everything could be told",
     }
     return _page(result.submission, words[result.word], _told(result))
 

@@ -15,7 +15,7 @@ from roslings.report.whole_file import write_whole
 from roslings.verdict import CheckResult, Verdict
 
 INCONCLUSIVE = (
-    "The computer that graded was at fault, not the package. This is no grade:"
+    "Not everything could be told: mostly the computer was too busy. This is no grade:"
     " submit again, or tell your instructor."
 )
 STATUS = {"pass": "passed", "fail": "failed"}

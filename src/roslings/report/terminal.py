@@ -188,6 +188,6 @@ def _put_mend(page: Page, verdict: Verdict, first: CheckResult) -> None:
 
 def _put_look_again(page: Page, verdict: Verdict) -> None:
     if verdict.outcome == "inconclusive":
-        page.labelled("", "This is not your fault: not everything could be looked at.")
+        page.labelled("", "Not everything could be told. This costs you nothing.")
     page.command("Next", "Check again:", f"./roslings check {verdict.lab}")
     page.command("", "If it stays so, look at the machine:", "./roslings doctor")

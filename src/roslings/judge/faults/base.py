@@ -33,7 +33,7 @@ class Fault(Exception):
 
 
 class Inconclusive(Exception):
-    """The machine, not the student, is at fault: no verdict, and the reason."""
+    """It cannot be told, mostly since the machine was too busy: no verdict, and the reason."""
 
 
 class NothingToJudge(Exception):

@@ -13,7 +13,7 @@ from roslings.verdict import CheckOutcome, CheckResult, Outcome, Verdict
 HEADLINES: dict[Outcome, str] = {
     "pass": "Every check passes",
     "fail": "Not yet",
-    "inconclusive": "No verdict: this computer is at fault, not the package",
+    "inconclusive": "No verdict yet: not everything could be told",
 }
 WORDS: dict[CheckOutcome, str] = {
     "pass": "pass",
