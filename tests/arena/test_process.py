@@ -99,7 +99,7 @@ def end(*_):
 signal.signal(signal.SIGINT, end)
 print("ready", flush=True)
 while True:
-    signal.pause()
+    time.sleep(0.01)
 """
 
 
@@ -117,7 +117,7 @@ def end(*_):
 signal.signal(signal.SIGINT, end)
 print("ready", flush=True)
 while True:
-    signal.pause()
+    time.sleep(0.01)
 """
 
 
@@ -198,6 +198,16 @@ def test_an_endless_output_is_drained_and_bounded(tmp_path: Path, namespaces: bo
     assert seen.output_bytes > 30_000_000
     assert seen.output_dropped_bytes > 20_000_000
     assert sum(len(text) for text in texts(seen)) < 1_000_000
+
+
+def test_a_flood_of_empty_lines_is_bounded_too(tmp_path: Path, namespaces: bool) -> None:
+    """A line costs the evidence more than its bytes do."""
+    flood = "head -c 3000000 /dev/zero | tr '\\0' '\\n'"
+    seen = run(tmp_path, namespaces, "sh", "-c", f"echo the start; {flood}; echo the end")
+    assert texts(seen)[0] == "the start"
+    assert texts(seen)[-1] == "the end"
+    assert len(seen.lines) < 12_000
+    assert seen.output_bytes == 3_000_018
 
 
 def test_one_endless_line_is_cut(tmp_path: Path, namespaces: bool) -> None:

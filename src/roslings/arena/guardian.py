@@ -54,24 +54,29 @@ class Order:
         environment: dict[str, str],
         folder: str,
         walls: str,
-        head_bytes: int,
-        tail_bytes: int,
+        output: dict[str, int],
         limits: dict[str, int],
         watch: dict[str, int],
     ) -> None:
-        """`watch`: the most of `memory`, in bytes, of `pids`, threads too, and of `files`."""
+        """What the names of each dictionary mean: `Spout`, the module `resource`, and these.
+
+        `watch`: the most of `memory`, in bytes, of `pids`, threads too, and of `files`.
+        """
         self.command, self.environment = command, environment
         self.folder, self.walls = folder, walls
-        self.head_bytes, self.tail_bytes = head_bytes, tail_bytes
-        self.limits, self.watch = limits, watch
+        self.output, self.limits, self.watch = output, limits, watch
 
 
 class Spout:
-    """Passes on the first bytes of an endless output, and keeps the last ones for the end."""
+    """Passes on the first of an endless output, and keeps the last for the end.
 
-    def __init__(self, head_bytes: int, tail_bytes: int) -> None:
-        self.head_left = head_bytes
-        self.tail_bytes = tail_bytes
+    Lines are bounded as well as bytes: half a million empty ones are 512 KB here, and hold the
+    arena up for seconds when each becomes a record of the evidence.
+    """
+
+    def __init__(self, head_bytes: int, tail_bytes: int, head_lines: int, tail_lines: int) -> None:
+        self.head_left, self.lines_left = head_bytes, head_lines
+        self.tail_bytes, self.tail_lines = tail_bytes, tail_lines
         self.tail: list[bytes] = []
         self.tail_held = 0
         self.total = 0
@@ -80,8 +85,10 @@ class Spout:
     def take(self, chunk: bytes) -> bytes:
         """The part of `chunk` to pass on at once; the rest is held for the end."""
         self.total += len(chunk)
-        now, later = chunk[: self.head_left], chunk[self.head_left :]
-        self.head_left -= len(now)
+        fits = within(chunk, self.head_left, self.lines_left)
+        now, later = chunk[:fits], chunk[fits:]
+        self.head_left -= fits
+        self.lines_left -= now.count(b"\n")
         if later:
             self._hold(later)
         return now
@@ -95,8 +102,18 @@ class Spout:
             self.dropped += lost
 
     def rest(self) -> bytes:
-        """The last bytes, when all is over."""
-        return b"".join(self.tail)
+        """The last lines, when all is over; what does not stay is counted as dropped."""
+        held = b"".join(self.tail)
+        kept = b"\n".join(held.split(b"\n")[-self.tail_lines :])
+        self.dropped += len(held) - len(kept)
+        return kept
+
+
+def within(chunk: bytes, most_bytes: int, most_lines: int) -> int:
+    """How many bytes of `chunk` are within both bounds."""
+    chunk = chunk[:most_bytes]
+    *lines, beyond = chunk.split(b"\n", most_lines)
+    return len(chunk) - (len(beyond) if len(lines) == most_lines else 0)
 
 
 class Guardian:
@@ -105,7 +122,7 @@ class Guardian:
     def __init__(self, channel: int, order: Order) -> None:
         self.channel = channel
         self.order = order
-        self.spout = Spout(order.head_bytes, order.tail_bytes)
+        self.spout = Spout(**order.output)
         self.waker, waked = os.pipe2(os.O_NONBLOCK | os.O_CLOEXEC)
         signal.signal(signal.SIGCHLD, lambda *_: None)
         signal.set_wakeup_fd(waked)
@@ -133,7 +150,6 @@ class Guardian:
                 "bounds_met": self.bounds_met,
             }
         )
-        self.forget_orders()
 
     def turn(self) -> bool:
         """One round: output, orders, ended children. False when the arena let go."""
@@ -180,9 +196,10 @@ class Guardian:
 
     def tell_rest(self) -> None:
         """The end of a long output, after a line that says how much is missing."""
+        rest = self.spout.rest()
         if self.spout.dropped:
             self.say(f"\n[... {self.spout.dropped} bytes not kept ...]\n".encode())
-        self.say(self.spout.rest())
+        self.say(rest)
 
     def obey(self) -> bool:
         """Pass a signal on to the process. False when the arena closed its end."""
@@ -200,14 +217,6 @@ class Guardian:
             elif self.exited is None:
                 os.kill(self.pid, getattr(signal, name))
         return bool(orders)
-
-    def forget_orders(self) -> None:
-        """Who goes and leaves an order unread resets the connection: our last words may be lost."""
-        try:
-            if select.select([self.channel], [], [], 0)[0]:
-                os.read(self.channel, 4096)
-        except OSError:
-            pass
 
     def reap(self) -> None:
         """Collect ended children: the process itself, and orphans that came to us."""

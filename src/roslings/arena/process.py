@@ -21,8 +21,10 @@ from roslings.arena.sandbox import Sandbox
 from roslings.evidence import Ending, LogLine, ProcessSeen
 
 Listener = Callable[[], None]
-HEAD_BYTES = 512 * 1024
-TAIL_BYTES = 64 * 1024
+OUTPUT = {
+    "head_bytes": 512 * 1024, "tail_bytes": 64 * 1024, "head_lines": 10_000, "tail_lines": 1_000,
+}  # fmt: skip
+"""What is kept of its output."""
 LONGEST_LINE = 2000
 ANSWERS_WITHIN_S = 5.0
 LONGEST_WAIT_S = 20.0
@@ -58,8 +60,7 @@ class Launch:
             "environment": self.environment,
             "folder": str(self.folder),
             "walls": self.walls,
-            "head_bytes": HEAD_BYTES,
-            "tail_bytes": TAIL_BYTES,
+            "output": OUTPUT,
             "limits": {**(self.sandbox.bounds.limits() if self.sandbox else {}), **self.limits},
             "watch": self.sandbox.watch if self.sandbox else {},
         }
@@ -264,10 +265,8 @@ class Process:
             waiting.now_ns.update(now_ns)
 
     def _send(self, name: str) -> None:
-        try:
+        with suppress(OSError):  # it is gone: its last words may still wait to be read
             self._channel.sendall(name.encode() + b"\n")
-        except OSError:
-            self._finish()
 
     def _read(self) -> None:
         """In a thread: take the guardian's events until it ends."""
