@@ -87,6 +87,15 @@ class Rate:
         odd = [p for p in self.periods_s if not 0.5 <= p * self.hz <= 1.5]
         return len(odd) / len(self.periods_s)
 
+    def made_uneven_by(self, wait_s: float) -> bool:
+        """It is uneven, and so long a wait for a processor is enough to have made it so.
+
+        A message that is late by half a period makes two periods odd, the one before it and the
+        one after; what counts is how many more there are than a busy machine may delay.
+        """
+        too_many = (self.uneven_share() - MOST_UNEVEN) * len(self.periods_s)
+        return too_many > 0 and wait_s >= too_many / 2 * (self.period_s / 2)
+
     def far_above(self, limit_hz: float) -> bool:
         """Twice as often: a busy computer delays a node, and makes none faster."""
         return self.low_hz > 2 * limit_hz

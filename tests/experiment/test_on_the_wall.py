@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from roslings.course import RateContract
-from roslings.evidence import CanarySeen, ExperimentSeen
+from roslings.evidence import CanarySeen, ExperimentSeen, ProcessSeen
 from roslings.experiment.on_the_wall import trouble
 from roslings.rates import Rate
 
@@ -31,3 +31,14 @@ def test_without_its_canary_a_rate_tells_nothing(hz: float) -> None:
 def test_no_computer_makes_a_node_twice_as_fast(hz: float) -> None:
     """A node that takes all processors, so that the canary is late, gets its own rate told."""
     assert watched(hz, stall_s=3.0) is None
+
+
+@pytest.mark.parametrize(("waited_s", "told"), [(0.0, False), (1.0, False), (2.0, True)])
+def test_what_a_busy_computer_may_have_made_uneven_tells_nothing(
+    waited_s: float, told: bool
+) -> None:
+    """Twenty periods, all odd: fifteen too many. It takes half a period of waiting for two."""
+    node = ProcessSeen(executable="it", started_ns=0, cpu_wait_s=waited_s)
+    seen = ExperimentSeen(name="alone", clock="wall", processes={"it": node})
+    rate = Rate(LIMIT.hz, 0.001, (0.9, 0.1) * 10, 0, True)
+    assert ("messages are even" in (trouble(seen, rate, LIMIT) or "")) is told
