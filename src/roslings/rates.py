@@ -29,6 +29,9 @@ MOST_UNEVEN = 0.25
 LONGEST_STALL_S = 0.5
 """For which this computer may not even run the observer, before a time is held against a node."""
 
+BLURS_ARRIVALS_S = 0.25
+"""So long a wait for a processor, and arrivals alone do not tell whether messages are even."""
+
 MOSTLY = 0.5
 ANCHORED = 0.8
 """Below this share of a random walk's spread, the times keep to a grid."""
@@ -91,10 +94,14 @@ class Rate:
         """It is uneven, and so long a wait for a processor is enough to have made it so.
 
         A message that is late by half a period makes two periods odd, the one before it and the
-        one after; what counts is how many more there are than a busy machine may delay.
+        one after; what counts is how many more there are than a busy machine may delay. Arrivals
+        that the stamps do not bear out are uneven from less: messages wait behind each other.
         """
         too_many = (self.uneven_share() - MOST_UNEVEN) * len(self.periods_s)
-        return too_many > 0 and wait_s >= too_many / 2 * (self.period_s / 2)
+        enough_s = too_many / 2 * (self.period_s / 2)
+        if not self.from_stamps:
+            enough_s = min(enough_s, BLURS_ARRIVALS_S)
+        return too_many > 0 and wait_s >= enough_s
 
     def far_above(self, limit_hz: float) -> bool:
         """Twice as often: a busy computer delays a node, and makes none faster."""

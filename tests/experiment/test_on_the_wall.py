@@ -33,12 +33,29 @@ def test_no_computer_makes_a_node_twice_as_fast(hz: float) -> None:
     assert watched(hz, stall_s=3.0) is None
 
 
-@pytest.mark.parametrize(("waited_s", "told"), [(0.0, False), (1.0, False), (2.0, True)])
-def test_what_a_busy_computer_may_have_made_uneven_tells_nothing(
-    waited_s: float, told: bool
-) -> None:
-    """Twenty periods, all odd: fifteen too many. It takes half a period of waiting for two."""
+def kept_waiting(rate: Rate | None, waited_s: float) -> str | None:
+    """A node that waited so long for a processor."""
     node = ProcessSeen(executable="it", started_ns=0, cpu_wait_s=waited_s)
     seen = ExperimentSeen(name="alone", clock="wall", processes={"it": node})
-    rate = Rate(LIMIT.hz, 0.001, (0.9, 0.1) * 10, 0, True)
-    assert ("messages are even" in (trouble(seen, rate, LIMIT) or "")) is told
+    return trouble(seen, rate, LIMIT)
+
+
+@pytest.mark.parametrize(
+    ("stamped", "waited_s", "told"),
+    [
+        (True, 0.0, False), (True, 1.0, False), (True, 2.0, True),
+        (False, 0.1, False), (False, 1.0, True),
+    ],
+)  # fmt: skip
+def test_what_a_busy_computer_may_have_made_uneven_tells_nothing(
+    stamped: bool, waited_s: float, told: bool
+) -> None:
+    """Twenty periods, all odd: fifteen too many. It takes half a period of waiting for two."""
+    rate = Rate(LIMIT.hz, 0.001, (0.9, 0.1) * 10, 0, stamped)
+    assert ("messages are even" in (kept_waiting(rate, waited_s) or "")) is told
+
+
+def test_the_silence_of_a_node_that_could_not_run_tells_nothing() -> None:
+    """One period of waiting is enough to doubt it."""
+    assert kept_waiting(None, 0.4) is None
+    assert "silence" in (kept_waiting(None, 0.6) or "")

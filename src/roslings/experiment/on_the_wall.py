@@ -133,6 +133,8 @@ def trouble(seen: ExperimentSeen, rate: Rate | None, limit: RateContract) -> str
     if seen.stall_s > LONGEST_STALL_S and not (rate and _within(rate, limits_hz)):
         return f"this computer stood still for {seen.stall_s:.1f} s while your nodes ran"
     waited = f"your node was ready to run and waited {seen.cpu_wait_s:.1f} s for a free processor"
+    if rate is None and seen.cpu_wait_s * limit.hz > 1:
+        return f"{waited}, so its silence tells nothing"
     if rate and rate.blurred(limits_hz):
         return f"{waited}, so its own rate cannot be told"
     if rate and rate.made_uneven_by(seen.cpu_wait_s):
