@@ -105,7 +105,7 @@ def _grade(entries: Sequence[Entry], made: Stage, jobs: int) -> Gallery:
     groups = abandoned_groups()
     with adopting() as children:
         command = made.begin("--jobs", str(jobs), "--hidden", str(made.hidden))
-        words, _ = command.communicate(timeout=LONG_S * 4)
+        words, _ = command.communicate(timeout=LONG_S)
         running = quiet(lambda: {**children(), **living(made.mark)})
     changed = [
         each.rpartition(" ")[0] for folder in mine for each in files_in(folder) ^ before[folder]

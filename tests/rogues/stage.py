@@ -30,7 +30,7 @@ from roslings.evidence import Evidence
 
 HERE = Path(__file__).parent
 NOBODY = 65534
-LONG_S = 1800.0
+LONG_S = 7200.0
 QUIET_WITHIN_S = 60.0
 SECRET = "the instructor's own secret"
 HIDDEN = '''

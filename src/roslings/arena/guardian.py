@@ -3,8 +3,8 @@
     python -I -S -c "import guardian; guardian.main(FD)"
 
 FD is one end of a stream socket pair; the arena holds the other. It first sends the number of
-bytes of an `Order` on a line, and the bytes, of `marshal`; later a signal's name, `WAITS`, or
-`STATE`, a line. The guardian answers one line of JSON an event:
+bytes of an `Order` on a line, and the bytes, of `marshal`; later a signal's name, `WAITS`,
+`OWN_WAITS` or `STATE`, a line. The guardian answers one line of JSON an event:
 
     {"started": PID}                       {"said": TEXT, "at": NS}
     {"exited": STATUS, "at": NS, ...}      {"refused": REASON}

@@ -171,8 +171,8 @@ def exit_cleanly(process: ProcessView) -> None:
     seen = process.seen
     if seen.ending is None or seen.ending.after_s is None:
         raise faults.NothingToJudge("it did not end after Ctrl-C")
-    how = describe_end(seen) + (", with a traceback" if tracebacks(seen) else "")
     if agreed(process, is_unclean, "ended with an error"):
+        how = describe_end(seen) + (", with a traceback" if tracebacks(seen) else "")
         raise faults.UncleanExit(seen.executable, how, log=process.last_lines())
 
 
