@@ -87,8 +87,7 @@ class Rate:
 
     def uneven_share(self) -> float:
         """The part of the periods that are shorter than half or longer than one and a half."""
-        odd = [p for p in self.periods_s if not 0.5 <= p * self.hz <= 1.5]
-        return len(odd) / len(self.periods_s)
+        return _odd_share(self.periods_s, self.period_s)
 
     def made_uneven_by(self, wait_s: float) -> bool:
         """It is uneven, and so long a wait for a processor is enough to have made it so.
@@ -109,8 +108,12 @@ class Rate:
 
     @property
     def in_groups(self) -> bool:
-        """Most periods are far from the mean: no longer watch makes that even."""
-        return self.uneven_share() > MOSTLY
+        """Most periods are far from the mean: no longer watch makes that even.
+
+        One long pause alone makes no groups; what comes after it may be even.
+        """
+        others_s = sorted(self.periods_s)[:-1]
+        return _odd_share(others_s, statistics.fmean(others_s)) > MOSTLY
 
     def clear_of(self, limits_hz: Sequence[float]) -> bool:
         """No limit lies within the uncertainty: more messages would not change the answer."""
@@ -130,6 +133,11 @@ class Rate:
             return self
         each_s = wait_s / len(self.periods_s)
         return replace(self, delayed=min(0.9, each_s / self.period_s))
+
+
+def _odd_share(periods_s: Sequence[float], mean_s: float) -> float:
+    odd = [p for p in periods_s if not 0.5 * mean_s <= p <= 1.5 * mean_s]
+    return len(odd) / len(periods_s)
 
 
 def measure_rate(messages: Sequence[MessageSeen]) -> Rate | None:

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import statistics
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from roslings.judge.faults.base import Fault
-from roslings.rates import MOST_UNEVEN, Rate
+from roslings.rates import MOST_UNEVEN, STANDARD_ERRORS, Rate
 
 STALL = 1.5
 """A period that is longer than the usual one by this factor holds a stall."""
 
 STEADY = 0.1
-"""Periods that differ by less than this part of their mean are steady."""
+"""Periods are steady where half of them differ from their median by less than this part of it."""
 
 WORKS_UP_TO = 0.9
 """Work that takes longer than this part of the period is called a wrong period."""
@@ -20,7 +21,7 @@ WORKS_UP_TO = 0.9
 DRIFT = 0.2
 """From the first third of the watch to the last, the period changed by more than this part."""
 
-STRAIGHT = 0.9
+STRAIGHT = 0.8
 """... and the periods lie so near to a line: their correlation with their number."""
 
 
@@ -175,8 +176,8 @@ def rate_fault(rate: Rate, low_hz: float, high_hz: float) -> type[WrongRate] | N
     The shape of the intervals tells the likely reason.
     """
     right = low_hz <= rate.hz <= high_hz
-    if rate.hz < low_hz and low_hz <= 1 / rate.median_s <= high_hz:
-        return _pauses(rate)
+    if rate.hz < low_hz and (pauses := _pauses(rate, low_hz, high_hz)):
+        return pauses
     if _drifts(rate) and not right:
         return Drifts
     if rate.uneven_share() > MOST_UNEVEN:
@@ -186,19 +187,33 @@ def rate_fault(rate: Rate, low_hz: float, high_hz: float) -> type[WrongRate] | N
     return TooFast if rate.hz > high_hz else _slow(rate, low_hz, high_hz)
 
 
-def _pauses(rate: Rate) -> type[TooSlow]:
+def _pauses(rate: Rate, low_hz: float, high_hz: float) -> type[TooSlow] | None:
     """The usual period is right, and some are long: the first, or others too."""
-    stalls = [p > STALL * rate.median_s for p in rate.periods_s]
-    if stalls[0] and not any(stalls[1:]):
-        return StartsLate
-    return StallsNowAndThen if any(stalls) else TooSlow
+    longest_s = STALL * rate.median_s
+    stalls = [p > longest_s for p in rate.periods_s]
+    usual = [p for p in rate.periods_s if p <= longest_s]
+    if not any(stalls) or not _may_be_within(usual, low_hz, high_hz):
+        return None
+    return StallsNowAndThen if any(stalls[1:]) else StartsLate
+
+
+def _may_be_within(periods_s: Sequence[float], low_hz: float, high_hz: float) -> bool:
+    """Their mean lies within the limits, as far as so few of them can tell."""
+    mean_s = statistics.fmean(periods_s)
+    sure_to_s = STANDARD_ERRORS * statistics.pstdev(periods_s) / float(len(periods_s) ** 0.5)
+    return mean_s - sure_to_s <= 1 / low_hz and mean_s + sure_to_s >= 1 / high_hz
 
 
 def _slow(rate: Rate, low_hz: float, high_hz: float) -> type[TooSlow]:
     wanted_s = 2 / (low_hz + high_hz)
-    steady = rate.jitter_s < STEADY * rate.period_s
-    worked_s = rate.median_s - wanted_s
-    return SleepsAfterWorking if steady and worked_s < WORKS_UP_TO * wanted_s else TooSlow
+    longer = 1 / low_hz < rate.median_s < (1 + WORKS_UP_TO) * wanted_s
+    return SleepsAfterWorking if longer and _steady(rate) else TooSlow
+
+
+def _steady(rate: Rate) -> bool:
+    """Half of the periods or more are about the same; some may be late."""
+    off_s = statistics.median(abs(p - rate.median_s) for p in rate.periods_s)
+    return off_s < STEADY * rate.median_s
 
 
 def thirds(rate: Rate) -> tuple[float, float]:
