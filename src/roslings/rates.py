@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from roslings.evidence import MessageSeen, Segment, Tick
+from roslings.evidence import ExperimentSeen, MessageSeen, Segment, Tick
 
 NS_PER_S = 1e9
 FEWEST_INTERVALS = 4
@@ -30,7 +30,7 @@ LONGEST_STALL_S = 0.5
 """For which this computer may not even run the observer, before a time is held against a node."""
 
 BLURS_ARRIVALS_S = 0.25
-"""So long a wait for a processor, and arrivals alone do not tell whether messages are even."""
+"""Held up for so long, and arrivals alone do not tell whether messages are even."""
 
 MOSTLY = 0.5
 ANCHORED = 0.8
@@ -89,8 +89,8 @@ class Rate:
         """The part of the periods that are shorter than half or longer than one and a half."""
         return _odd_share(self.periods_s, self.period_s)
 
-    def made_uneven_by(self, wait_s: float) -> bool:
-        """It is uneven, and so long a wait for a processor is enough to have made it so.
+    def made_uneven_by(self, held_s: float) -> bool:
+        """It is uneven, and to be held up for so long is enough to have made it so.
 
         A message that is late by half a period makes two periods odd, the one before it and the
         one after; what counts is how many more there are than a busy machine may delay. Arrivals
@@ -100,7 +100,7 @@ class Rate:
         enough_s = too_many / 2 * (self.period_s / 2)
         if not self.from_stamps:
             enough_s = min(enough_s, BLURS_ARRIVALS_S)
-        return too_many > 0 and wait_s >= enough_s
+        return too_many > 0 and held_s >= enough_s
 
     def far_above(self, limit_hz: float) -> bool:
         """Twice as often: a busy computer delays a node, and makes none faster."""
@@ -123,21 +123,53 @@ class Rate:
         """Only because this computer held the node up is it not clear on which side it is."""
         return not self.clear_of(limits_hz) and replace(self, delayed=0.0).clear_of(limits_hz)
 
-    def held_up(self, wait_s: float) -> Rate:
-        """The same rate, of a node that waited `wait_s` for a processor while it was watched.
+    def held_up(self, held_s: float) -> Rate:
+        """The same rate, of a node that was held up for `held_s` while it was watched.
 
         That makes a loop that sleeps slower than it is, and each of its waits shows in all later
         times; a timer keeps to its grid.
         """
         if self.anchored:
             return self
-        each_s = wait_s / len(self.periods_s)
+        each_s = held_s / len(self.periods_s)
         return replace(self, delayed=min(0.9, each_s / self.period_s))
 
 
 def _odd_share(periods_s: Sequence[float], mean_s: float) -> float:
     odd = [p for p in periods_s if not 0.5 * mean_s <= p <= 1.5 * mean_s]
     return len(odd) / len(periods_s)
+
+
+def held_up_s(seen: ExperimentSeen) -> float:
+    """For how long this computer held its nodes up while they were watched; two witnesses.
+
+    The kernel tells how long each thread waited for a processor. It does not tell of a lock whose
+    holder waited, or of a virtual machine that was not run itself; the canary was late then too.
+    """
+    canary = seen.canary
+    if canary is None or canary.imitated:
+        return seen.cpu_wait_s
+    return max(seen.cpu_wait_s, lateness_s(canary.messages, canary.wanted_hz))
+
+
+def lateness_s(messages: Sequence[MessageSeen], hz: float) -> float:
+    """How late a timer of `hz` was, all its turns together, in seconds.
+
+    A loop that sleeps is slower by as much, for each of its waits shows in all later times. The
+    timer's grid goes through that message for which the others are late by the least; a turn that
+    was left out was late by a period.
+    """
+    times_s, _ = _times(messages)
+    if not times_s:
+        return 0.0
+    period_s = 1 / hz
+    phases_s = sorted((time_s - times_s[0]) % period_s for time_s in times_s)
+    # With the grid through one of them, those before it are late by nearly a period.
+    late_s = sum(phases_s) + min(
+        earlier * period_s - len(phases_s) * on_grid_s for earlier, on_grid_s in enumerate(phases_s)
+    )
+    left_out = round((times_s[-1] - times_s[0]) * hz) + 1 - len(times_s)
+    return late_s + max(0, left_out) * period_s
 
 
 def measure_rate(messages: Sequence[MessageSeen]) -> Rate | None:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from roslings.course import RateContract
-from roslings.evidence import CanarySeen, ExperimentSeen, ProcessSeen
+from roslings.evidence import CanarySeen, ExperimentSeen, MessageSeen, ProcessSeen
 from roslings.experiment.on_the_wall import trouble
-from roslings.rates import Rate
+from roslings.rates import Rate, held_up_s
 
 LIMIT = RateContract(hz=2.0, within=0.02)
 
@@ -59,3 +59,18 @@ def test_the_silence_of_a_node_that_could_not_run_tells_nothing() -> None:
     """One period of waiting is enough to doubt it."""
     assert kept_waiting(None, 0.4) is None
     assert "silence" in (kept_waiting(None, 0.6) or "")
+
+
+@pytest.mark.parametrize(("late_ms", "told"), [(0, False), (80, True)])
+def test_a_loop_beside_a_late_canary_gets_no_rate_told(late_ms: int, told: bool) -> None:
+    """The kernel saw no waiting, as in a virtual machine that is not run itself."""
+    times_ms = [500 * n + (late_ms if n % 2 else 0) for n in range(21)]
+    song = [
+        MessageSeen(source_ns=at * 10**6, sequence=n + 1, arrival_ns=at * 10**6, size=4)
+        for n, at in enumerate(times_ms)
+    ]
+    seen = ExperimentSeen(
+        name="alone", clock="wall", canary=CanarySeen(wanted_hz=LIMIT.hz, messages=song)
+    )
+    loop = Rate(1.93, 0.01, (0.5, 0.53, 0.526) * 7, 0, True)
+    assert ("own rate" in (trouble(seen, loop.held_up(held_up_s(seen)), LIMIT) or "")) is told

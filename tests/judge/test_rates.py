@@ -8,8 +8,14 @@ from itertools import accumulate
 import pytest
 from judge_messages import EPOCH_NS, MS, messages
 
-from roslings.evidence import Segment, Tick
-from roslings.rates import measure_rate, measure_simulated_rate, place_on_ticks
+from roslings.evidence import CanarySeen, ExperimentSeen, ProcessSeen, Segment, Tick
+from roslings.rates import (
+    held_up_s,
+    lateness_s,
+    measure_rate,
+    measure_simulated_rate,
+    place_on_ticks,
+)
 
 
 def grid(period_ms: float, count: int) -> list[float]:
@@ -152,3 +158,29 @@ def test_simulated_time_is_that_of_the_tick() -> None:
     assert rate is not None
     assert rate.hz == pytest.approx(2.0)
     assert rate.uncertainty_hz == pytest.approx(2.0 * 0.1 / 9.0)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_a_late_timer_tells_how_much_a_loop_that_sleeps_was_held_up(seed: int) -> None:
+    """All its turns together, with the turns that it left out; from the quickest one on."""
+    chance = random.Random(seed)
+    late = [chance.uniform(0, 90) if chance.random() < 0.4 else 0.0 for _ in range(40)]
+    kept = [n for n in range(40) if n % 20 != 10]
+    told_s = lateness_s(messages([500 * n + late[n] for n in kept]), hz=2.0)
+    assert told_s == pytest.approx((sum(late[n] for n in kept) + 2 * 500) / 1000, abs=0.001)
+
+
+@pytest.mark.parametrize("count", [0, 1, 2, 40])
+def test_a_timer_that_keeps_its_time_is_not_late(count: int) -> None:
+    """Whether it sang once, often, or not yet."""
+    assert lateness_s(messages(grid(500, count)), hz=2.0) == pytest.approx(0, abs=1e-5)
+
+
+@pytest.mark.parametrize(("imitated", "held_s"), [(False, 2.0), (True, 0.3)])
+def test_a_late_canary_speaks_for_the_node_beside_it(imitated: bool, held_s: float) -> None:
+    """Also where the kernel has seen no waiting; but not where somebody else sang, too."""
+    song = messages([500 * n + (100 if n % 2 else 0) for n in range(40)])
+    canary = CanarySeen(wanted_hz=2.0, messages=song, imitated=imitated)
+    node = ProcessSeen(executable="it", started_ns=0, cpu_wait_s=0.3)
+    seen = ExperimentSeen(name="alone", clock="wall", canary=canary, processes={"it": node})
+    assert held_up_s(seen) == pytest.approx(held_s, abs=1e-3)

@@ -13,7 +13,14 @@ from roslings.arena import Arena
 from roslings.course import RateContract
 from roslings.evidence import CanarySeen, Endpoint, ExperimentSeen
 from roslings.probe import Probe, canary
-from roslings.rates import LONGEST_STALL_S, MOST_UNEVEN, NS_PER_S, Rate, measure_rate
+from roslings.rates import (
+    LONGEST_STALL_S,
+    MOST_UNEVEN,
+    NS_PER_S,
+    Rate,
+    held_up_s,
+    measure_rate,
+)
 
 FIRST_MESSAGE_WITHIN_S = 10.0
 CANARY_WITHIN_S = 20.0
@@ -104,7 +111,7 @@ class WallWatch:
 
     def _rate(self) -> Rate | None:
         rate = measure_rate(self.probe.messages(self._topic()))
-        return rate.held_up(self.probe.seen.cpu_wait_s) if rate else None
+        return rate.held_up(held_up_s(self.probe.seen)) if rate else None
 
     def _topic(self) -> str:
         publisher = self.publisher()
@@ -132,13 +139,14 @@ def trouble(seen: ExperimentSeen, rate: Rate | None, limit: RateContract) -> str
     limits_hz = (limit.low_hz, limit.high_hz)
     if seen.stall_s > LONGEST_STALL_S and not (rate and _within(rate, limits_hz)):
         return f"this computer stood still for {seen.stall_s:.1f} s while your nodes ran"
-    waited = f"your node was ready to run and waited {seen.cpu_wait_s:.1f} s for a free processor"
-    if rate is None and seen.cpu_wait_s * limit.hz > 1:
-        return f"{waited}, so its silence tells nothing"
+    held_s = held_up_s(seen)
+    held = f"your node was ready to run, and this computer held it up for {held_s:.1f} s"
+    if rate is None and held_s * limit.hz > 1:
+        return f"{held}, so its silence tells nothing"
     if rate and rate.blurred(limits_hz):
-        return f"{waited}, so its own rate cannot be told"
-    if rate and rate.made_uneven_by(seen.cpu_wait_s):
-        return f"{waited}, so nobody can tell whether its messages are even by themselves"
+        return f"{held}, so its own rate cannot be told"
+    if rate and rate.made_uneven_by(held_s):
+        return f"{held}, so nobody can tell whether its messages are even by themselves"
     return None
 
 

@@ -223,7 +223,7 @@ def tell_at_its_rate(
             _leave_error_to_another(given)
             require_steady(experiment.seen.stall_s)
             raise NoMessages(topic, len(heard), experiment.seen.watching_s)
-        kind = rate_fault(rate.held_up(experiment.seen.cpu_wait_s), limit.low_hz, limit.high_hz)
+        kind = rate_fault(rate, limit.low_hz, limit.high_hz)
         if kind:
             require_steady(experiment.seen.stall_s)
             raise faults.WrongFeedbackRate(kind(topic, limit.hz, limit.within, rate))
