@@ -120,7 +120,13 @@ class Rate:
         return not any(self.low_hz <= limit <= self.high_hz for limit in limits_hz)
 
     def blurred(self, limits_hz: Sequence[float]) -> bool:
-        """Only because this computer held the node up is it not clear on which side it is."""
+        """Only because this computer held the node up is it not clear on which side it is.
+
+        Of a rate that is uncertain by itself, what was measured counts; being held up alone must
+        not have brought it below a limit.
+        """
+        if any(self.hz < limit_hz <= self.hz / (1 - self.delayed) for limit_hz in limits_hz):
+            return True
         return not self.clear_of(limits_hz) and replace(self, delayed=0.0).clear_of(limits_hz)
 
     def held_up(self, held_s: float) -> Rate:

@@ -10,6 +10,7 @@ from judge_messages import EPOCH_NS, MS, messages
 
 from roslings.evidence import CanarySeen, ExperimentSeen, ProcessSeen, Segment, Tick
 from roslings.rates import (
+    Rate,
     held_up_s,
     lateness_s,
     measure_rate,
@@ -184,3 +185,13 @@ def test_a_late_canary_speaks_for_the_node_beside_it(imitated: bool, held_s: flo
     node = ProcessSeen(executable="it", started_ns=0, cpu_wait_s=0.3)
     seen = ExperimentSeen(name="alone", clock="wall", canary=canary, processes={"it": node})
     assert held_up_s(seen) == pytest.approx(held_s, abs=1e-3)
+
+
+@pytest.mark.parametrize(("held_s", "told"), [(0.0, False), (0.02, False), (0.5, True)])
+def test_an_uncertain_rate_that_was_held_up_below_a_limit_is_blurred(
+    held_s: float, told: bool
+) -> None:
+    """Its own unevenness, which a busy machine makes too, is no reason to believe it."""
+    periods_s = (0.1, 0.1, 0.1, 0.1, 0.23) * 6
+    rate = Rate(1 / 0.126, 2.0, periods_s, 0, True)
+    assert rate.held_up(held_s).blurred([8.0, 12.0]) is told
