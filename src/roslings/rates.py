@@ -30,7 +30,7 @@ LONGEST_STALL_S = 0.5
 """For which this computer may not even run the observer, before a time is held against a node."""
 
 BLURS_ARRIVALS_S = 0.25
-"""Held up for so long, and arrivals alone do not tell whether messages are even."""
+"""So long a wait for a processor, and arrivals alone do not tell whether messages are even."""
 
 MOSTLY = 0.5
 ANCHORED = 0.8
@@ -76,6 +76,11 @@ class Rate:
         return statistics.pstdev(self.periods_s)
 
     @property
+    def held_s(self) -> float:
+        """For so long this computer held the node up."""
+        return self.delayed * sum(self.periods_s)
+
+    @property
     def low_hz(self) -> float:
         """On a free computer the node is not slower than this."""
         return self.hz - self.uncertainty_hz
@@ -89,8 +94,8 @@ class Rate:
         """The part of the periods that are shorter than half or longer than one and a half."""
         return _odd_share(self.periods_s, self.period_s)
 
-    def made_uneven_by(self, held_s: float) -> bool:
-        """It is uneven, and to be held up for so long is enough to have made it so.
+    def made_uneven_by(self, wait_s: float) -> bool:
+        """It is uneven, and so long a wait for a processor is enough to have made it so.
 
         A message that is late by half a period makes two periods odd, the one before it and the
         one after; what counts is how many more there are than a busy machine may delay. Arrivals
@@ -100,7 +105,7 @@ class Rate:
         enough_s = too_many / 2 * (self.period_s / 2)
         if not self.from_stamps:
             enough_s = min(enough_s, BLURS_ARRIVALS_S)
-        return too_many > 0 and held_s >= enough_s
+        return too_many > 0 and wait_s >= enough_s
 
     def far_above(self, limit_hz: float) -> bool:
         """Twice as often: a busy computer delays a node, and makes none faster."""
@@ -146,16 +151,21 @@ def _odd_share(periods_s: Sequence[float], mean_s: float) -> float:
     return len(odd) / len(periods_s)
 
 
-def held_up_s(seen: ExperimentSeen) -> float:
-    """For how long this computer held its nodes up while they were watched; two witnesses.
+def own_rate(rate: Rate, seen: ExperimentSeen) -> Rate:
+    """The rate, with what this computer may have taken from it; two witnesses.
 
     The kernel tells how long each thread waited for a processor. It does not tell of a lock whose
     holder waited, or of a virtual machine that was not run itself; the canary was late then too.
     """
+    return rate.held_up(max(seen.cpu_wait_s, canary_late_s(seen) * len(rate.periods_s)))
+
+
+def canary_late_s(seen: ExperimentSeen) -> float:
+    """How late the canary was in one turn, on average; 0 where another one sang, too."""
     canary = seen.canary
-    if canary is None or canary.imitated:
-        return seen.cpu_wait_s
-    return max(seen.cpu_wait_s, lateness_s(canary.messages, canary.wanted_hz))
+    if canary is None or canary.imitated or not canary.messages:
+        return 0.0
+    return lateness_s(canary.messages, canary.wanted_hz) / len(canary.messages)
 
 
 def lateness_s(messages: Sequence[MessageSeen], hz: float) -> float:
@@ -166,8 +176,6 @@ def lateness_s(messages: Sequence[MessageSeen], hz: float) -> float:
     was left out was late by a period.
     """
     times_s, _ = _times(messages)
-    if not times_s:
-        return 0.0
     period_s = 1 / hz
     phases_s = sorted((time_s - times_s[0]) % period_s for time_s in times_s)
     # With the grid through one of them, those before it are late by nearly a period.

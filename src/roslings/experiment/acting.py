@@ -24,7 +24,7 @@ from roslings.experiment.on_the_wall import (
 from roslings.experiment.scene import Scene
 from roslings.near import nearest
 from roslings.probe.actions import Goal, GoalGiver, GoalTaker, read_actions
-from roslings.rates import held_up_s, measure_rate
+from roslings.rates import measure_rate, own_rate
 
 ANSWER_WITHIN_S = 5.0
 HEARS_WITHIN_S = 10.0
@@ -258,7 +258,7 @@ def _note_trouble(scene: Scene, limit: RateContract) -> None:
     for topic in {goal.feedback_topic for goal in seen.goals}:
         scene.probe.note_longest_watch(topic)
         rate = measure_rate(scene.probe.messages(topic))
-        rate = rate.held_up(held_up_s(seen)) if rate else None
+        rate = own_rate(rate, seen) if rate else None
         seen.machine_fault = seen.machine_fault or trouble(seen, rate, limit)
 
 

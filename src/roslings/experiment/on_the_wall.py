@@ -18,8 +18,8 @@ from roslings.rates import (
     MOST_UNEVEN,
     NS_PER_S,
     Rate,
-    held_up_s,
     measure_rate,
+    own_rate,
 )
 
 FIRST_MESSAGE_WITHIN_S = 10.0
@@ -111,7 +111,7 @@ class WallWatch:
 
     def _rate(self) -> Rate | None:
         rate = measure_rate(self.probe.messages(self._topic()))
-        return rate.held_up(held_up_s(self.probe.seen)) if rate else None
+        return own_rate(rate, self.probe.seen) if rate else None
 
     def _topic(self) -> str:
         publisher = self.publisher()
@@ -139,14 +139,14 @@ def trouble(seen: ExperimentSeen, rate: Rate | None, limit: RateContract) -> str
     limits_hz = (limit.low_hz, limit.high_hz)
     if seen.stall_s > LONGEST_STALL_S and not (rate and _within(rate, limits_hz)):
         return f"this computer stood still for {seen.stall_s:.1f} s while your nodes ran"
-    held_s = held_up_s(seen)
-    held = f"your node was ready to run, and this computer held it up for {held_s:.1f} s"
-    if rate is None and held_s * limit.hz > 1:
-        return f"{held}, so its silence tells nothing"
     if rate and rate.blurred(limits_hz):
+        held = f"this computer held your node up for {rate.held_s:.1f} s"
         return f"{held}, so its own rate cannot be told"
-    if rate and rate.made_uneven_by(held_s):
-        return f"{held}, so nobody can tell whether its messages are even by themselves"
+    waited = f"your node was ready to run and waited {seen.cpu_wait_s:.1f} s for a free processor"
+    if rate is None and seen.cpu_wait_s * limit.hz > 1:
+        return f"{waited}, so its silence tells nothing"
+    if rate and rate.made_uneven_by(seen.cpu_wait_s):
+        return f"{waited}, so nobody can tell whether its messages are even by themselves"
     return None
 
 

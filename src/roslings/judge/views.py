@@ -23,7 +23,7 @@ from roslings.evidence import (
 )
 from roslings.judge.faults import NothingToJudge
 from roslings.near import Near, nearest, nearest_endpoint, own_endpoints
-from roslings.rates import Rate, held_up_s, measure_rate, measure_simulated_rate
+from roslings.rates import Rate, measure_rate, measure_simulated_rate, own_rate
 
 LAST_LINES = 40
 V = TypeVar("V", bound="View")
@@ -166,7 +166,7 @@ class TopicView(View):
         if seen.clock == "sim":
             return measure_simulated_rate(self.messages, seen.ticks, seen.segments)
         rate = measure_rate(self.messages)
-        return rate.held_up(held_up_s(seen)) if rate else None
+        return own_rate(rate, seen) if rate else None
 
     @property
     def texts(self) -> list[str]:
