@@ -81,6 +81,11 @@ class Rate:
         return self.delayed * sum(self.periods_s)
 
     @property
+    def free_hz(self) -> float:
+        """The rate on a free computer, as far as it is known what this one took."""
+        return self.hz / (1 - self.delayed)
+
+    @property
     def low_hz(self) -> float:
         """On a free computer the node is not slower than this."""
         return self.hz - self.uncertainty_hz
@@ -88,7 +93,7 @@ class Rate:
     @property
     def high_hz(self) -> float:
         """On a free computer the node is not faster than this."""
-        return self.hz / (1 - self.delayed) + self.uncertainty_hz
+        return self.free_hz + self.uncertainty_hz
 
     def uneven_share(self) -> float:
         """The part of the periods that are shorter than half or longer than one and a half."""
@@ -124,13 +129,17 @@ class Rate:
         """No limit lies within the uncertainty: more messages would not change the answer."""
         return not any(self.low_hz <= limit <= self.high_hz for limit in limits_hz)
 
+    def settled(self, limits_hz: Sequence[float]) -> bool:
+        """No longer watch would change the answer."""
+        return self.clear_of(limits_hz) or self.in_groups
+
     def blurred(self, limits_hz: Sequence[float]) -> bool:
         """Only because this computer held the node up is it not clear on which side it is.
 
         Of a rate that is uncertain by itself, what was measured counts; being held up alone must
         not have brought it below a limit.
         """
-        if any(self.hz < limit_hz <= self.hz / (1 - self.delayed) for limit_hz in limits_hz):
+        if any(self.hz < limit_hz <= self.free_hz for limit_hz in limits_hz):
             return True
         return not self.clear_of(limits_hz) and replace(self, delayed=0.0).clear_of(limits_hz)
 
@@ -151,12 +160,15 @@ def _odd_share(periods_s: Sequence[float], mean_s: float) -> float:
     return len(odd) / len(periods_s)
 
 
-def own_rate(rate: Rate, seen: ExperimentSeen) -> Rate:
-    """The rate, with what this computer may have taken from it; two witnesses.
+def own_rate(rate: Rate | None, seen: ExperimentSeen) -> Rate | None:
+    """The rate, where there is one, with what this computer may have taken from it.
 
-    The kernel tells how long each thread waited for a processor. It does not tell of a lock whose
-    holder waited, or of a virtual machine that was not run itself; the canary was late then too.
+    There are two witnesses. The kernel tells how long each thread waited for a processor. It does
+    not tell of a lock whose holder waited, or of a virtual machine that was not run itself; the
+    canary was late then too.
     """
+    if rate is None:
+        return None
     return rate.held_up(max(seen.cpu_wait_s, canary_late_s(seen) * len(rate.periods_s)))
 
 

@@ -188,7 +188,9 @@ def test_a_late_canary_speaks_for_the_node_beside_it(imitated: bool, held_s: flo
     node = ProcessSeen(executable="it", started_ns=0, cpu_wait_s=0.3)
     seen = ExperimentSeen(name="alone", clock="wall", canary=canary, processes={"it": node})
     rate = Rate(2.0, 0.1, (0.5,) * 20, 0, True)
-    assert own_rate(rate, seen).held_s == pytest.approx(held_s, abs=1e-3)
+    own = own_rate(rate, seen)
+    assert own is not None
+    assert own.held_s == pytest.approx(held_s, abs=1e-3)
 
 
 @pytest.mark.parametrize(("held_s", "told"), [(0.0, False), (0.02, False), (0.5, True)])

@@ -257,8 +257,7 @@ def _note_trouble(scene: Scene, limit: RateContract) -> None:
     seen = scene.seen
     for topic in {goal.feedback_topic for goal in seen.goals}:
         scene.probe.note_longest_watch(topic)
-        rate = measure_rate(scene.probe.messages(topic))
-        rate = own_rate(rate, seen) if rate else None
+        rate = own_rate(measure_rate(scene.probe.messages(topic)), seen)
         seen.machine_fault = seen.machine_fault or trouble(seen, rate, limit)
 
 

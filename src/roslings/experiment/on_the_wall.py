@@ -13,14 +13,7 @@ from roslings.arena import Arena
 from roslings.course import RateContract
 from roslings.evidence import CanarySeen, Endpoint, ExperimentSeen
 from roslings.probe import Probe, canary
-from roslings.rates import (
-    LONGEST_STALL_S,
-    MOST_UNEVEN,
-    NS_PER_S,
-    Rate,
-    measure_rate,
-    own_rate,
-)
+from roslings.rates import LONGEST_STALL_S, MOST_UNEVEN, NS_PER_S, Rate, measure_rate, own_rate
 
 FIRST_MESSAGE_WITHIN_S = 10.0
 CANARY_WITHIN_S = 20.0
@@ -100,7 +93,7 @@ class WallWatch:
             self._note_waits()
             rate = self._rate()
             limits_hz = (self.limit.low_hz, self.limit.high_hz)
-            self._sure = rate is not None and (rate.clear_of(limits_hz) or rate.in_groups)
+            self._sure = rate is not None and rate.settled(limits_hz)
         return self._sure
 
     def _note_waits(self) -> None:
@@ -110,8 +103,7 @@ class WallWatch:
                 process.seen.cpu_wait_s = longest_wait_s(before_ns, now_ns)
 
     def _rate(self) -> Rate | None:
-        rate = measure_rate(self.probe.messages(self._topic()))
-        return own_rate(rate, self.probe.seen) if rate else None
+        return own_rate(measure_rate(self.probe.messages(self._topic())), self.probe.seen)
 
     def _topic(self) -> str:
         publisher = self.publisher()

@@ -105,7 +105,7 @@ class SimulatedWatch:
         limit, segments = self.limit, self.probe.seen.segments
         rate = measure_simulated_rate(self._placed(), self.clock.ticks, segments)
         limits_hz = (limit.low_hz, limit.high_hz) if limit else ()
-        return rate is None or rate.in_groups or rate.clear_of(limits_hz)
+        return rate is None or rate.settled(limits_hz)
 
     def _until_first_message(self) -> None:
         step_ns = round(self.period_s / FIRST_STEPS * NS_PER_S)

@@ -165,8 +165,7 @@ class TopicView(View):
         seen = self.experiment
         if seen.clock == "sim":
             return measure_simulated_rate(self.messages, seen.ticks, seen.segments)
-        rate = measure_rate(self.messages)
-        return own_rate(rate, seen) if rate else None
+        return own_rate(measure_rate(self.messages), seen)
 
     @property
     def texts(self) -> list[str]:

@@ -190,11 +190,10 @@ def rate_fault(rate: Rate, low_hz: float, high_hz: float) -> type[WrongRate] | N
 def _pauses(rate: Rate, low_hz: float, high_hz: float) -> type[TooSlow] | None:
     """The usual period is right, and some are long: the first, or others too."""
     longest_s = STALL * rate.median_s
-    stalls = [p > longest_s for p in rate.periods_s]
     usual = [p for p in rate.periods_s if p <= longest_s]
-    if not any(stalls) or not _may_be_within(usual, low_hz, high_hz):
+    if len(usual) == len(rate.periods_s) or not _may_be_within(usual, low_hz, high_hz):
         return None
-    return StallsNowAndThen if any(stalls[1:]) else StartsLate
+    return StallsNowAndThen if max(rate.periods_s[1:]) > longest_s else StartsLate
 
 
 def _may_be_within(periods_s: Sequence[float], low_hz: float, high_hz: float) -> bool:
