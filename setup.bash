@@ -17,6 +17,19 @@ if [ -z "${ROS_DISTRO-}" ]; then
         *":$_roslings/.venv:"*) ;;
         *) export AMENT_PREFIX_PATH=${AMENT_PREFIX_PATH:+$AMENT_PREFIX_PATH:}$_roslings/.venv ;;
     esac
+    # Nodes announce themselves quickly, as those do that `ros2 run` starts: two find each other in
+    # milliseconds, also where you start one with plain python3.
+    export FASTRTPS_DEFAULT_PROFILES_FILE=${FASTRTPS_DEFAULT_PROFILES_FILE:-$_roslings/src/roslings/arena/quick_discovery.xml}
+    # The Tab key completes the words of ros2. What it needs is read when Tab is first pressed: it
+    # comes with the first `ros2`.
+    if [ -n "${BASH_VERSION-}" ]; then
+        _roslings_complete() {
+            eval "$(register-python-argcomplete ros2 2>/dev/null)"
+            # 124 makes bash ask again, now with what was read.
+            case $(complete -p ros2) in *_roslings_complete*) return 1 ;; *) return 124 ;; esac
+        }
+        complete -F _roslings_complete ros2
+    fi
 elif [ -d "$_roslings/.venv-apt/overlay" ]; then
     # The message types that a lab brings, once `./roslings start` has built them.
     _overlay=$_roslings/.venv-apt/overlay

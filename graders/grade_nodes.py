@@ -5,7 +5,7 @@ student's node and watch; checks read what was seen and run nothing.
 """
 
 from roslings.course import lab
-from roslings.experiment import Scene, experiment
+from roslings.experiment import Run, Scene, experiment
 from roslings.experiment.start import Start
 from roslings.experiment.starting import await_publishers, list_parameters
 from roslings.judge import (
@@ -66,7 +66,8 @@ def quicker(scene: Scene) -> None:
 @experiment
 def twice(scene: Scene) -> None:
     """Two of it at once, each with a name and a namespace of its own."""
-    with scene.run(NODE, start=Start(named=FIRST)), scene.run(NODE, start=Start(named=SECOND)):
+    first, second = Run(NODE, start=Start(named=FIRST)), Run(NODE, start=Start(named=SECOND))
+    with scene.run_all(first, second):
         await_publishers(scene)
 
 

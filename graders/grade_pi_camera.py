@@ -154,13 +154,13 @@ def unplugged(scene: Scene) -> None:
                 beside.await_trouble(process, *numbers)
             beside.refuse(0)
             beside.begin("there")
-            beside.await_pictures(IMAGE, 3)
+            beside.await_return(IMAGE, 3)
             beside.begin("gone")
             beside.camera.unplug()
             beside.await_trouble(process, *GONE)
             beside.begin("there again")
             beside.camera.plug_in()
-            beside.await_pictures(IMAGE, 3)
+            beside.await_return(IMAGE, 3)
 
 
 @experiment

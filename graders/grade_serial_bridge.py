@@ -77,11 +77,12 @@ def noisy(scene: Scene) -> None:
         cable.await_messages(WHEELS, 20)
 
 
-@experiment(alongside=True)
+@experiment
 def silent(scene: Scene) -> None:
     """Half a minute in which the board says nothing."""
     with board_beside(scene) as cable, scene.run(BRIDGE, start=cable.start()):
-        cable.await_messages(WHEELS, 10)
+        if not cable.await_messages(WHEELS, 10):
+            return
         cable.board.to_host.silent = True
         cable.live(for_s=SILENCE_S)
         cable.board.to_host.silent = False
@@ -98,12 +99,13 @@ def unplugged(scene: Scene) -> None:
     ):
         cable.live(for_s=0.5)
         cable.board.plug_in()
-        if cable.await_messages(WHEELS, 10):
-            cable.mark("came late")
-            cable.board.unplug()
-            cable.live(for_s=1.0)
-            cable.board.plug_in()
-        if cable.await_messages(WHEELS, 10):
+        if not cable.await_return(WHEELS, 10):
+            return
+        cable.mark("came late")
+        cable.board.unplug()
+        cable.live(for_s=1.0)
+        cable.board.plug_in()
+        if cable.await_return(WHEELS, 10):
             cable.mark("came back")
 
 

@@ -6,7 +6,7 @@ student's nodes and watch; checks read what was seen and run nothing.
 
 from roslings.course import lab
 from roslings.evidence import ExperimentSeen
-from roslings.experiment import Scene, experiment, mending
+from roslings.experiment import Run, Scene, Unobserved, experiment, mending
 from roslings.judge import (
     ExperimentView,
     PackageView,
@@ -30,6 +30,7 @@ from roslings.judge import (
     match_qos,
     repeat,
     say_its_text,
+    speak_unobserved,
     stay_up,
 )
 
@@ -59,11 +60,20 @@ def hearing(scene: Scene) -> None:
 @experiment
 def together(scene: Scene, talking: ExperimentSeen, hearing: ExperimentSeen) -> None:
     """Both at once; slips in names, judged above, are put right by remapping."""
-    with (
-        scene.run(TALKER, mending(TALKER, talking)),
-        scene.run(LISTENER, mending(LISTENER, hearing)),
+    with scene.run_all(
+        Run(TALKER, mending(TALKER, talking)), Run(LISTENER, mending(LISTENER, hearing))
     ):
         scene.joined(CHATTER)
+
+
+@experiment(unobserved=True)
+def unobserved(scene: Unobserved, talking: ExperimentSeen, hearing: ExperimentSeen) -> None:
+    """Both at once, and nobody else: only the listener tells what it hears."""
+    with (
+        scene.run(TALKER, mending(TALKER, talking)),
+        scene.run(LISTENER, mending(LISTENER, hearing)) as listener,
+    ):
+        scene.read_along(listener, LISTENER, CHATTER)
 
 
 # --- the package -------------------------------------------------------------------------------
@@ -127,9 +137,10 @@ def test_talker_qos(talking: ExperimentView) -> None:
 
 
 @check(needs=["talker_stays"])
-def test_rate(talking: ExperimentView) -> None:
+def test_rate(talking: ExperimentView, hearing: ExperimentView, unobserved: ExperimentView) -> None:
     """{CHATTER.topic} carries {CHATTER.rate.hz:g} messages a second, evenly."""
     talking.topic(CHATTER).must(have_rate(CHATTER))
+    unobserved.must(speak_unobserved(talking, hearing, (TALKER, LISTENER), (CHATTER, HEARD)))
 
 
 @check(needs=["talker_type"])

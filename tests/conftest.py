@@ -3,9 +3,39 @@
 from __future__ import annotations
 
 import signal
+from pathlib import Path
+
+import pytest
+from costs import Costs
+from once import shared_folder
+
+__all__ = ["shared_folder"]
+
+LONGEST = ("forgers", "labs", "cli", "batch", "bootstrap", "devices")
+"""Folders with long tests: what is begun last ought to be short."""
 
 
-def pytest_configure() -> None:
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Options of the tests."""
+    parser.addoption(
+        "--costs", metavar="FILE", type=Path, help="add what each test cost to FILE, as JSON lines"
+    )
+
+
+def pytest_configure(config: pytest.Config) -> None:
     """Hear Ctrl-C, and let children hear it, also where a script in the background started us."""
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
+    if file := config.getoption("--costs"):
+        config.pluginmanager.register(Costs(file.absolute()))
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """The folders with long tests come first."""
+    items.sort(key=_turn)
+
+
+def _turn(item: pytest.Item) -> int:
+    folder = item.path.parent.name
+    return LONGEST.index(folder) if folder in LONGEST else len(LONGEST)

@@ -21,6 +21,31 @@ SHAPES = {
     "check50": "tools that read check50's JSON",
 }
 """Other shapes that a verdict is written in."""
+EXIT_OF_ERROR = {
+    "roslings.arena.lease:NoFreeDomain": INCONCLUSIVE,
+    "roslings.arena.users:NoFreeUser": INCONCLUSIVE,
+    "roslings.batch.crew:NurseryGone": INCONCLUSIVE,
+    "roslings.batch.trouble:BatchError": WRONG_USE,
+    "roslings.course.files:CourseError": WRONG_USE,
+    "roslings.devices.trouble:DeviceTrouble": WRONG_USE,
+    "roslings.experiment.measure:MeasuringFailed": INCONCLUSIVE,
+    "roslings.experiment.walls:NoWall": WRONG_USE,
+    "roslings.jupyter.trouble:NoLessonToOpen": WRONG_USE,
+    "roslings.lessons.document:BadLessons": WRONG_USE,
+    "roslings.report.evidence_file:BadEvidence": WRONG_USE,
+    "roslings.report.evidence_folder:CannotKeepThere": WRONG_USE,
+    "roslings.report.json_file:BadVerdictFile": WRONG_USE,
+    "roslings.report.terminal:NoSuchCheck": WRONG_USE,
+    "roslings.report.whole_file:CannotWrite": INCONCLUSIVE,
+    "roslings.ros2.problem:Problem": WRONG_USE,
+    "roslings.saving:NoBagWriter": WRONG_USE,
+    "roslings.saving:NothingToSave": WRONG_USE,
+    "roslings.workspace.trouble:MachineTrouble": INCONCLUSIVE,
+    "roslings.workspace.trouble:WorkspaceError": WRONG_USE,
+    "builtins:FileExistsError": WRONG_USE,
+    "builtins:NotADirectoryError": WRONG_USE,
+}
+"""What a command may raise, by name: to import all these rooms takes longer than most commands."""
 Command = Callable[[argparse.Namespace], int]
 
 
@@ -69,13 +94,20 @@ def run(command: Command, options: argparse.Namespace) -> int:
 
 def explain(error: Exception) -> int:
     """Say what went wrong; the exit code tells whose fault it is. Raises what nobody expects."""
-    from roslings.commands import exit_code_of
-
     code = exit_code_of(error)
     if code is None:
         raise error
     print(f"roslings: {error}", file=sys.stderr)
     return code
+
+
+def exit_code_of(error: Exception) -> int | None:
+    """The exit code for what went wrong; None for what nobody expected.
+
+    A narrower kind counts before a wider one: MachineTrouble is a WorkspaceError too.
+    """
+    kinds = (f"{kind.__module__}:{kind.__qualname__}" for kind in type(error).__mro__)
+    return next((EXIT_OF_ERROR[kind] for kind in kinds if kind in EXIT_OF_ERROR), None)
 
 
 def command(name: str) -> Command:
@@ -163,10 +195,12 @@ def check_options(word: argparse.ArgumentParser) -> None:
         "--solution", action="store_true", help="check the course's own solution instead"
     )
     verdict_options(word)
+    hidden_option(word)
     word.add_argument(
         "--evidence", metavar="DIR", type=Path,
         help="save all that was seen in the new folder DIR, to judge it again (regrade)",
     )  # fmt: skip
+    trust_option(word)
     word.add_argument(
         "--clock", choices=("auto", "sim", "wall"), default="auto",
         help="simulated time where it can be believed (auto), always (sim), or never (wall)",
@@ -178,6 +212,9 @@ def check_options(word: argparse.ArgumentParser) -> None:
         "--port", metavar="DEVICE", type=Path,
         help="use the real board on this serial port, for example /dev/ttyACM0",
     )  # fmt: skip
+    word.add_argument(
+        "--timings", action="store_true", help="show where the seconds of the check went"
+    )
     word.add_argument(
         "--hint", metavar="STEP", type=int, choices=(1, 2, 3), nargs="?", const=1,
         help="a hint for what your last check found: 1 where, 2 which idea, 3 other code",
@@ -191,11 +228,23 @@ def regrade_options(word: argparse.ArgumentParser) -> None:
         "evidence", metavar="EVIDENCE", type=Path,
         help="the folder that check --evidence made, or the --out of ./roslings grade",
     )  # fmt: skip
+    hidden_option(word)
+    verdict_options(word)
+    word.set_defaults(hint=None)
+
+
+def trust_option(word: argparse.ArgumentParser) -> None:
+    """Whether strangers' code runs where no wall holds it."""
+    word.add_argument(
+        "--trust", action="store_true", help="run submissions although there is no sandbox"
+    )
+
+
+def hidden_option(word: argparse.ArgumentParser) -> None:
+    """Checks beyond the lab's own."""
     word.add_argument(
         "--hidden", metavar="FILE", type=Path, help="a grader with checks that students do not have"
     )
-    verdict_options(word)
-    word.set_defaults(hint=None)
 
 
 def grade_options(word: argparse.ArgumentParser) -> None:
@@ -212,12 +261,8 @@ def grade_options(word: argparse.ArgumentParser) -> None:
     word.add_argument(
         "--jobs", metavar="N", type=whole_number, help="how many at once (default: measured)"
     )
-    word.add_argument(
-        "--hidden", metavar="FILE", type=Path, help="a grader with checks that students do not have"
-    )
-    word.add_argument(
-        "--trust", action="store_true", help="run submissions although there is no sandbox"
-    )
+    hidden_option(word)
+    trust_option(word)
     word.add_argument("--clock", choices=("auto", "sim", "wall"), default="auto")
     word.add_argument(
         "--limit", metavar="SECONDS", type=whole_number, default=900,
@@ -267,7 +312,7 @@ def new_lab_options(word: argparse.ArgumentParser) -> None:
 
 def prove_options(word: argparse.ArgumentParser) -> None:
     """What `prove` takes."""
-    lab_options(word)
+    word.add_argument("labs", metavar="LAB", nargs="+", help="for example: topics")
     word.add_argument(
         "--jobs", metavar="N", type=whole_number, help="how many at once (default: measured)"
     )
@@ -310,7 +355,7 @@ def watch_options(word: argparse.ArgumentParser) -> None:
     package_options(word)
     word.set_defaults(
         solution=False, json=None, html=None, evidence=None, only=None, seed=None, hint=None,
-        clock="auto", port=None,
+        clock="auto", port=None, hidden=None, trust=False, timings=False,
     )  # fmt: skip
 
 

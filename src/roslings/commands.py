@@ -3,90 +3,93 @@
 from __future__ import annotations
 
 import argparse
-import random
 import subprocess
 import sys
 import time
 from collections.abc import Sequence
+from contextlib import closing, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from roslings import course
 from roslings.cli import EXIT_OF_OUTCOME, FAILED, INCONCLUSIVE, OK, WRONG_USE
-from roslings.course import CourseError, Lab, NoSolution
-from roslings.report import (
-    BadEvidence,
-    BadVerdictFile,
-    CannotKeepThere,
-    CannotWrite,
-    NoSuchCheck,
-)
-from roslings.verdict import Verdict
-from roslings.workspace.progress import LabStatus, Step
+from roslings.course import Lab, NoSolution
 from roslings.workspace.student import package_of, workspace_root
-from roslings.workspace.trouble import MachineTrouble, WorkspaceError, shown
+from roslings.workspace.trouble import WorkspaceError, shown
 
 if TYPE_CHECKING:
     from roslings.batch.grades import LateRule
-    from roslings.experiment import Choices
+    from roslings.checking import Ready
     from roslings.saving import Graded
+    from roslings.verdict import Verdict
+    from roslings.workspace.progress import LabStatus
 
-SEEDS = 10**9
 SITE_WORDS = ("open", "fresh", "links", "check_links")
-
-
-def exit_code_of(error: Exception) -> int | None:
-    """The exit code for what went wrong; None for what nobody expected."""
-    from roslings.arena import NoFreeDomain
-    from roslings.batch.crew import NurseryGone
-    from roslings.batch.trouble import BatchError
-    from roslings.devices.trouble import DeviceTrouble
-    from roslings.experiment import MeasuringFailed
-    from roslings.jupyter.trouble import NoLessonToOpen
-    from roslings.lessons import BadLessons
-    from roslings.ros2.problem import Problem
-    from roslings.saving import NoBagWriter, NothingToSave
-
-    if isinstance(
-        error, MeasuringFailed | NurseryGone | NoFreeDomain | MachineTrouble | CannotWrite
-    ):
-        return INCONCLUSIVE
-    if isinstance(error, WorkspaceError | CourseError | NoSuchCheck | BadVerdictFile):
-        return WRONG_USE
-    if isinstance(error, BadEvidence | CannotKeepThere | NothingToSave | NoBagWriter):
-        return WRONG_USE
-    if isinstance(error, DeviceTrouble | Problem | NoLessonToOpen | BadLessons):
-        return WRONG_USE
-    if isinstance(error, BatchError | FileExistsError | NotADirectoryError):
-        return WRONG_USE
-    return None
 
 
 # --- check -------------------------------------------------------------------------------------
 
 
 def check(options: argparse.Namespace) -> int:
-    """Run what the student built, and say what to do next."""
-    from roslings.experiment import Choices
-    from roslings.saving import NothingToSave, place_for_bags
+    """Run what the student built, and say what to do next; a hint needs no new run."""
+    from roslings.platforms import refusal_written, shapes_asked
 
-    lab = course.lab(options.lab)
+    lab = course.lab(options.lab, options.hidden)
     if options.hint and not options.solution and _kept(lab).is_file():
-        if options.evidence or options.html:
-            raise NothingToSave
-        return _show(_read(_kept(lab)), options)
+        return _hint(lab, options)
+    if not shapes_asked(options):
+        return _check(lab, options)
+    with refusal_written(lab.name, options, [options.path or workspace_root()]):
+        return _check(lab, options)
+
+
+def _hint(lab: Lab, options: argparse.Namespace) -> int:
+    """A hint for what the last check found. Raises NothingToSave."""
+    if options.evidence or options.html:
+        from roslings.saving import NothingToSave
+
+        raise NothingToSave
+    return _show(_read(_kept(lab)), options)
+
+
+def _check(lab: Lab, options: argparse.Namespace) -> int:
+    from roslings.checking import any_seed, ready
+    from roslings.experiment import Choices, insist_on_wall
+    from roslings.platforms import for_others
+    from roslings.saving import place_for_bags
+    from roslings.timeline import process_began_ns
+
     package = _solution(lab) if options.solution else package_of(lab, options.path)
     quiet = _is_stdout(options.json)
+    others = for_others(options)
+    strangers = others and not (options.solution or options.trust)
+    if strangers:
+        insist_on_wall(lab)
     _try_port(lab, options.port)
     with place_for_bags(options.evidence, package) as bags:
-        seed = random.SystemRandom().randrange(SEEDS) if options.seed is None else options.seed
-        choices = Choices(seed, options.clock, bags, options.port)
-        graded = grade(lab, package, choices, quiet)
+        seed = any_seed() if options.seed is None else options.seed
+        choices = Choices(
+            seed, options.clock, bags, options.port, options.hidden, strangers=strangers,
+            for_others=others,
+        )  # fmt: skip
+        with ready(lab, choices) as begun:
+            graded = begun.grade(package, process_began_ns(), quiet)
         if not options.solution:
             _keep(lab, graded.verdict)
         code = _show(graded.verdict, options)
+        if options.timings:
+            _show_timings(graded, options)
         _save(graded, options, bags)
     return code
+
+
+def _show_timings(graded: Graded, options: argparse.Namespace) -> None:
+    from rich.console import Console
+
+    from roslings.report.timings import print_timings
+
+    console = Console(stderr=_is_stdout(options.json))
+    print_timings(graded.evidence.timeline, graded.verdict.seconds, console)
 
 
 def _solution(lab: Lab) -> Path:
@@ -106,23 +109,6 @@ def _try_port(lab: Lab, port: Path | None) -> None:
         raise LabHasNoBoard(lab.name)
     try_port(port)
     print("The wheels will turn: put the rover on a stand, wheels in the air.", file=sys.stderr)
-
-
-def grade(lab: Lab, package: Path, choices: Choices, quiet: bool = False) -> Graded:
-    """Measure a package and judge what was seen."""
-    from roslings.experiment import measure
-    from roslings.judge import judge
-    from roslings.report import Progress
-    from roslings.saving import Graded
-    from roslings.workspace.inspect import inspect_package
-
-    began_s = time.monotonic()
-    with Progress(quiet=quiet) as progress:
-        progress.step(f"Reading {shown(package)}")
-        files = inspect_package(package, lab.card)
-        evidence = measure(lab.name, package, files, choices, progress.step)
-        progress.step("Judging what was seen")
-        return Graded(lab, judge(lab, evidence, time.monotonic() - began_s), evidence)
 
 
 def _save(graded: Graded, options: argparse.Namespace, bags: Path | None) -> None:
@@ -149,10 +135,9 @@ def regrade(options: argparse.Namespace) -> int:
     if lab_of(options.evidence):
         print("\n".join(regrade_all(options.evidence, options.lab, options.hidden)))
         return OK
-    began_s = time.monotonic()
     lab = course.lab(options.lab, options.hidden)
     evidence = read_evidence(options.evidence, lab.name)
-    verdict = judge(lab, evidence, time.monotonic() - began_s)
+    verdict = judge(lab, evidence)
     if options.html:
         Graded(lab, verdict, evidence).write_page(options.html)
     return _show(verdict, options)
@@ -213,24 +198,15 @@ def override(options: argparse.Namespace) -> int:
 def _show(verdict: Verdict, options: argparse.Namespace) -> int:
     from rich.console import Console
 
+    from roslings.platforms import write_shapes
     from roslings.report import print_verdict, write_json
 
     if options.json:
         write_json(verdict, options.json)
-    _write_shapes(verdict, options)
+    write_shapes(verdict, options)
     if not _is_stdout(options.json):
         print_verdict(verdict, console=Console(), hint_step=options.hint, only=options.only)
     return EXIT_OF_OUTCOME[verdict.outcome]
-
-
-def _write_shapes(verdict: Verdict, options: argparse.Namespace) -> None:
-    """Write the verdict for other tools, where that was asked for. Raises CannotWrite."""
-    from roslings.report import write_check50, write_gradescope, write_junit
-
-    writers = {"junit": write_junit, "gradescope": write_gradescope, "check50": write_check50}
-    for name, write in writers.items():
-        if path := getattr(options, name, None):
-            write(verdict, path)
 
 
 def _is_stdout(path: Path | None) -> bool:
@@ -250,7 +226,7 @@ def _read(path: Path) -> Verdict:
 
 def _keep(lab: Lab, verdict: Verdict) -> None:
     """Keep score and verdict; a workspace that cannot be written does not hide the verdict."""
-    from roslings.report import write_json
+    from roslings.report import CannotWrite, write_json
     from roslings.workspace.progress import record
 
     if not workspace_root().is_dir():
@@ -264,24 +240,38 @@ def _keep(lab: Lab, verdict: Verdict) -> None:
 
 def watch(options: argparse.Namespace) -> int:
     """Check now, and again at every save, until Ctrl-C."""
-    from roslings.workspace.watch import changes
-
     lab = course.lab(options.lab)
     folder = package_of(lab, options.path)
-    for saved in changes(folder, begin=True):  # begun first: a save during a check is not missed
-        if saved:
-            print(f"\nSaved: {_names(saved, folder)}", flush=True)
-        _check_again(options)
-        print("\nWatching. Save a file to check again; Ctrl-C ends it.", flush=True)
+    with suppress(KeyboardInterrupt):
+        _watch(lab, folder, options)
     return OK
 
 
-def _check_again(options: argparse.Namespace) -> None:
+def _watch(lab: Lab, folder: Path, options: argparse.Namespace) -> None:
+    from roslings.checking import ready_again_and_again
+    from roslings.workspace.watch import changes
+
+    saves = changes(folder, begin=True)  # begun first: a save during a check is not missed
+    with closing(ready_again_and_again(lab)) as each_ready:
+        for number, ready in enumerate(each_ready):  # ready first: only the save is waited for
+            if number:
+                print("\nWatching. Save a file to check again; Ctrl-C ends it.", flush=True)
+            saved = next(saves, None)
+            if saved is None:
+                return
+            if saved:
+                print(f"\nSaved: {_names(saved, folder)}", flush=True)
+            _check_saved(lab, options, ready)
+
+
+def _check_saved(lab: Lab, options: argparse.Namespace, ready: Ready) -> None:
     """One check; what is wrong with the package now may be right at the next save."""
     from roslings.cli import explain
 
     try:
-        check(options)
+        graded = ready.grade(package_of(lab, options.path), time.monotonic_ns())
+        _keep(lab, graded.verdict)
+        _show(graded.verdict, options)
     except Exception as error:
         explain(error)
 
@@ -307,19 +297,20 @@ def new_lab(options: argparse.Namespace) -> int:
 
 
 def prove(options: argparse.Namespace) -> int:
-    """Grade a lab's solution, starter and mutants, and say what is not as it must be."""
+    """Grade labs' solutions, starters and mutants, and say what is not as it must be."""
     from roslings.authoring.prove import prove as proofs_of
     from roslings.batch.command import Teller
     from roslings.report import Progress
 
-    lab = course.lab(options.lab)
+    labs = [course.lab(name) for name in dict.fromkeys(options.labs)]
     with Progress() as progress:
-        proofs = list(proofs_of(lab, Teller(progress), options.jobs))
+        proofs = list(proofs_of(labs, Teller(progress), options.jobs))
     for proof in proofs:
         print(proof.line)
     wrong = [proof for proof in proofs if not proof.holds]
     if not wrong:
-        print(f"The lab {lab.name!r} is proven.")
+        for lab in labs:
+            print(f"The lab {lab.name!r} is proven.")
         return OK
     return INCONCLUSIVE if all(proof.is_open for proof in wrong) else FAILED
 
@@ -385,7 +376,7 @@ def status(options: argparse.Namespace) -> int:
     labs = progress.status()
     for day, done in progress.days_done(labs).items():
         print(f"{'done' if done else 'open':5} {day}")
-        for each in (each for each in labs if each.lab.card.day == day):
+        for each in (each for each in labs if each.lab.outline.day == day):
             print(f"      {each.lab.name:12} {_how_far(each)}")
     return OK
 
@@ -406,8 +397,8 @@ def today(options: argparse.Namespace) -> int:
         print("All labs are done. See them all: ./roslings status")
         return OK
     lab = next_step.at.lab
-    print(f"Day {lab.card.day}: {lab.card.title}  ({_how_far(next_step.at)})")
-    verb = "start" if next_step.step is Step.START else "check"
+    print(f"Day {lab.outline.day}: {lab.outline.title}  ({_how_far(next_step.at)})")
+    verb = "start" if next_step.step is progress.Step.START else "check"
     print(f"Next: ./roslings {verb} {lab.name}")
     print(f"The task: {_from_here(lab.task)}")
     print("All commands: ./roslings --help")

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, TypeAdapter
+from pydantic.dataclasses import dataclass
 
 SCHEMA_VERSION = 1
 
@@ -22,7 +23,12 @@ class Record(BaseModel):
     model_config = ConfigDict(extra="forbid", ser_json_inf_nan="strings")
 
 
-class Qos(Record):
+SMALL = ConfigDict(extra="forbid", ser_json_inf_nan="strings")
+"""Of the records that there are thousands of: with slots, they take a third of a model's memory."""
+
+
+@dataclass(slots=True, kw_only=True, config=SMALL)
+class Qos:
     """The quality of service of one endpoint, in rclpy's words, lower case."""
 
     reliability: str = "reliable"
@@ -32,7 +38,8 @@ class Qos(Record):
     liveliness: str = "automatic"
 
 
-class Endpoint(Record):
+@dataclass(slots=True, kw_only=True, config=SMALL)
+class Endpoint:
     """One publisher or subscription in the graph."""
 
     kind: Literal["publisher", "subscription"]
@@ -51,7 +58,8 @@ class GraphSeen(Record):
     services: dict[str, list[str]] = Field(default_factory=dict, description="Name to types")
 
 
-class MessageSeen(Record):
+@dataclass(slots=True, kw_only=True, config=SMALL)
+class MessageSeen:
     """One message, with the three things that tell when it was sent and whether one was lost."""
 
     source_ns: int | None = Field(description="Publisher's wall clock, filled by the middleware")
@@ -71,12 +79,19 @@ class TopicSeen(Record):
     type: str
     messages: list[MessageSeen] = Field(default_factory=list)
     not_kept: int = Field(default=0, description="Messages counted but not kept (the bound)")
+    not_read: int = Field(
+        default=0, description="Messages kept without their content: it was too large"
+    )
+    cut_short: bool = Field(
+        default=False, description="So large that its queue was made shorter: some were lost there"
+    )
     watched_to_bound: bool = Field(
         default=False, description="Watching longer was not worth it: the longest watch was made"
     )
 
 
-class LogLine(Record):
+@dataclass(slots=True, kw_only=True, config=SMALL)
+class LogLine:
     """One line that a node wrote, to its terminal or to /rosout."""
 
     arrival_ns: int
@@ -135,6 +150,9 @@ class ProcessSeen(Record):
     lines: list[LogLine] = Field(default_factory=list)
     output_bytes: int = 0
     output_dropped_bytes: int = 0
+    ending_cut: bool = Field(
+        default=False, description="Some of them it wrote after it was asked to end"
+    )
     left_behind: int = Field(default=0, description="Processes of its own that outlived it")
     cpu_s: float = 0.0
     cpu_wait_s: float | None = Field(
@@ -355,6 +373,9 @@ class PixelsSeen(Record):
     marked: float | None = Field(
         default=None, description="Part of the pixels around the ball that were drawn over"
     )
+    swapped_marked: float | None = Field(
+        default=None, description="The same, where red and blue are exchanged back"
+    )
     spoiled: float | None = Field(
         default=None, description="Part of all other pixels that were changed"
     )
@@ -414,6 +435,19 @@ class WaySeen(Record):
     points_m: list[tuple[float, float]] = Field(description="x and y, metres")
 
 
+Kind = Literal["messages", "topics", "rosout", "graph", "requests"]
+"""What evidence can be dropped: messages, topics never listened to, log lines, endpoints and
+services of the graph, and what was asked of the grader's own servers."""
+
+
+class Dropped(Record):
+    """What found no room in the evidence of an experiment, of one kind."""
+
+    kind: Kind
+    count: int = 0
+    bytes: int = Field(default=0, description="As they came; 0 where nobody knows")
+
+
 class ExperimentSeen(Record):
     """One experiment: the processes it ran, and all that was seen while they ran."""
 
@@ -425,6 +459,11 @@ class ExperimentSeen(Record):
         default_factory=dict, description="Logger's name to its lines"
     )
     processes: dict[str, ProcessSeen] = Field(default_factory=dict, description="By executable")
+    sent_ns: dict[str, list[int]] = Field(
+        default_factory=dict,
+        description="Topic to the times of its messages on the network, where nothing of ours was"
+        " in the domain; without the topic where the kernel shows no packets",
+    )
     spoken: list[Spoken] = Field(default_factory=list)
     ticks: list[Tick] = Field(default_factory=list)
     segments: list[Segment] = Field(default_factory=list)
@@ -448,11 +487,15 @@ class ExperimentSeen(Record):
     stuck: list[str] = Field(
         default_factory=list, description="Nodes that ran, and whose callbacks ran no more"
     )
-    discovery_s: float = 0.0
+    dropped: list[Dropped] = Field(
+        default_factory=list, description="What found no room; of a process: see there"
+    )
     watching_s: float = 0.0
-    ending_s: float = 0.0
     stall_s: float = Field(
         default=0.0, description="Longest time for which the observer itself was not run"
+    )
+    held_up: dict[str, HeldUp] = Field(
+        default_factory=dict, description="Timed stretch to what this computer took from it"
     )
     machine_fault: str | None = Field(
         default=None, description="Why its times say nothing about the student"
@@ -473,6 +516,20 @@ class ExperimentSeen(Record):
     def cpu_wait_s(self) -> float:
         """The longest time for which one of its processes waited for a processor."""
         return max((p.cpu_wait_s or 0.0 for p in self.processes.values()), default=0.0)
+
+
+class HeldUp(Record):
+    """What this computer took from a timed stretch of an experiment."""
+
+    cpu_wait_s: float = Field(
+        description="The longest time that a thread of the nodes was ready and no processor free"
+    )
+    stall_s: float = Field(description="Longest time for which the observer itself was not run")
+
+    @property
+    def longest_s(self) -> float:
+        """By so much, at most, it made something late."""
+        return self.cpu_wait_s + self.stall_s
 
 
 class BuildSeen(Record):
@@ -514,6 +571,10 @@ class PackageSeen(Record):
     pictures: dict[str, PictureSeen] = Field(default_factory=dict, description="By path")
 
 
+HeldBy = Literal["namespaces", "user", "none"]
+"""The wall between a package's code and the machine that ran it."""
+
+
 class MachineSeen(Record):
     """The machine and the versions that did the measuring."""
 
@@ -522,7 +583,23 @@ class MachineSeen(Record):
     rmw: str
     python: str
     platform: str
-    isolation: Literal["namespace", "domain"]
+    isolation: Literal["namespace", "domain", "user"]
+    wall: HeldBy | None = Field(
+        default=None, description="What held the package's code; None where nobody wrote it down"
+    )
+
+
+Part = Literal["reading", "building", "starting", "watching", "ending", "judging"]
+"""What a grading does with its time."""
+
+
+class Span(Record):
+    """A stretch of time that a grading took for one part of its work; no check looks at it."""
+
+    part: Part
+    of: str = Field(default="", description="Which package, or which experiment")
+    began_ns: int = Field(description="Monotonic clock")
+    ended_ns: int
 
 
 class Evidence(Record):
@@ -539,7 +616,13 @@ class Evidence(Record):
         default_factory=list, description="Experiments that were made again: the earlier runs"
     )
     advice: list[str] = Field(default_factory=list)
+    timeline: list[Span] = Field(default_factory=list, description="Where the seconds went")
 
     model_config = ConfigDict(
         extra="forbid", validate_by_name=True, validate_by_alias=True, ser_json_inf_nan="strings"
     )
+
+
+def evidence_json(evidence: Evidence, indent: int | None = None) -> bytes:
+    """JSON in UTF-8, in one piece: large evidence has no room for a text of it beside its bytes."""
+    return TypeAdapter(Evidence).dump_json(evidence, by_alias=True, indent=indent)

@@ -36,18 +36,22 @@ class CheckResult(Frozen):
     fault: str | None = Field(default=None, description="The kind of fault, e.g. `WrongTopic`")
     lesson: str | None = Field(default=None, description="Anchor of the lesson's paragraph")
     log: tuple[str, ...] = Field(default=(), description="The node's last lines, where they help")
+    hidden: bool = Field(default=False, description="Students do not have this check")
     hints: tuple[str, ...] = Field(
         default=(), description="Three steps: where to look, which idea, the idea in other code"
     )
 
 
 class Timings(Frozen):
-    """Seconds of wall time, by part; `total` is from command to verdict."""
+    """Seconds of wall time, from command to verdict: the parts add up to `total`."""
 
+    reading: float = Field(default=0.0, ge=0, description="Until colcon begins, start included")
     build: float = Field(default=0.0, ge=0)
-    discovery: float = Field(default=0.0, ge=0)
+    discovery: float = Field(default=0.0, ge=0, description="Nodes start and are found")
     watching: float = Field(default=0.0, ge=0)
-    ending: float = Field(default=0.0, ge=0)
+    ending: float = Field(default=0.0, ge=0, description="From the first wait before Ctrl-C on")
+    judging: float = Field(default=0.0, ge=0)
+    rest: float = Field(default=0.0, ge=0, description="Of none of these parts")
     total: float = Field(default=0.0, ge=0)
 
 
@@ -59,7 +63,10 @@ class Environment(Frozen):
     rmw: str
     python: str
     platform: str
-    isolation: str = Field(description="`namespace` or `domain`")
+    isolation: str = Field(description="`namespace`, `domain` or `user`")
+    wall: str | None = Field(
+        default=None, description="What held the package's code: `namespaces`, `user` or `none`"
+    )
     clock: str
     seed: int = Field(description="Seed of every random choice, e.g. the spoken sentence")
 

@@ -210,6 +210,27 @@ def test_a_flood_of_empty_lines_is_bounded_too(tmp_path: Path, namespaces: bool)
     assert seen.output_bytes == 3_000_018
 
 
+@pytest.mark.parametrize(("before", "after", "cut"), [(9_000_000, 99, False), (0, 9_000_000, True)])
+def test_an_end_that_is_not_kept_whole_is_told(
+    tmp_path: Path, namespaces: bool, before: int, after: int, cut: bool
+) -> None:
+    """A flood before Ctrl-C leaves room for all that comes after it; a flood after it does not."""
+    source = f"""
+        import signal
+        signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+        print('x' * {before}, flush=True)
+        open('ready', 'w').close()
+        signal.sigwait([signal.SIGINT])
+        print('y' * {after})
+    """
+    with Process("it", launch(tmp_path, namespaces, *python(source))) as process:
+        end_s = time.monotonic() + LONG_S
+        while not (tmp_path / "ready").exists() and time.monotonic() < end_s:
+            process.wait_ended(0.01)
+    assert process.seen.output_dropped_bytes > 0
+    assert process.seen.ending_cut is cut
+
+
 def test_one_endless_line_is_cut(tmp_path: Path, namespaces: bool) -> None:
     """A line of 200,000 letters does not become one line of the verdict."""
     seen = run(tmp_path, namespaces, "sh", "-c", "head -c 200000 /dev/zero | tr '\\0' 'x'")

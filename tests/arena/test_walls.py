@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from roslings.arena import choose_isolation
+from roslings.arena import choose_isolation, isolation, isolation_for_strangers
 from roslings.arena.environment import base_environment
 from roslings.arena.isolation import BARE, ENTER
 from roslings.arena.lease import leased_domain
@@ -57,6 +57,33 @@ def test_the_wall_can_be_chosen(monkeypatch: pytest.MonkeyPatch) -> None:
     """ROSLINGS_ISOLATION=domain does without namespaces."""
     monkeypatch.setenv("ROSLINGS_ISOLATION", "domain")
     assert choose_isolation().wall == "domain"
+
+
+def test_the_second_wall_can_be_chosen_for_strangers(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What one runs of one's own is not run as somebody else."""
+    monkeypatch.setenv("ROSLINGS_ISOLATION", "user")
+    assert isolation_for_strangers().wall == "user"
+    assert choose_isolation().wall != "user"
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root can be another user")
+def test_without_a_sandbox_root_takes_a_user_or_says_why_not(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Strangers' code never runs as root: another user holds it, or both reasons are told."""
+    monkeypatch.delenv("ROSLINGS_ISOLATION", raising=False)
+    monkeypatch.setenv("PATH", str(tmp_path))  # no bubblewrap
+    isolation._best.cache_clear()
+    try:
+        found = isolation_for_strangers()
+    finally:
+        isolation._best.cache_clear()
+    if found.wall == "user":
+        assert found.lack is None
+    else:
+        assert found.lack
+        assert "; and no user of its own can hold it: " in found.lack.reason
+        assert "\nOr: " in found.lack.next_step
 
 
 def test_only_loopback_exists_inside(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from roslings.authoring.new_lab import CannotMake, new_lab
-from roslings.authoring.prove import files_fit, gradings_fit
+from roslings.authoring.prove import files_fit, gradings_fit, packages_of
 from roslings.course import Lab, lab
 from roslings.workspace.inspect import inspect_package
 
@@ -91,7 +91,7 @@ def test_a_new_lab_is_proven_and_a_spoilt_one_is_not(made: Lab, tmp_path: Path) 
     (made.folder / "mutants" / "rate_2_hz.yaml").unlink()
     done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path)
     assert done.returncode == 1
-    assert "WRONG  the solution gets 100 of 100" in done.stdout
+    assert "WRONG  line-follower: the solution gets 100 of 100" in done.stdout
 
 
 def test_a_refused_package_is_not_proven(made: Lab) -> None:
@@ -100,6 +100,6 @@ def test_a_refused_package_is_not_proven(made: Lab) -> None:
     (made.starter / "package.xml").unlink()
     for mutant in (made.folder / "mutants").iterdir():
         mutant.unlink()
-    proofs = list(gradings_fit(made, lambda standing: None, jobs=2))
+    proofs = list(gradings_fit(packages_of(made), lambda standing: None, jobs=2))
     assert [proof.holds for proof in proofs] == [False, False]
     assert "package.xml" in proofs[0].problem

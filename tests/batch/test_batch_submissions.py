@@ -128,6 +128,23 @@ def test_a_folder_around_one_archive_is_that_archive(tmp_path: Path) -> None:
     assert package == tmp_path / "unpacked" / "chatter"
 
 
+@pytest.mark.parametrize("name", ["inner.zip", "anna/inner.zip", "anna/inner.7z"])
+def test_an_archive_in_an_archive_is_named(tmp_path: Path, name: str) -> None:
+    """It is not "no package": the student sees which file to unpack."""
+    outer = make_zip(tmp_path / "it.zip", [(name, b"PK"), ("readme.txt", b"")])
+    with pytest.raises(Refused, match=r"but a packed file: inner\.") as refusal:
+        package_in(outer, "chatter", tmp_path)
+    assert "Unpack it" in refusal.value.next_step
+    assert str(tmp_path) not in str(refusal.value)
+
+
+def test_an_empty_archive_is_named(tmp_path: Path) -> None:
+    """So is one that holds nothing but folders."""
+    outer = make_zip(tmp_path / "it.zip", [("anna/src/", b"")])
+    with pytest.raises(Refused, match="submission is empty"):
+        package_in(outer, "chatter", tmp_path)
+
+
 def test_a_package_in_a_workspace_is_found(tmp_path: Path) -> None:
     """Also beside another package."""
     folder_of(tmp_path / "ws/src")
@@ -139,7 +156,14 @@ def test_a_package_in_a_workspace_is_found(tmp_path: Path) -> None:
     ("entries", "says"),
     [
         ([("readme.txt", b"")], "no ROS package"),
-        ([("a.zip", b""), ("b.zip", b"")], "2 archives and no package"),
+        ([("a.zip", b""), ("b.zip", b"")], "no ROS package in submission, but 2 packed files"),
+        ([*PACKAGE, ("chatter/COLCON_IGNORE", b"")], "has the file COLCON_IGNORE"),
+        ([*PACKAGE, ("COLCON_IGNORE", b"")], "submission has the file COLCON_IGNORE"),
+        (
+            [*PACKAGE, ("chatter/colcon.pkg", b"{type: cmake, name: x}")],
+            "type 'cmake' and name 'x'",
+        ),
+        ([*PACKAGE, ("chatter/colcon.pkg", b": [")], "colcon.pkg, and colcon cannot read it"),
         ([(f"{n}/{name}", text) for n in "ab" for name, text in PACKAGE], "several packages"),
         ([("x/package.xml", b"<name>other</name>")], "no package named 'chatter'"),
         ([("chatter/package.xml", b"<name>chatter</name>")], "no setup.py"),

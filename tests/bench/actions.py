@@ -16,11 +16,11 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
+from roslings.checking import ready
 from roslings.course import Lab, lab, root
 from roslings.evidence import ExperimentSeen
 from roslings.experiment import Choices, measure
 from roslings.experiment.acting import cancelled_after_s, stopped_after_s
-from roslings.judge import judge
 from roslings.rates import measure_rate
 from roslings.workspace.inspect import inspect_package
 
@@ -62,10 +62,9 @@ def show_rates(seen: ExperimentSeen) -> None:
 
 def show_verdict(each: Lab) -> None:
     """A whole grading."""
-    began_s = time.monotonic()
-    files = inspect_package(each.solution, each.card)
-    evidence = measure(each.name, each.solution, files, Choices(seed=1), lambda step: None)
-    verdict = judge(each, evidence, time.monotonic() - began_s)
+    began_ns = time.monotonic_ns()
+    with ready(each, Choices(seed=1)) as begun:
+        verdict = begun.grade(each.solution, began_ns, quiet=True).verdict
     print(f"{'time to verdict':34} {verdict.seconds.total:.1f} s, {verdict.score:g} points")
 
 

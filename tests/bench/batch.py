@@ -6,6 +6,9 @@ For each count: submissions a minute beside the most that the processors allow (
 nodes alone, measured in the same run), the grader's own CPU, and the memory of one submission.
 Each submission differs in a comment, so that every one is built. `0` in place of a count grades
 ten that are all the same: what sharing builds saves.
+
+The floor's builds and the gradings have the same compiled environment: a build that finds a module
+to compile keeps the bytecode, which one in a sandbox cannot, so such a floor is refused.
 """
 
 from __future__ import annotations
@@ -122,9 +125,12 @@ class Yardstick:
 
     def measure_alone(self) -> None:
         """Several, one on each processor."""
+        compiled = bytecode()
         for _ in range(BUILDS):
             with ThreadPoolExecutor(cores()) as pool:
                 self.each_s += pool.map(self._build, range(cores()))
+        if new := bytecode() - compiled:
+            raise SystemExit(f"The floor's builds have compiled {len(new)} modules. Run it again.")
 
     @contextmanager
     def measuring(self) -> Iterator[list[float]]:
@@ -150,6 +156,11 @@ class Yardstick:
         build.returncode = os.waitstatus_to_exitcode(status)
         assert build.returncode == 0
         return used.ru_utime + used.ru_stime
+
+
+def bytecode() -> set[Path]:
+    """All that is compiled of this environment."""
+    return set(Path(sys.prefix).rglob("*.pyc"))
 
 
 def memory_below() -> float:

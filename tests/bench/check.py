@@ -1,24 +1,35 @@
 """How long a verdict takes and what it costs; prints, and asserts nothing.
 
-    .venv/bin/python tests/bench/check.py
+    .venv/bin/python tests/bench/check.py [RUNS]      from Enter to verdict, RUNS times (20)
+    .venv/bin/python tests/bench/check.py labs        what each lab takes, and of whom
 
-CPU and memory of the grader stand beside those of the student's nodes, from the same run.
+A bare `colcon build` of the same package runs before each check: what is left when it is taken
+away is ours and the nodes'. CPU and memory of the grader stand beside those of the student's nodes,
+from the same run.
 """
 
 from __future__ import annotations
 
 import platform
 import resource
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
 import time
 from dataclasses import dataclass
 from pathlib import Path
 
-from roslings.course import all_labs
+from roslings.arena import base_environment
+from roslings.checking import ready
+from roslings.course import Lab, all_labs, lab, root
 from roslings.evidence import Evidence
-from roslings.experiment import Choices, measure
-from roslings.judge import judge
+from roslings.experiment import Choices
 from roslings.verdict import Verdict
-from roslings.workspace.inspect import inspect_package
+from roslings.workspace.build import colcon
+
+EXAMPLE = "topics"
 
 
 @dataclass(frozen=True)
@@ -56,14 +67,12 @@ def peak_mb() -> float:
     return max(resource.getrusage(who).ru_maxrss for who in whose) / 1e3
 
 
-def grade(lab_name: str, package: Path) -> Run:
+def grade(each: Lab, package: Path) -> Run:
     """Grade a package once."""
-    lab = next(lab for lab in all_labs() if lab.name == lab_name)
-    began_s, began_cpu_s = time.monotonic(), cpu_s()
-    files = inspect_package(package, lab.card)
-    evidence = measure(lab.name, package, files, Choices(seed=1), lambda step: None)
-    verdict = judge(lab, evidence, time.monotonic() - began_s)
-    return Run(verdict, evidence, cpu_s() - began_cpu_s)
+    began_ns, began_cpu_s = time.monotonic_ns(), cpu_s()
+    with ready(each, Choices(seed=1)) as begun:
+        graded = begun.grade(package, began_ns, quiet=True)
+    return Run(graded.verdict, graded.evidence, cpu_s() - began_cpu_s)
 
 
 def show(name: str, run: Run) -> None:
@@ -78,16 +87,55 @@ def show(name: str, run: Run) -> None:
     )
 
 
-def main() -> None:
+def labs() -> None:
     """Print the table for every lab."""
-    print(f"{platform.platform()}, Python {platform.python_version()}")
     print(
         f"{'':20} {'total':>6} {'build':>6} {'discovery':>9} {'watching':>8} {'ending':>6}"
         f" {'CPU ours':>8} {'nodes':>7} {'ratio':>6} {'MB':>6} {'nodes':>6}"
     )
-    for lab in all_labs():
-        show(f"{lab.name} solution", grade(lab.name, lab.solution))
-        show(f"{lab.name} starter", grade(lab.name, lab.starter))
+    for each in all_labs():
+        show(f"{each.name} solution", grade(each, each.solution))
+        show(f"{each.name} starter", grade(each, each.starter))
+
+
+def timed_s(command: list[str], folder: Path, environment: dict[str, str] | None = None) -> float:
+    """From Enter to the prompt. Raises CalledProcessError."""
+    began_s = time.monotonic()
+    subprocess.run(command, cwd=folder, env=environment, check=True, capture_output=True)
+    return time.monotonic() - began_s
+
+
+def bare_build_s(each: Lab) -> float:
+    """`colcon build` of the solution in an empty workspace, with the nodes' own environment."""
+    with tempfile.TemporaryDirectory() as folder:
+        workspace = Path(folder)
+        shutil.copytree(each.solution, workspace / "src" / each.card.package)
+        return timed_s([colcon(), "build"], workspace, base_environment(workspace))
+
+
+def from_enter(runs: int) -> None:
+    """Print the check beside the bare build, and what lies between the two."""
+    each, command = lab(EXAMPLE), [str(root() / "roslings"), "check", EXAMPLE, "--solution"]
+    timed_s(command, root())  # whatever is made at the first use is made now
+    rows = [(bare_build_s(each), timed_s(command, root())) for _ in range(runs)]
+    builds, checks = zip(*rows, strict=True)
+    over = [check - build for build, check in rows]
+    for name, figures in (("colcon build", builds), ("check", checks), ("check - build", over)):
+        print(
+            f"{name:14} median {statistics.median(figures):5.2f} s"
+            f"   least {min(figures):5.2f}   most {max(figures):5.2f}   of {runs}"
+        )
+    ratio = statistics.median(check / build for build, check in rows)
+    print(f"check / build  median {ratio:5.2f}")
+
+
+def main() -> None:
+    """Print what is asked for."""
+    print(f"{platform.platform()}, Python {platform.python_version()}")
+    if sys.argv[1:] == ["labs"]:
+        labs()
+    else:
+        from_enter(int(sys.argv[1]) if len(sys.argv) > 1 else 20)
 
 
 if __name__ == "__main__":

@@ -1,14 +1,17 @@
 """Figures of `ros2`: how long words take, how complete a look is, what `hz` costs.
 
-    python tests/bench/ros2.py [TRIES]
+    python tests/bench/ros2.py [TRIES [PART...]]
 
-It prints, and asserts nothing. The nodes are started by our own `ros2 run`, and once more in plain
-Python, without our discovery file.
+PART is `alone`, `plain`, `bare`, `ten`, `bare-ten` or `hz`; by default all. It prints, and asserts
+nothing. `plain` is beside one node, and `ten` beside ten, each started by plain `python3` in a
+terminal that has sourced setup.bash; with `bare`, in one that has not, where nodes announce
+themselves every 3 s.
 """
 
 from __future__ import annotations
 
 import os
+import platform
 import statistics
 import subprocess
 import sys
@@ -18,41 +21,55 @@ from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
+from roslings.arena import QUICK_DISCOVERY
 from roslings.arena.lease import leased_domain
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "ros2"))
 
-from terminal import Shell, ours, surroundings
+from terminal import Ran, Shell, surroundings
 
 NODES = 10
 TOPICS = 3
+TRIES = 50
+PARTS = ("alone", "plain", "bare", "ten", "bare-ten", "hz")
 HZ_WATCH_S = 10.0
+SOURCED = {"FASTRTPS_DEFAULT_PROFILES_FILE": str(QUICK_DISCOVERY)}
+"""What `source setup.bash` sets for a node that one starts by hand."""
+
 PLAIN = (
     "import sys; sys.argv[1:] = ['--ros-args', '-r', '__node:=' + sys.argv[1]];"
     "from roslings.ros2.demo_nodes_py.talker import main; main()"
 )
 
 
-def main(tries: int) -> None:
-    """Print all figures."""
-    print(f"load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
+def main(tries: int, parts: list[str]) -> None:
+    """Print the figures of `parts`."""
+    memory_gb = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
+    print(f"{os.cpu_count()} cores, {memory_gb:.0f} GB, Python {platform.python_version()},"
+          f" load {os.getloadavg()[0]:.1f}")  # fmt: skip
     with tempfile.TemporaryDirectory() as home, leased_domain() as domain:
         shell = Shell(surroundings(domain, Path(home)), Path(home))
-        timed("--help", lambda: shell("--help"))
-        timed("topic --help", lambda: shell("topic", "--help"))
-        timed("node list, nothing runs", lambda: shell("node", "list"))
-        with talkers(shell, 1):
-            timed("node list, 1 node", lambda: shell("node", "list"))
-            timed(
-                "first topic echo message (1 Hz)",
-                lambda: shell("topic", "echo", "--once", "/chatter"),
-            )
-        measure_hz(shell)
-        for title, plain in (("started by ros2 run", False), ("started by plain python", True)):
-            with talkers(shell, NODES, plain):
-                print(f"{NODES} nodes {title}")
-                completeness(shell, "node", NODES, tries)
-                completeness(shell, "topic", TOPICS, tries)
+        if "alone" in parts:
+            timed("--help", lambda: shell("--help"))
+            timed("topic --help", lambda: shell("topic", "--help"))
+            timed("node list, nothing runs", lambda: shell("node", "list"))
+        for part, count, settings in (
+            ("plain", 1, SOURCED), ("bare", 1, {}), ("ten", NODES, SOURCED), ("bare-ten", NODES, {})
+        ):  # fmt: skip
+            if part in parts:
+                beside(shell, count, tries, settings)
+        if "hz" in parts:
+            measure_hz(shell)
+
+
+def beside(shell: Shell, count: int, tries: int, settings: dict[str, str]) -> None:
+    """Lists and the first message beside `count` nodes."""
+    with talkers(shell, count, settings):
+        print(f"{count} by plain python3, setup.bash {'' if settings else 'not '}sourced")
+        repeated("node list", tries, lambda: shell("node", "list"), count)
+        repeated("topic list", tries, lambda: shell("topic", "list"), TOPICS)
+        once = ("topic", "echo", "--once", "/chatter")
+        repeated("echo --once", tries, lambda: shell(*once), 2)
 
 
 def timed(title: str, act: Callable[[], object], times: int = 7) -> None:
@@ -66,31 +83,32 @@ def timed(title: str, act: Callable[[], object], times: int = 7) -> None:
 
 
 @contextmanager
-def talkers(shell: Shell, count: int, plain: bool = False) -> Iterator[None]:
+def talkers(shell: Shell, count: int, settings: dict[str, str]) -> Iterator[None]:
     """Talkers of different names, until the block ends."""
+    local = {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST", **settings}
     with ExitStack() as stack:
-        for number in range(count):
-            name = f"talker_{number}"
-            command = (
-                [sys.executable, "-c", PLAIN, name]
-                if plain
-                else ours("run", "demo_nodes_py", "talker", "--ros-args", "-r", f"__node:={name}")
+        running = [
+            stack.enter_context(
+                shell.program([sys.executable, "-c", PLAIN, f"talker_{n}"], **local)
             )
-            local = {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
-            stack.enter_context(shell.program(command, **local)).wait_for("Publishing")
+            for n in range(count)
+        ]
+        for one in running:
+            one.wait_for("Publishing")
         yield
 
 
-def completeness(shell: Shell, what: str, expected: int, tries: int) -> None:
-    """How often a list had everything in it."""
+def repeated(title: str, tries: int, act: Callable[[], Ran], lines: int) -> None:
+    """How long `act` takes, and how often it prints all its `lines`."""
     whole, taken = 0, []
     for _ in range(tries):
         began_s = time.perf_counter()
-        whole += len(shell(what, "list").lines) == expected
+        whole += len(act().lines) == lines
         taken.append(time.perf_counter() - began_s)
     print(
-        f"  {what} list: complete in {whole} of {tries} tries,"
-        f" median {statistics.median(taken):.2f} s, longest {max(taken):.2f} s"
+        f"  {title:12} complete in {whole} of {tries} tries,"
+        f" p50 {statistics.median(taken):.2f} s, max {max(taken):.2f} s",
+        flush=True,
     )
 
 
@@ -118,6 +136,7 @@ def cpu_s(pid: int) -> float:
 
 if __name__ == "__main__":
     try:
-        main(int(sys.argv[1]) if len(sys.argv) > 1 else 50)
+        count = int(sys.argv[1]) if len(sys.argv) > 1 else TRIES
+        main(count, sys.argv[2:] or list(PARTS))
     except subprocess.TimeoutExpired as fault:
         sys.exit(f"a command hangs: {fault.cmd}")

@@ -9,6 +9,7 @@ from importlib.metadata import Distribution, distributions
 from pathlib import Path
 
 import pytest
+from compiled import uncompiled
 from course_copy import CourseCopy
 
 from roslings.bootstrap.packages import installed
@@ -56,6 +57,7 @@ def test_a_sourced_jazzy_is_used(
     assert outcome.seen["prefix"] == str(course.root / ".venv-apt")
     assert set(outcome.seen["has"]) == {"col_x", "check_x", "rclpy"}
     assert outcome.seen["libraries"] == jazzy["LD_LIBRARY_PATH"]
+    assert uncompiled(Virtual(course.root / ".venv-apt").site) == []
     assert course.run("check", **jazzy).err == ""
 
 

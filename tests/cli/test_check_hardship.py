@@ -244,6 +244,17 @@ def test_the_solution_passes_behind_both_walls(package: Path, tmp_path: Path, wa
     assert wall == "auto" or found["environment"]["isolation"] == "domain"
 
 
+@pytest.mark.parametrize("wall", ["domain", "auto"])
+def test_the_solution_passes_on_a_platform(package: Path, tmp_path: Path, wall: str) -> None:
+    """Unobserved as well; without namespaces nodes share memory, and no packet is to be seen."""
+    file = tmp_path / "verdict.json"
+    results = ("--gradescope", tmp_path / "results.json")
+    words = command("check", "topics", package, "--trust", "--json", file, *results)
+    env = surroundings(tmp_path, ROSLINGS_ISOLATION=wall)
+    subprocess.run(words, env=env, cwd=tmp_path, check=True)
+    assert json.loads(file.read_text())["score"] == 100
+
+
 def test_a_parent_that_ignores_ctrl_c_changes_nothing(package: Path, tmp_path: Path) -> None:
     """A background job, or CI."""
     file = tmp_path / "verdict.json"

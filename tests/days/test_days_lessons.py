@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
-from lesson_runs import days, lessons, names, run_by_nbval, run_steps, steps_of
+from lesson_runs import days, lessons, walked
 
 from roslings.course import all_labs, root
 from roslings.lessons import read_glossary
@@ -16,7 +16,10 @@ WRITTEN = list(lessons())
 ANCHOR = re.compile(r"\b([0-9]{2}-[a-z0-9-]+)#([a-z0-9-]+)")
 POINTING = ("labs/*/hints.yaml", "labs/*/task.md", "graders/*.py", "src/**/*.py", "src/**/*.yaml",
             "src/**/*.md", "glossary/*.yaml")  # fmt: skip
-each_lesson = pytest.mark.parametrize("lesson", WRITTEN, ids=names(WRITTEN))
+each_lesson = pytest.mark.parametrize("lesson", [
+    pytest.param(lesson, id=lesson.day.id, marks=pytest.mark.xdist_group(lesson.day.id))
+    for lesson in WRITTEN
+])  # fmt: skip
 
 
 @each_lesson
@@ -28,23 +31,19 @@ def test_a_lesson_breaks_no_rule(lesson: Lesson) -> None:
 
 @pytest.mark.slow
 @each_lesson
-def test_nbval_runs_a_lesson(lesson: Lesson, tmp_path: Path) -> None:
-    """From top to bottom, as a student would."""
-    done = run_by_nbval(lesson.path, tmp_path, root())
-    assert done.returncode == 0, done.stdout + done.stderr
+def test_a_lesson_runs_from_top_to_bottom(lesson: Lesson, shared_folder: Path) -> None:
+    """Errors only where a tag announces them; changes fail before the edit."""
+    assert walked(shared_folder, lesson).down == []
 
 
 @pytest.mark.slow
 @each_lesson
-def test_cells_run_again_and_in_another_order(lesson: Lesson, tmp_path: Path) -> None:
-    """Down, and up again in the same kernel; changes fail before the edit and pass after it.
+def test_cells_run_again_and_in_another_order(lesson: Lesson, shared_folder: Path) -> None:
+    """Up again in the same kernel, with each change made: it passes then.
 
-    On the way up they are made already: what they built (a file, a package) may still stand.
+    What cells built on the way down (a file, a package) still stands.
     """
-    steps = steps_of(lesson)
-    backwards = [step for step in steps[:0:-1] if step.wanted != "assert"]
-    wrong = run_steps([*steps, *backwards], tmp_path, root(), lesson.path.parent)
-    assert wrong == []
+    assert walked(shared_folder, lesson).up == []
 
 
 def anchors_wanted() -> dict[str, set[tuple[str, str]]]:

@@ -1,21 +1,36 @@
-"""Experiments that mostly wait run beside the others, and end with them."""
+"""Experiments run side by side, take turns, and end together."""
 
 from __future__ import annotations
 
 import threading
+from collections.abc import Sequence
 
 import pytest
 
 from roslings.arena.lease import leased_domain
 from roslings.evidence import ExperimentSeen
-from roslings.experiment.alongside import Alongside
+from roslings.experiment.alongside import Alongside, Runs
 from roslings.experiment.declare import Experiment, experiment
+from roslings.experiment.turns import Turns
 from roslings.probe.probe import CalledOff, Probe
 
+LONG_S = 60.0
+"""Only who hangs waits so long."""
 
-@experiment(alongside=True)
+
+@experiment
 def waiting(scene: object) -> None:
     """Waits."""
+
+
+@experiment
+def quick(scene: object) -> None:
+    """Waits for nobody."""
+
+
+@experiment
+def asking(scene: object, waiting: ExperimentSeen, quick: ExperimentSeen) -> None:
+    """Asks for what the others saw."""
 
 
 def seen(each: Experiment) -> list[ExperimentSeen]:
@@ -23,32 +38,45 @@ def seen(each: Experiment) -> list[ExperimentSeen]:
     return [ExperimentSeen(name=each.name, clock="wall")]
 
 
-def test_it_runs_while_the_others_run() -> None:
-    """And its result is there at the end."""
-    others_are_done = threading.Event()
+def test_they_run_side_by_side() -> None:
+    """Each waits here until the other has begun as well."""
+    both = threading.Barrier(2, timeout=LONG_S)
 
-    def run(each: Experiment, number: int) -> list[ExperimentSeen]:
-        assert others_are_done.wait(60)
+    def run(each: Experiment, number: int, earlier: Runs) -> Runs:
+        both.wait()
         return seen(each)
 
     with Alongside(run, lambda: None) as alongside:
         alongside.begin(waiting, 0)
-        others_are_done.set()
-        runs = alongside.runs_of(waiting)
-    assert runs is not None and runs[0].name == "waiting"
+        alongside.begin(quick, 1)
+        names = [alongside.runs_of(each)[0].name for each in (waiting, quick)]
+    assert names == ["waiting", "quick"]
 
 
-def test_what_was_not_begun_has_no_runs() -> None:
-    """It is then run in its order."""
-    with Alongside(lambda each, number: seen(each), lambda: None) as alongside:
-        assert alongside.runs_of(waiting) is None
+@pytest.mark.parametrize("at_once", [1, 8])
+def test_who_asks_for_others_gets_the_runs_that_are_to_be_believed(at_once: int) -> None:
+    """The last of each, in the order of asking; also where one runs at a time."""
+    got: list[Sequence[ExperimentSeen]] = []
+
+    def run(each: Experiment, number: int, earlier: Runs) -> Runs:
+        got.append(earlier)
+        first = ExperimentSeen(name=each.name, clock="wall", machine_fault="busy")
+        return [first, *seen(each)]
+
+    with Alongside(run, lambda: None, at_once) as alongside:
+        for number, each in enumerate((waiting, quick, asking)):
+            alongside.begin(each, number)
+    assert [(one.name, one.machine_fault) for one in got[-1]] == [
+        ("waiting", None),
+        ("quick", None),
+    ]
 
 
 def test_an_error_beside_it_calls_it_off() -> None:
     """Nobody waits half a minute for what nobody wants to know."""
     called_off = threading.Event()
 
-    def run(each: Experiment, number: int) -> list[ExperimentSeen]:
+    def run(each: Experiment, number: int, earlier: Runs) -> Runs:
         called_off.wait()
         raise CalledOff
 
@@ -60,7 +88,7 @@ def test_an_error_beside_it_calls_it_off() -> None:
 def test_its_own_error_reaches_the_others() -> None:
     """An experiment that cannot be made is no experiment without evidence."""
 
-    def run(each: Experiment, number: int) -> list[ExperimentSeen]:
+    def run(each: Experiment, number: int, earlier: Runs) -> Runs:
         raise RuntimeError("no arena")
 
     with (
@@ -81,3 +109,86 @@ def test_a_probe_that_is_called_off_ends_its_watch(monkeypatch: pytest.MonkeyPat
         with pytest.raises(CalledOff):
             probe.until(lambda: False, 3600.0)
         caller.join()
+
+
+# --- turns -------------------------------------------------------------------------------------
+
+
+def test_nobody_starts_while_another_is_timed() -> None:
+    """Who wants to start waits for the end of the timed stretch."""
+    turns, order = Turns(), list[str]()
+
+    def start() -> None:
+        coming.set()
+        with turns.busy():
+            order.append("started")
+
+    coming = threading.Event()
+    starting = threading.Thread(target=start)
+    with turns.timed():
+        starting.start()
+        assert coming.wait(LONG_S)
+        order.append("timed")
+    starting.join(LONG_S)
+    assert order == ["timed", "started"]
+
+
+def test_nobody_is_timed_while_another_starts() -> None:
+    """And who waits to start goes first."""
+    turns, order = Turns(), list[str]()
+
+    def watch() -> None:
+        coming.set()
+        with turns.timed():
+            order.append("timed")
+
+    coming = threading.Event()
+    watching = threading.Thread(target=watch)
+    with turns.busy():
+        watching.start()
+        assert coming.wait(LONG_S)
+        order.append("started")
+    watching.join(LONG_S)
+    assert order == ["started", "timed"]
+
+
+def test_timed_stretches_run_side_by_side() -> None:
+    """Each waits here until the other is there, too."""
+    turns, both = Turns(), threading.Barrier(2, timeout=LONG_S)
+
+    def watch() -> None:
+        with turns.timed():
+            both.wait()
+
+    other = threading.Thread(target=watch)
+    other.start()
+    watch()
+    other.join(LONG_S)
+
+
+def test_a_turn_of_its_own_is_enough() -> None:
+    """An experiment may start another node within its own timed stretch."""
+    turns = Turns()
+    with turns.timed(), turns.busy(), turns.timed():
+        pass
+    with turns.busy(), turns.timed():
+        pass
+
+
+def test_who_waits_for_a_turn_can_be_called_off() -> None:
+    """Else Ctrl-C would wait for a stretch of half a minute."""
+    turns, ends = Turns(), list[str]()
+
+    def start() -> None:
+        try:
+            with turns.busy():
+                ends.append("started")
+        except CalledOff:
+            ends.append("called off")
+
+    with turns.timed():
+        starting = threading.Thread(target=start)
+        starting.start()
+        turns.call_off()
+        starting.join(LONG_S)
+    assert ends == ["called off"]

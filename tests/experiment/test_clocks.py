@@ -11,6 +11,7 @@ from watching import HERE, RATE, TOPIC, watched
 from roslings.evidence import ExperimentSeen
 from roslings.experiment.declare import Clock
 from roslings.judge.demands import have_rate
+from roslings.judge.dropped import Looks, watched_experiment
 from roslings.judge.faults import Fault, Inconclusive
 from roslings.judge.views import ExperimentView
 
@@ -19,7 +20,6 @@ FOLLOW_THE_CLOCK = ("composed", "functions", "timer", "two_nodes")
 """One thread, and a timer: these are judged in simulated time, on any machine."""
 
 TRICKY = {
-    "behind_many_topics": "inconclusive",
     "bursts": "Bursts",
     "bursts_of_a_thousand": "Bursts",
     "large_messages": "right",
@@ -37,25 +37,41 @@ TRICKY = {
     "works_longer_than_its_period": "SleepsAfterWorking",
 }
 CLOCKS: tuple[Clock, ...] = ("auto", "wall")
+MOST_TRIES = 3
 
 
 def answer(runs: Sequence[ExperimentSeen]) -> str:
     """What a check on the rate says of the run that counts."""
-    try:
-        ExperimentView(runs[-1]).topic(TOPIC).must(have_rate(TOPIC))
-    except Fault as fault:
-        return type(fault).__name__
-    except Inconclusive:
+    looks = Looks()
+    error = looks.outcome(_error(watched_experiment(runs[-1], looks)))
+    if isinstance(error, Inconclusive):
         return "inconclusive"
-    return "right"
+    return type(error).__name__ if error else "right"
+
+
+def _error(seen: ExperimentSeen) -> Fault | Inconclusive | None:
+    try:
+        ExperimentView(seen).topic(TOPIC).must(have_rate(TOPIC))
+    except (Fault, Inconclusive) as error:
+        return error
+    return None
+
+
+def settled(script: Path, clock: Clock, expected: str) -> str:
+    """The answer; a busy computer may keep it back a while, but neither change nor hide it."""
+    for _ in range(MOST_TRIES):
+        told = answer(watched(script, clock))
+        if told == expected or told != "inconclusive":
+            break
+    return told
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("clock", CLOCKS)
 @pytest.mark.parametrize("style", STYLES, ids=lambda style: style.stem)
 def test_correct_nodes_of_every_style_are_right(style: Path, clock: Clock) -> None:
-    """By both clocks. A computer that is too busy may keep the answer back, but not change it."""
-    assert answer(watched(style, clock)) in ("right", "inconclusive")
+    """By both clocks."""
+    assert settled(style, clock, "right") == "right"
 
 
 @pytest.mark.parametrize("name", FOLLOW_THE_CLOCK)
@@ -75,7 +91,15 @@ def test_what_follows_the_clock_is_judged_by_it(name: str) -> None:
 @pytest.mark.parametrize("name", TRICKY)
 def test_tricky_nodes_get_the_same_answer_by_both_clocks(name: str, clock: Clock) -> None:
     """What simulated time alone would judge wrongly, and what is hard to watch at all."""
-    assert answer(watched(HERE / "tricky" / f"{name}.py", clock)) in (TRICKY[name], "inconclusive")
+    assert settled(HERE / "tricky" / f"{name}.py", clock, TRICKY[name]) == TRICKY[name]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("clock", CLOCKS)
+def test_a_topic_behind_many_is_heard_or_unclear_but_never_silent(clock: Clock) -> None:
+    """Which topics are found first is chance; that there are too many is no fault of this one."""
+    told = answer(watched(HERE / "tricky/behind_many_topics.py", clock))
+    assert told in ("right", "inconclusive")
 
 
 @pytest.mark.parametrize(

@@ -17,7 +17,7 @@ from pydantic import TypeAdapter
 from roslings.arena import Installed, Wall, choose_isolation, ros_environment
 from roslings.arena.environment import base_environment
 from roslings.course import NodeContract, RateContract, TopicContract
-from roslings.evidence import ExperimentSeen, PackageSeen
+from roslings.evidence import ExperimentSeen
 from roslings.experiment import Scene, experiment
 from roslings.experiment.assignment import Assignment
 from roslings.experiment.declare import Clock
@@ -55,8 +55,7 @@ def main(script: Path, clock: Clock, wall: Wall, limit: RateContract) -> None:
 
     with tempfile.TemporaryDirectory() as folder:
         home = Path(folder)
-        package = PackageSeen(name="p", folder="p", build_type="ament_python")
-        order = Assignment(lab="p", seed=1, wall=wall, clock=clock, folder=home, package=package)
+        order = Assignment(lab="p", seed=1, wall=wall, clock=clock, folder=home)
         order.make_folders()
         os.environ.update(ros_environment(order.wall), ROS_LOG_DIR=str(home / "log"))
         stage = Stage(installed(script, home), order, 2.0)

@@ -6,22 +6,19 @@ import shutil
 from pathlib import Path
 
 import pytest
+from real_run import evidence_of_solution
 
 from roslings import course
 from roslings.course import Lab, lab
 from roslings.evidence import Evidence
-from roslings.experiment import Choices, measure
 from roslings.judge import BadGrader, judge
 from roslings.verdict import Verdict
-from roslings.workspace.inspect import inspect_package
 
 
 @pytest.fixture(scope="module")
-def evidence() -> Evidence:
+def evidence(tmp_path_factory: pytest.TempPathFactory) -> Evidence:
     """What was seen of a real run of the solution."""
-    topics = lab("topics")
-    files = inspect_package(topics.solution, topics.card)
-    return measure("topics", topics.solution, files, Choices(seed=1), lambda step: None)
+    return evidence_of_solution("topics", tmp_path_factory.mktemp("evidence"))
 
 
 @pytest.fixture

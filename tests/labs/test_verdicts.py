@@ -1,142 +1,146 @@
-"""Every lab, graded for real: solution, starter and mutants, each with the verdict it must get."""
+"""Every lab, graded for real: solution, starter and mutants, each with the verdict it must get.
+
+    ./roslings test tests/labs                              the solutions and the starters
+    ./roslings test tests/labs -m slow                      every mutant of every lab
+    ./roslings test tests/labs -m slow -k "topics and rate" some of them
+
+What must hold of a mutant, `roslings prove` knows; nothing here judges it a second time.
+"""
 
 from __future__ import annotations
 
 import json
 import subprocess
 import sys
-from collections.abc import Collection
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import asdict
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 import pytest
+from once import once
 
+from roslings.authoring.prove import Package, Proof, Wrong, gradings_fit
 from roslings.course import Lab, Mutant, all_labs
-from roslings.judge.sheet import dependants
 
 MOST_TRIES = 3
-EXAMPLE = "topics"
+CLOCKED = "topics"
+"""The lab whose experiments run by either clock."""
+LABS = {lab.name: lab for lab in all_labs()}
+each_lab = pytest.mark.parametrize("lab", LABS.values(), ids=LABS)
 
 
-@dataclass(frozen=True)
-class Answer:
-    """What the command said of a package."""
-
-    status: int
-    verdict: dict[str, Any]
-
-    def ids(self, outcome: str) -> set[str]:
-        """Names of the checks with an outcome."""
-        return {c["id"] for c in self.verdict["checks"] if c["outcome"] == outcome}
-
-    def faults(self) -> dict[str, str]:
-        """Failed check to kind of fault."""
-        return {c["id"]: c["fault"] for c in self.verdict["checks"] if c["outcome"] == "fail"}
-
-    def beyond(self, named: Collection[str]) -> list[dict[str, Any]]:
-        """All that is known of the failed checks that nobody named."""
-        return [
-            {name: check[name] for name in ("id", "expected", "measured", "log")}
-            for check in self.verdict["checks"]
-            if check["outcome"] == "fail" and check["id"] not in named
-        ]
+# --- by the command that a student types -------------------------------------------------------
 
 
-def check(lab: Lab, package: Path, folder: Path, clock: str = "auto") -> Answer:
-    """Grade a package with the command that a student types."""
-    file = folder / "verdict.json"
-    command = [
-        sys.executable,
-        "-m",
-        "roslings",
-        "check",
-        lab.name,
-        str(package),
-        "--json",
-        str(file),
-        "--clock",
-        clock,
-    ]
-    ran = subprocess.run(command, capture_output=True, text=True, check=False, cwd=folder)
-    assert file.is_file(), ran.stderr
-    return Answer(ran.returncode, json.loads(file.read_text("utf-8")))
-
-
-def conclusive(lab: Lab, package: Path, folder: Path) -> Answer:
-    """Grade it, and again while the answer is that it could not be told.
+def check(lab: Lab, package: Path, folder: Path) -> tuple[int, dict[str, Any]]:
+    """The status and the verdict; asked again while the answer is that it could not be told.
 
     That is what a student is told to do then; a wrong answer is never asked for twice.
     """
+    file = folder / "verdict.json"
+    words = ["check", lab.name, str(package), "--json", str(file)]
     for _ in range(MOST_TRIES):
-        answer = check(lab, package, folder)
-        if answer.verdict["outcome"] != "inconclusive":
+        ran = subprocess.run(
+            [sys.executable, "-m", "roslings", *words],
+            capture_output=True, text=True, check=False, cwd=folder,
+        )  # fmt: skip
+        assert file.is_file(), ran.stderr
+        verdict = json.loads(file.read_text("utf-8"))
+        if verdict["outcome"] != "inconclusive":
             break
-    return answer
+    return ran.returncode, verdict
 
 
-def labs() -> list[Any]:
-    """Each lab once."""
-    return [pytest.param(lab, id=lab.name) for lab in all_labs()]
-
-
-def mutants() -> list[Any]:
-    """Each mutant of each lab; those of one lab stand for all where time is short."""
-    return [
-        pytest.param(lab, mutant, id=f"{lab.name}-{mutant.name}", marks=marks)
-        for lab in all_labs()
-        for marks in [() if lab.name == EXAMPLE else pytest.mark.slow]
-        for mutant in lab.mutants()
-    ]
-
-
-def timed_mutants() -> list[Any]:
-    """Those that a clock can touch: nothing keeps their nodes from running."""
-    ends_early = {"well_formed", "builds"}
-    return [
-        pytest.param(lab, mutant, id=f"{lab.name}-{mutant.name}")
-        for lab in all_labs()
-        if lab.name == EXAMPLE
-        for mutant in lab.mutants()
-        if not ends_early & set(mutant.fails)
-    ]
-
-
-@pytest.mark.parametrize("lab", labs())
+@each_lab
 def test_the_solution_gets_the_full_score(lab: Lab, tmp_path: Path) -> None:
     """Nothing in the card asks for more than the solution does."""
-    answer = conclusive(lab, lab.solution, tmp_path)
-    assert answer.faults() == {}
-    assert answer.verdict["score"] == 100
-    assert answer.status == 0
+    status, verdict = check(lab, lab.solution, tmp_path)
+    assert [each for each in verdict["checks"] if each["outcome"] != "pass"] == []
+    assert (status, verdict["score"]) == (0, 100)
 
 
-@pytest.mark.parametrize("lab", labs())
+@each_lab
 def test_the_starter_does_not_pass(lab: Lab, tmp_path: Path) -> None:
     """Who has done nothing has not done the lab."""
-    answer = conclusive(lab, lab.starter, tmp_path)
-    assert answer.verdict["outcome"] == "fail"
-    assert answer.status == 1
+    status, verdict = check(lab, lab.starter, tmp_path)
+    assert (status, verdict["outcome"]) == (1, "fail")
 
 
-@pytest.mark.parametrize(("lab", "mutant"), mutants())
-def test_a_mutant_fails_where_it_says(lab: Lab, mutant: Mutant, tmp_path: Path) -> None:
-    """The failed checks are exactly those that it names; the skipped ones are their dependants."""
-    package = mutant.make(lab.solution, tmp_path / "src" / lab.card.package)
-    answer = conclusive(lab, package, tmp_path)
-    assert answer.ids("fail") == set(mutant.fails), answer.beyond(mutant.fails)
-    assert answer.ids("inconclusive") == set()
-    assert answer.ids("skip") == dependants(lab, set(mutant.fails)) | set(mutant.skips)
-    assert mutant.faults.items() <= answer.faults().items()
+# --- the mutants, all at once ------------------------------------------------------------------
+
+
+def mutants() -> Iterator[Wrong]:
+    """Every mutant of every lab; the later labs first, they take longest."""
+    for lab in reversed(LABS.values()):
+        for mutant in lab.mutants():
+            yield Wrong(lab, mutant)
+
+
+def in_real_time() -> Iterator[Wrong]:
+    """Those about rates, and one more for each check that is judged from the same experiment."""
+    seen: set[tuple[str, ...]] = set()
+    for mutant in LABS[CLOCKED].mutants():
+        if _is_timed(mutant) and ("rate" in mutant.fails or mutant.fails not in seen):
+            seen.add(mutant.fails)
+            yield Wrong(LABS[CLOCKED], mutant, clock="wall")
+
+
+def _is_timed(mutant: Mutant) -> bool:
+    """Its talker is run: nothing ended the grading before, and the talker is what is wrong."""
+    of_the_talker = {"rate", "text", "counting"}
+    return any(check.startswith("talker_") or check in of_the_talker for check in mutant.fails)
+
+
+ALL = {package.name: package for package in (*mutants(), *in_real_time())}
+
+
+def packages(clock: str) -> pytest.MarkDecorator:
+    """One test each, named LAB-MUTANT."""
+    chosen = [package for package in ALL.values() if package.clock == clock]
+    names = [f"{each.lab.name}-{each.mutant.name}" for each in chosen]
+    return pytest.mark.parametrize("package", [each.name for each in chosen], ids=names)
+
+
+@pytest.fixture(scope="session")
+def proof_of(request: pytest.FixtureRequest, shared_folder: Path) -> Callable[[str], Proof]:
+    """Package to what came of it; all that this test run asks for are graded in one go."""
+    asked: dict[str, Package] = {}
+    for item in request.session.items:
+        words = getattr(item, "callspec", None)
+        if words and (name := words.params.get("package")):
+            asked[name] = ALL[name]
+
+    def prove() -> str:
+        return json.dumps([asdict(each) for each in gradings_fit(asked.values(), lambda _: None)])
+
+    @cache
+    def proofs() -> dict[str, Proof]:
+        found = json.loads(once(shared_folder / "proofs.json", prove))
+        return {proof["package"]: Proof(**proof) for proof in found}
+
+    return lambda package: proofs()[package]
+
+
+def insist_on(proof: Proof) -> None:
+    """It holds; that it could never be told is no proof."""
+    assert proof.holds, proof.line
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("lab", "mutant"), timed_mutants())
+@pytest.mark.xdist_group("mutants")
+@packages("auto")
+def test_a_mutant_fails_where_it_says(package: str, proof_of: Callable[[str], Proof]) -> None:
+    """The failed checks are exactly those that it names; the skipped ones are their dependants."""
+    insist_on(proof_of(package))
+
+
+@pytest.mark.slow
+@pytest.mark.xdist_group("mutants")
+@packages("wall")
 def test_a_mutant_gets_the_same_verdict_in_real_time(
-    lab: Lab, mutant: Mutant, tmp_path: Path
+    package: str, proof_of: Callable[[str], Proof]
 ) -> None:
-    """`--clock wall` and the simulated clock agree; a busy computer may only keep a rate back."""
-    package = mutant.make(lab.solution, tmp_path / "src" / lab.card.package)
-    answer = check(lab, package, tmp_path, "wall")
-    assert answer.ids("fail") <= set(mutant.fails), answer.faults()
-    assert set(mutant.fails) <= answer.ids("fail") | answer.ids("inconclusive")
+    """`--clock wall` and the simulated clock agree."""
+    insist_on(proof_of(package))

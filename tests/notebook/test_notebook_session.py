@@ -185,7 +185,9 @@ with session() as ros:
 
 def test_a_deadlock_can_be_shown_and_left(cells: Kernel) -> None:
     """A callback that waits for an answer blocks its executor; the block ends it all the same."""
-    ran = cells.run("""
+    ran = cells.run(
+        SERVER
+        + """
 class Stuck(Node):
     def __init__(self):
         super().__init__("stuck")
@@ -197,7 +199,8 @@ with session() as ros:
     ros.start(Server)
     ros.start(Stuck)
     ros.until(lambda: False, "an answer", timeout_s=0.5)
-""")
+"""
+    )
     assert ran.error == "StillWaiting" and "0.5 s" in ran.said
     assert "[]" in cells.run(LEFT).text
     assert cells.run(HEARD).error == ""

@@ -11,7 +11,6 @@ from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from roslings.evidence import ExperimentSeen, Qos, Spoken
 from roslings.probe import bag
 from roslings.probe.definition import NO_HASH, definition_of
-from roslings.probe.recorder import Allowance
 
 TYPES = get_typestore(Stores.ROS2_JAZZY)
 STRING = "std_msgs/msg/String"
@@ -74,9 +73,3 @@ def test_an_earlier_run_keeps_its_bag(tmp_path: Path) -> None:
         "b-1": ["first"],
         "b-2": ["second"],
     }
-
-
-def test_an_allowance_is_used_up() -> None:
-    """What does not fit takes nothing of it."""
-    allowance = Allowance(100)
-    assert [allowance.take(size) for size in (60, 60, 40, 1)] == [True, False, True, False]

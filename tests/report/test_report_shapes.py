@@ -9,7 +9,7 @@ from xml.etree.ElementTree import fromstring
 import pytest
 import written_verdicts
 
-from roslings.report import write_check50, write_gradescope, write_junit
+from roslings.report import Refusal, write_check50, write_gradescope, write_junit
 from roslings.verdict import Verdict
 
 WRITTEN = {
@@ -35,7 +35,9 @@ def test_junit_counts_as_the_verdict_does(verdict: Verdict, tmp_path: Path) -> N
         "skipped": str(outcomes.count("skip")),
     }
     assert len(suite.findall("testcase/failure")) == outcomes.count("fail")
-    assert [case.get("name") for case in suite] == [check.id for check in verdict.checks]
+    assert [case.get("name") for case in suite.findall("testcase")] == [
+        check.id for check in verdict.checks
+    ]
 
 
 def test_what_a_node_writes_breaks_no_file(tmp_path: Path) -> None:
@@ -78,3 +80,56 @@ def test_check50_tells_pass_fail_and_neither(verdict: Verdict, tmp_path: Path) -
     passed = {"pass": True, "fail": False, "skip": None, "inconclusive": None}
     assert [r["passed"] for r in results] == [passed[c.outcome] for c in verdict.checks]
     assert all(bool(r["cause"]) is (r["passed"] is not True) for r in results)
+
+
+@pytest.mark.parametrize("wall", ["namespaces", "user", "none"])
+def test_every_shape_names_the_wall(wall: str, tmp_path: Path) -> None:
+    """And says of the second one what it does not stop."""
+    verdict = written_verdicts.full_score()
+    environment = verdict.environment.model_copy(update={"wall": wall})
+    verdict = verdict.model_copy(update={"environment": environment})
+    write_gradescope(verdict, tmp_path / "results.json")
+    write_check50(verdict, tmp_path / "check50.json")
+    write_junit(verdict, tmp_path / "it.xml")
+    told = json.loads((tmp_path / "results.json").read_text("utf-8"))
+    check50 = json.loads((tmp_path / "check50.json").read_text("utf-8"))["environment"]
+    suite = fromstring((tmp_path / "it.xml").read_bytes())
+    named = {each.get("name"): each.get("value") for each in suite.iter("property")}
+    assert {told["extra_data"]["wall"], check50["wall"], named["wall"]} == {wall}
+    for words in (told["output"], check50["about"], str(named["wall_about"])):
+        assert ("does not stop the network" in words) is (wall == "user")
+
+
+@pytest.mark.parametrize("is_students", [True, False])
+def test_a_refusal_is_told_in_every_shape(is_students: bool, tmp_path: Path) -> None:
+    """A zero where the student can mend it; where not, no score at all."""
+    refusal = Refusal("topics", "It is empty\x1b[2J.", "Put it there.", is_students)
+    write_gradescope(refusal, tmp_path / "results.json")
+    write_check50(refusal, tmp_path / "check50.json")
+    write_junit(refusal, tmp_path / "it.xml")
+    told = json.loads((tmp_path / "results.json").read_text("utf-8"))
+    assert told.get("score") == (0.0 if is_students else None)
+    assert ("no fault of yours" in told["output"]) is not is_students
+    named = json.loads((tmp_path / "check50.json").read_text("utf-8"))["error"]
+    suite = fromstring((tmp_path / "it.xml").read_bytes())
+    case = suite.find("testcase/failure" if is_students else "testcase/error")
+    assert case is not None
+    for text in (told["output"], named["value"], str(case.text)):
+        assert "It is empty\\x1b[2J.\nPut it there." in text
+
+
+def test_hidden_checks_are_hidden(tmp_path: Path) -> None:
+    """Gradescope knows the word; the others do not name them."""
+    checks = written_verdicts.three_faults().checks
+    seen, hidden = checks[0], checks[1].model_copy(update={"hidden": True})
+    verdict = written_verdicts.three_faults().model_copy(update={"checks": (seen, hidden)})
+    write_gradescope(verdict, tmp_path / "results.json")
+    write_check50(verdict, tmp_path / "check50.json")
+    write_junit(verdict, tmp_path / "it.xml")
+    tests = json.loads((tmp_path / "results.json").read_text("utf-8"))["tests"]
+    assert [test["visibility"] for test in tests] == ["visible", "hidden"]
+    for name in ("check50.json", "it.xml"):
+        text = (tmp_path / name).read_text("utf-8")
+        assert seen.id in text
+        assert hidden.id not in text
+        assert hidden.title not in text

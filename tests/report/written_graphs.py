@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from pydantic import TypeAdapter
+
 from roslings.evidence import Endpoint, GraphSeen, Qos
 
 STRING = "std_msgs/msg/String"
@@ -36,7 +38,7 @@ def graph(
 
 
 def _end(kind: str, node: str, topic: str, type_name: str) -> Endpoint:
-    return Endpoint.model_validate(
+    return TypeAdapter(Endpoint).validate_python(
         {"kind": kind, "node": node, "topic": topic, "type": type_name, "qos": Qos(), "gid": "00"}
     )
 

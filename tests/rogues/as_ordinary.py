@@ -1,10 +1,10 @@
 """Script: become an ordinary user, who can read the Python that runs these tests.
 
-    unshare --mount python -I -S as_ordinary.py UID FOLDER ... -- COMMAND ...
+    unshare --mount python -I -S as_ordinary.py UID FOLDER ... [--hide=FOLDER] -- COMMAND ...
 
 A Python often lies below somebody's home, which other users may not enter. In a mount namespace
 that is ours alone, such a home is replaced by an empty folder that shows just the folders named.
-Nothing of it is seen outside, and nothing is changed on disk.
+Nothing of it is seen outside, and nothing is changed on disk. A hidden folder is empty there.
 """
 
 import ctypes
@@ -14,6 +14,7 @@ import tempfile
 from pathlib import Path
 
 MS_BIND, MS_REC, MS_PRIVATE = 4096, 16384, 1 << 18
+HIDE = "--hide="
 libc = ctypes.CDLL(None, use_errno=True)
 
 
@@ -54,9 +55,12 @@ def _replace(home: Path, inside: list[Path]) -> None:
             libc.umount2(str(place).encode(), 2)
 
 
-def main(uid: int, folders: list[str], command: list[str]) -> None:
-    """Show, drop, run."""
-    show([Path(folder).resolve() for folder in folders])
+def main(uid: int, words: list[str], command: list[str]) -> None:
+    """Show, hide, drop, run."""
+    hidden = [word[len(HIDE) :] for word in words if word.startswith(HIDE)]
+    show([Path(word).resolve() for word in words if not word.startswith(HIDE)])
+    for folder in hidden:
+        mount("tmpfs", folder, "tmpfs", 0, "mode=0755")
     os.setgroups([])
     os.setgid(uid)
     os.setuid(uid)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 import shutil
 from collections.abc import Iterable, Sequence
-from pathlib import Path
 
 from parcels import Parcel
 from pydantic import BaseModel
@@ -32,7 +31,6 @@ from roslings.judge.sheet import dependants
 from roslings.verdict import CheckResult
 
 Entry = Attempt | Parcel
-NEXT = "-next"
 
 
 class Seen(BaseModel):
@@ -49,9 +47,8 @@ class Seen(BaseModel):
     held_off: list[str] = []
     last_words: list[str] = []
     """Of the build, or of its last process."""
-    neighbour: str = ""
-    neighbours_score: float | None = None
-    neighbours_faults: dict[str, str] = {}
+    neighbour: Seen | None = None
+    """The honest one; it has none itself."""
     seconds: float = 0.0
 
 
@@ -91,7 +88,20 @@ def _hand_in(entry: Entry, made: Stage, port: int, domain: int) -> None:
         entry.make(place / LAB.card.package, known(made, token_of(made, entry), port, domain))
     else:
         entry.make(place.with_name(place.name + entry.ending))
-    shutil.copytree(LAB.solution, made.submissions / f"{entry.name}{NEXT}" / LAB.card.package)
+    honest = made.submissions / next_to(entry) / LAB.card.package
+    if not honest.exists():
+        shutil.copytree(LAB.solution, honest)
+
+
+def next_to(entry: Entry) -> str:
+    """The honest package that is graded after it, one for all places of a rogue.
+
+    Parcels of one kind, which run nothing, share one too. Submissions are graded by name, and `~`
+    comes after all letters.
+    """
+    if isinstance(entry, Attempt):
+        return f"{entry.rogue.name}~next"
+    return f"{entry.name.partition('_')[0]}_~next"
 
 
 def token_of(made: Stage, entry: Entry) -> str:
@@ -124,11 +134,8 @@ def _grade(entries: Sequence[Entry], made: Stage, jobs: int) -> Gallery:
 
 def _seen(entry: Entry, made: Stage) -> Seen:
     results = made.results()
-    neighbour = results[f"{entry.name}{NEXT}"]
-    more = {"neighbour": f"{neighbour.word} {neighbour.reason}".strip(),
-            "neighbours_score": neighbour.score,
-            "neighbours_faults": seen_of(neighbour, made).faults}  # fmt: skip
-    return seen_of(results[entry.name], made).model_copy(update=more)
+    neighbour = seen_of(results[next_to(entry)], made)
+    return seen_of(results[entry.name], made).model_copy(update={"neighbour": neighbour})
 
 
 def seen_of(result: Result, made: Stage) -> Seen:
@@ -169,22 +176,15 @@ def _untrue_checks(truth: Truth, seen: Seen) -> Iterable[str]:
         {check for check, outcome in seen.outcomes.items() if outcome == word}
         for word in ("fail", "skip", "inconclusive")
     )
-    if truth.may_be_unclear and unclear:
-        return
+    free = unclear | dependants(LAB, unclear) if truth.may_be_unclear else set()
     if not seen.outcomes:
         yield f"there is no verdict: {seen.word} {seen.reason}"
-    elif not set(truth.fails) <= failed:
-        yield f"did not fail: {set(truth.fails) - failed}"
-    if unclear:
-        yield f"inconclusive: {[seen.faults[check] for check in unclear]}"
+    elif missing := set(truth.fails) - failed - free:
+        yield f"did not fail: {missing}"
+    if more := unclear - free - set(truth.unclear):
+        yield f"inconclusive: {[seen.faults[check] for check in more]}"
     if more := failed - set(truth.fails) - set(truth.may_fail):
         yield f"failed as well: { {check: seen.faults[check] for check in more} }"
-    if more := skipped - dependants(LAB, failed) - set(truth.may_fail):
+    waiting = dependants(LAB, failed | (unclear & set(truth.unclear)))
+    if more := skipped - waiting - free - set(truth.may_fail):
         yield f"was not judged: {more}"
-
-
-def keep(gallery: Gallery, file: Path) -> None:
-    """For the other processes of this test run."""
-    part = file.with_suffix(".part")
-    part.write_text(gallery.model_dump_json(indent=1), "utf-8")
-    part.rename(file)

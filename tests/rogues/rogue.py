@@ -53,6 +53,9 @@ class Truth(Contract):
     may_fail: tuple[str, ...] = Field(
         default=(), description="Checks that may fail: the attack can hurt its own package there"
     )
+    unclear: tuple[str, ...] = Field(
+        default=(), description="Checks that may be inconclusive: what they look at has no room"
+    )
     refused: str | None = Field(default=None, description="A part of the reason")
     may_be_unclear: bool = Field(
         default=False, description="It takes the processors: that may hide what its node did"
@@ -70,6 +73,12 @@ class Rogue(Contract):
 
     name: str = Field(default="", description="The file's name; not written in it")
     what: str = Field(description="What it tries")
+    alone: bool = Field(
+        default=False, description="It takes the whole machine: nothing else is tested then"
+    )
+    as_root: bool = Field(
+        default=False, description="What holds it off is another where the grader's user is root"
+    )
     attack: str = Field(default="", description="Python; `kit` is there, `node` at the place node")
     edits: tuple[Edit, ...] = ()
     remove: tuple[str, ...] = ()

@@ -31,6 +31,8 @@ from roslings.evidence import Evidence
 HERE = Path(__file__).parent
 NOBODY = 65534
 LONG_S = 7200.0
+BUILDS_WITHIN_S = 45.0
+"""What never comes to an end burns a processor for that long; an honest build takes a second."""
 QUIET_WITHIN_S = 60.0
 SECRET = "the instructor's own secret"
 HIDDEN = '''
@@ -100,6 +102,8 @@ class Stage:
                 shutil.copytree(source, to, ignore=shutil.ignore_patterns("__pycache__"))
             elif source.exists():
                 shutil.copy(source, to)
+        card = self.course / "labs" / LAB.name / "card.yaml"
+        card.write_text(f"{card.read_text('utf-8')}\nbuilds_within_s: {BUILDS_WITHIN_S}\n", "utf-8")
         (self.home / "secret.txt").write_text(SECRET)
         self.hidden.write_text(HIDDEN % SECRET)
 
@@ -177,9 +181,17 @@ def stage(ordinary: bool) -> Iterator[Stage]:
 
 def ordinary_user() -> list[str]:
     """The beginning of a command that root runs as an ordinary user."""
+    return readable_to_all(NOBODY)
+
+
+def readable_to_all(user: int, *more: str) -> list[str]:
+    """The beginning of a command that root runs as `user`, where everybody can read its Python.
+
+    `more` are further words for `as_ordinary.py`.
+    """
     return [
         "unshare", "--mount", sys.executable, "-I", "-S", str(HERE / "as_ordinary.py"),
-        str(NOBODY), sys.prefix, sys.base_prefix, "--",
+        str(user), sys.prefix, sys.base_prefix, *more, "--",
     ]  # fmt: skip
 
 
@@ -369,6 +381,7 @@ def known(made: Stage, token: str, port: int, domain: int) -> dict[str, str]:
         "course": str(made.course), "home": str(made.home), "hidden": str(made.hidden),
         "submissions": str(made.submissions), "tmp": str(made.scratch), "port": str(port),
         "address": own_address(), "domain": str(domain), "witness": "roslings.batch.nursery",
+        "terminals": str(Path("/dev/pts").stat().st_dev),
     }  # fmt: skip
 
 

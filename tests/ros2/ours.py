@@ -2,7 +2,8 @@
 
 import sys
 
+from roslings.leaving import leave
 from roslings.ros2.cli import quietly
 
 if __name__ == "__main__":
-    sys.exit(quietly(sys.argv[1:]))
+    leave(quietly(sys.argv[1:]))

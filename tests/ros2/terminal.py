@@ -8,7 +8,8 @@ import signal
 import subprocess
 import sys
 import threading
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -33,6 +34,14 @@ class Ran:
     def lines(self) -> list[str]:
         """Its output, line by line."""
         return self.out.splitlines()
+
+
+def eventually(condition: Callable[[], bool], pause_s: float = 0.01) -> None:
+    """Wait until `condition()` holds; a test in which it never does fails."""
+    end_s = time.monotonic() + PATIENCE_S
+    while not condition():
+        assert time.monotonic() < end_s, "what is waited for never comes"
+        time.sleep(pause_s)
 
 
 class Running:

@@ -54,9 +54,7 @@ def test_param_list(stage: Shell) -> None:
 def test_param_get(stage: Shell) -> None:
     """Label and value."""
     assert stage("param", "get", "/tuner", "wheel.radius").out == "Double value is: 0.1\n"
-    assert (
-        stage("param", "get", "/tuner", "steps").out == "Integer values are: array('q', [1, 2])\n"
-    )
+    assert stage("param", "get", "/tuner", "steps").out == "Integer values are: [1, 2]\n"
     assert stage("param", "get", "/tuner", "wheel.radius", "--hide-type").out == "0.1\n"
     ran = stage("param", "get", "/tuner", "wheel.radus")
     assert ran.code == 1

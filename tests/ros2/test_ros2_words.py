@@ -69,9 +69,10 @@ def test_help_names_every_command(empty: Shell) -> None:
     ("words", "said"),
     [
         (("topc", "list"), "there is no command 'topc'. Did you mean topic?"),
-        (("daemon", "stop"), "'ros2 daemon' is part of the full ros2"),
-        (("topic", "delay", "/x", "--window", "3"), "'ros2 topic delay' is part of the full ros2"),
-        (("param", "delete", "/x", "y"), "'ros2 param delete' is part of the full ros2"),
+        (("security", "stop"), "'ros2 security' is part of the full ros2"),
+        (("bag", "list", "--window", "3"), "'ros2 bag list' is part of the full ros2"),
+        (("bag", "convert", "x", "y"), "'ros2 bag convert' is part of the full ros2"),
+        (("pkg", "depends", "x"), "there is no 'depends' here. There is: create, list"),
         (("node", "lst"), "there is no 'lst' here. Did you mean list?"),
         (("topic", "hz"), "the following arguments are required: topic_name"),
         (("topic", "pub", "/x", "T", "-r", "fast"), "'fast' is no number"),
@@ -127,6 +128,18 @@ def test_tab_completes_words_and_names(stage: Shell, tmp_path: Path) -> None:
     assert completed(stage, "ros2 param list /tu", tmp_path) == ["/tuner"]
     assert completed(stage, "ros2 run demo_nodes_py t", tmp_path) == ["talker"]
     assert "std_msgs/msg/String" in completed(stage, "ros2 interface show std_msgs/msg/S", tmp_path)
+
+
+def test_tab_offers_the_type_of_what_was_just_typed(stage: Shell, tmp_path: Path) -> None:
+    """Of a service, a topic and an action only the right one, and the fields to fill in."""
+    call = "ros2 service call /light s"
+    assert completed(stage, call, tmp_path) == ["std_srvs/srv/SetBool"]
+    assert completed(stage, "ros2 topic pub /cmd_vel g", tmp_path) == [
+        "geometry_msgs/msg/TwistStamped"
+    ]
+    goal = "ros2 action send_goal /fibonacci t"
+    assert completed(stage, goal, tmp_path) == ["test_msgs/action/Fibonacci"]
+    assert "data:" in "".join(completed(stage, f"{call}td_srvs/srv/SetBool d", tmp_path))
 
 
 def test_participants_are_counted(empty: Shell) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 import shutil
 import tarfile
 import zipfile
@@ -81,6 +82,56 @@ def test_a_folder_without_package_xml_is_no_package(package: Path) -> None:
     (package / "setup.py").unlink()
     with pytest.raises(trouble.NoPackage, match="roslings start"):
         find_package(package, "chatter")
+
+
+@pytest.mark.parametrize("marker", ["COLCON_IGNORE", "AMENT_IGNORE"])
+@pytest.mark.parametrize("at", ["chatter", "."])
+def test_a_package_that_colcon_passes_by_is_told_so(package: Path, marker: str, at: str) -> None:
+    """It is there, so nobody says that it is not; the file to delete is named."""
+    (package.parent / at / marker).touch()
+    for path in (package.parent, package.parent.parent):
+        with pytest.raises(trouble.IgnoredByColcon, match=marker) as told:
+            find_package(path, "chatter")
+        assert f"rm {shlex.quote(str(package.parent / at / marker))}" in told.value.next_step
+
+
+def test_a_package_means_itself_below_an_ignored_folder(package: Path) -> None:
+    """What is built is a copy of the package alone."""
+    (package.parent / "COLCON_IGNORE").touch()
+    assert find_package(package, "chatter") == package
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("type: cmake\nname: other", "type 'cmake' and name 'other'"),
+        ("type: ros.ament_python", "name None"),
+        ("- a list", "cannot read it"),
+        (": [", "cannot read it"),
+        ("type: ros.ament_python\nname: chatter", None),
+        ("hooks: []", None),
+        ("", None),
+    ],
+)
+def test_a_colcon_pkg_that_says_otherwise_is_told(
+    package: Path, text: str, told: str | None
+) -> None:
+    """colcon believes it; one that says the same, or nothing of that, is no fault."""
+    (package / "colcon.pkg").write_text(text)
+    if told is None:
+        assert find_package(package, "chatter") == package
+    else:
+        with pytest.raises(trouble.OtherwiseForColcon, match=told):
+            find_package(package, "chatter")
+
+
+def test_an_empty_folder_and_a_packed_one_are_named(tmp_path: Path) -> None:
+    """What is there is said, not only what is not."""
+    with pytest.raises(trouble.EmptyFolder, match="is empty"):
+        find_package(tmp_path, "chatter")
+    (tmp_path / "work.tar.gz").touch()
+    with pytest.raises(trouble.OnlyPacked, match=r"a packed file: work\.tar\.gz"):
+        find_package(tmp_path, "chatter")
 
 
 def test_a_path_that_is_not_there_is_named(package: Path) -> None:

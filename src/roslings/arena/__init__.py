@@ -12,10 +12,11 @@ from roslings.arena.environment import (
     base_environment,
     ros_environment,
 )
-from roslings.arena.isolation import Isolation, Lack, choose_isolation
+from roslings.arena.isolation import Isolation, choose_isolation, isolation_for_strangers
 from roslings.arena.lease import NoFreeDomain
 from roslings.arena.process import LONGEST_WAIT_S, CannotStart, Launch, Process
 from roslings.arena.sandbox import Sandbox
+from roslings.arena.users import Lack, NoFreeUser, User
 
 __all__ = [
     "LONGEST_WAIT_S",
@@ -27,12 +28,15 @@ __all__ = [
     "Lack",
     "Launch",
     "NoFreeDomain",
+    "NoFreeUser",
     "Place",
     "Process",
     "Sandbox",
+    "User",
     "Wall",
     "base_environment",
     "choose_isolation",
+    "isolation_for_strangers",
     "kernel",
     "opened",
     "ros_environment",

@@ -13,6 +13,7 @@ from roslings.arena.lease import leased_domain
 from roslings.arena.process import Launch, Process
 from roslings.arena.sandbox import Sandbox
 from roslings.arena.shared_memory import swept_shared_memory
+from roslings.arena.users import User
 
 
 @dataclass(frozen=True)
@@ -35,6 +36,10 @@ class Place:
     devices: Path
     """Where devices appear that the processes may use."""
     sandbox: Sandbox | None = None
+    paced: bool = False
+    """Whether messages go through the network that are larger than its buffers."""
+    user: User | None = None
+    """Who the processes are; None where they are ourselves."""
 
     def around(self, installed: Installed, shown: Sequence[Path]) -> Sandbox | None:
         """What stands around one process."""
@@ -74,6 +79,7 @@ class Arena:
             folder=self._place.home,
             namespaces=self._place.wall == "namespace",
             sandbox=self._place.around(self._installed, shown),
+            user=self._place.user,
         )
         with Process(executable, launch, lambda: self.on_change()) as process:
             self.processes.append(process)
@@ -96,7 +102,7 @@ class Arena:
     def _environment(self) -> dict[str, str]:
         return {
             **self._installed.environment,
-            **ros_environment(self._place.wall),
+            **ros_environment(self._place.wall, self._place.paced),
             "ROS_DOMAIN_ID": str(self.domain_id),
         }
 
@@ -111,5 +117,7 @@ def opened(installed: Installed, place: Place) -> Iterator[Arena]:
         if place.wall == "domain":
             stack.enter_context(swept_shared_memory())
         devices = stack.enter_context(TemporaryDirectory(dir=place.devices))
+        if place.user:
+            place.user.show(Path(devices))
         own = replace(place, devices=Path(devices))  # another arena may be open beside it
         yield Arena(installed, own, stack.enter_context(leased_domain()))

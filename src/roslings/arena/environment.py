@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 from typing import Literal
 
-Wall = Literal["namespace", "domain"]
+Wall = Literal["namespace", "domain", "user"]
 HERE = Path(__file__).parent
 
 INHERITED = (
@@ -26,6 +26,8 @@ INHERITED = (
 )
 MIDDLEWARE = "rmw_fastrtps_cpp"
 QUICK_DISCOVERY = HERE / "quick_discovery.xml"
+LOOPBACK_ONLY = HERE / "loopback_only.xml"
+PACED = HERE / "paced.xml"
 
 TRANSPORT: dict[Wall, dict[str, str]] = {
     # A private /dev/shm has no use for shared memory, and LOCALHOST would ignore UDPv4: a wrong
@@ -35,14 +37,22 @@ TRANSPORT: dict[Wall, dict[str, str]] = {
         "FASTDDS_BUILTIN_TRANSPORTS": "UDPv4",
     },
     "domain": {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"},
+    # The profile's own transport: every other range puts its own in the profile's place.
+    "user": {"ROS_AUTOMATIC_DISCOVERY_RANGE": "SYSTEM_DEFAULT"},
 }
 
 
-def ros_environment(wall: Wall) -> dict[str, str]:
-    """What both sides, the probe and the student's nodes, must agree on."""
+def ros_environment(wall: Wall, paced: bool = False) -> dict[str, str]:
+    """What both sides, the probe and the student's nodes, must agree on.
+
+    Where it is `paced`, messages of many pieces arrive whole, though a kernel has little room for
+    them before their receiver. What a node offers and asks for stays its own.
+    """
+    profile = LOOPBACK_ONLY if wall == "user" else PACED if paced else QUICK_DISCOVERY
     return {
         "RMW_IMPLEMENTATION": MIDDLEWARE,
-        "FASTRTPS_DEFAULT_PROFILES_FILE": str(QUICK_DISCOVERY),
+        "FASTRTPS_DEFAULT_PROFILES_FILE": str(profile),
+        **({"RMW_FASTRTPS_PUBLICATION_MODE": "ASYNCHRONOUS"} if paced else {}),
         **TRANSPORT[wall],
     }
 

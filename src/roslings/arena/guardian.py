@@ -16,8 +16,9 @@ bytes of an `Order` on a line, and the bytes, of `marshal`; later a signal's nam
 Where the order says `namespaces`, the process lives in a pid namespace whose first process is
 this guardian: when the guardian goes, the kernel ends all that the process started. So it is
 where the order says `sandbox`: then this guardian was started inside of it. Elsewhere it adopts
-orphans and ends them one by one. When the arena's end of the socket closes,
-for whatever reason, everything ends. Times are nanoseconds of the monotonic clock.
+orphans and ends them one by one; where the order names a `user`, the process is that user. When
+the arena's end of the socket closes, for whatever reason, everything ends. Times are nanoseconds
+of the monotonic clock.
 
 A grading starts five of these, and most of what one takes is Python's start: so it imports little.
 The modules of json, sockets, contexts, dataclasses and paths would double it.
@@ -57,14 +58,17 @@ class Order:
         output: dict[str, int],
         limits: dict[str, int],
         watch: dict[str, int],
+        user: int | None,
     ) -> None:
         """What the names of each dictionary mean: `Spout`, the module `resource`, and these.
 
         `watch`: the most of `memory`, in bytes, of `pids`, threads too, and of `files`.
+        `user`: who the process becomes; None where it stays who the guardian is.
         """
         self.command, self.environment = command, environment
         self.folder, self.walls = folder, walls
         self.output, self.limits, self.watch = output, limits, watch
+        self.user = user
 
 
 class Spout:
@@ -81,6 +85,8 @@ class Spout:
         self.tail_held = 0
         self.total = 0
         self.dropped = 0
+        self.before_ending: int | None = None
+        self.ending_cut = False
 
     def take(self, chunk: bytes) -> bytes:
         """The part of `chunk` to pass on at once; the rest is held for the end."""
@@ -92,6 +98,11 @@ class Spout:
         if later:
             self._hold(later)
         return now
+
+    def begin_ending(self) -> None:
+        """From now on the process was asked to end: the last lines are to hold all of that."""
+        if self.before_ending is None:
+            self.before_ending = self.total
 
     def _hold(self, chunk: bytes) -> None:
         self.tail.append(chunk)
@@ -106,6 +117,8 @@ class Spout:
         held = b"".join(self.tail)
         kept = b"\n".join(held.split(b"\n")[-self.tail_lines :])
         self.dropped += len(held) - len(kept)
+        since = 0 if self.before_ending is None else self.total - self.before_ending
+        self.ending_cut = self.dropped > 0 and since > len(kept)
         return kept
 
 
@@ -147,6 +160,7 @@ class Guardian:
                 "left_behind": left,
                 "output_bytes": self.spout.total,
                 "dropped_bytes": self.spout.dropped,
+                "ending_cut": int(self.spout.ending_cut),
                 "bounds_met": self.bounds_met,
             }
         )
@@ -215,6 +229,7 @@ class Guardian:
             elif name == "STATE":
                 self.tell({"answer": state(self.pid), "to": name})
             elif self.exited is None:
+                self.spout.begin_ending()
                 os.kill(self.pid, getattr(signal, name))
         return bool(orders)
 
@@ -312,12 +327,27 @@ def become(order: Order) -> None:
         signal.set_wakeup_fd(-1)
         signal.pthread_sigmask(signal.SIG_SETMASK, [])
         limit(order.limits)
+        if order.user is not None:
+            give_up_all_rights(order.user)
         os.chdir(order.folder)
         os.execvpe(order.command[0], order.command, order.environment)
     except OSError as error:
         os.write(2, f"{order.command[0]}: {error.strerror}\n".encode())
     finally:
         os._exit(127)
+
+
+def give_up_all_rights(user: int) -> None:
+    """In the child: be an unprivileged user who holds nothing but its own terminal."""
+    os.fchown(0, user, -1)
+    for name in os.listdir("/proc/self/fd"):  # noqa: PTH208
+        if int(name) > 2:
+            try:
+                os.set_inheritable(int(name), False)
+            except OSError:  # the list's own
+                continue
+    os.umask(0o077)
+    kernel.become_user(user)
 
 
 def limit(limits: dict[str, int]) -> None:
@@ -485,6 +515,8 @@ def main(channel: int) -> None:
             kernel.be_unreadable()
         else:
             kernel.adopt_orphans()
+        if order.user is not None:
+            kernel.be_unreadable()
         Guardian(channel, order).run()
     except OSError as error:
         send(channel, {"refused": str(error)})

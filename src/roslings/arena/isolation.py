@@ -3,6 +3,7 @@
 `namespace`: a network of its own, where only loopback exists: nothing can come in or go out.
 `domain`: a leased ROS domain with discovery kept on this machine; for kernels that refuse more.
 Behind the first, and where bubblewrap is installed, a sandbox stands around each process too.
+`user`: for others' submissions where there is no such sandbox, and only as root.
 """
 
 from __future__ import annotations
@@ -12,8 +13,9 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 
@@ -21,6 +23,7 @@ from roslings.arena import cgroup, kernel
 from roslings.arena.bounds import MB, kernel_counts_by_namespace
 from roslings.arena.environment import HERE, Wall
 from roslings.arena.sandbox import Sandbox
+from roslings.arena.users import Lack, User, lack_of_users, leased_user
 
 ENTER = HERE / "enter.py"
 GUARD = """
@@ -46,14 +49,6 @@ def guardian_command(channel: int) -> list[str]:
 
 
 @dataclass(frozen=True)
-class Lack:
-    """Why strangers' code cannot be held here, and what to do."""
-
-    reason: str
-    next_step: str
-
-
-@dataclass(frozen=True)
 class Isolation:
     """The walls that are used, and why they are not better ones."""
 
@@ -69,7 +64,7 @@ class Isolation:
         With a sandbox, `room` is an empty folder, which then holds ROOM_BYTES at most, is seen
         by `inner` and its children only, and is gone with them.
         """
-        if self.wall == "domain":
+        if self.wall != "namespace":
             return list(inner)
         roomy = ["--room", str(room), str(ROOM_BYTES)] if self.sandbox and room else []
         return [*BARE, str(ENTER), *roomy, *inner]
@@ -79,20 +74,52 @@ class Isolation:
 
         It must have one thread only: a fork has, whatever its parent has.
         """
-        if self.wall == "domain":
+        if self.wall != "namespace":
             return
         if self.sandbox:
             kernel.enter_with_room(str(room), ROOM_BYTES)
         else:
             kernel.enter()
 
+    @contextmanager
+    def user(self) -> Iterator[User | None]:
+        """Who runs the code of one grading; None where that is ourselves. Raises NoFreeUser."""
+        if self.wall == "user":
+            with leased_user() as user:
+                yield user
+        else:
+            yield None
+
+
+CHOICE = "ROSLINGS_ISOLATION"
+"""`domain` does without namespaces; `user` takes, for others' submissions, a user of its own where
+a sandbox could be had too."""
+
 
 def choose_isolation() -> Isolation:
-    """Namespaces where the kernel allows them; `ROSLINGS_ISOLATION=domain` does without."""
-    if os.environ.get("ROSLINGS_ISOLATION") == "domain":
-        because = "ROSLINGS_ISOLATION asks for it"
+    """Namespaces where the kernel allows them, for what one runs of one's own."""
+    if os.environ.get(CHOICE) == "domain":
+        because = f"{CHOICE} asks for it"
         return Isolation("domain", because, lack=Lack(because, "Leave that variable out."))
     return _best()
+
+
+def isolation_for_strangers() -> Isolation:
+    """The best wall there is for somebody else's submission; it says so where none holds."""
+    if os.environ.get(CHOICE) == "user":
+        return _as_user()
+    best = choose_isolation()
+    if best.lack is None or CHOICE in os.environ or os.geteuid() != 0:
+        return best
+    user = _as_user()
+    if user.lack is None:
+        return user
+    both = f"{best.lack.reason}; and no user of its own can hold it: {user.lack.reason}"
+    return replace(best, lack=Lack(both, f"{best.lack.next_step}\nOr: {user.lack.next_step}"))
+
+
+def _as_user() -> Isolation:
+    return Isolation("user", lack=lack_of_users())
 
 
 @cache

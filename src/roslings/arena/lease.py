@@ -13,11 +13,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from roslings.rtps import PORT_BASE, PORTS_PER_DOMAIN
+
 SAFE_DOMAINS = range(1, 102)
 """0 is everybody's; above 101 DDS ports meet Linux's ephemeral ones (About-Domain-ID)."""
 
 LEASE_PORT_BASE = 20200
-DDS_PORT_BASE, DDS_PORTS_PER_DOMAIN = 7400, 250
 
 
 class NoFreeDomain(Exception):
@@ -68,4 +69,4 @@ def domains_in_use() -> set[int]:
     except OSError:
         return set()
     ports = (int(line.split()[1].rpartition(":")[2], 16) for line in lines)
-    return {(port - DDS_PORT_BASE) // DDS_PORTS_PER_DOMAIN for port in ports}
+    return {(port - PORT_BASE) // PORTS_PER_DOMAIN for port in ports}

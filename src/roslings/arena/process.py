@@ -18,6 +18,7 @@ from typing import Literal
 from roslings.arena.cgroup import Group
 from roslings.arena.isolation import guardian_command
 from roslings.arena.sandbox import Sandbox
+from roslings.arena.users import User
 from roslings.evidence import Ending, LogLine, ProcessSeen
 
 Listener = Callable[[], None]
@@ -52,20 +53,30 @@ class Launch:
     """Whether the guardian takes namespaces for it; a sandbox has its own."""
     limits: dict[str, int] = field(default_factory=dict)
     sandbox: Sandbox | None = None
+    user: User | None = None
+    """Who it becomes; None where that is ourselves."""
 
     def order(self) -> bytes:
         """What the guardian reads first."""
+        bounds, watch = self._bounds()
         words = {
             "command": self.command,
             "environment": self.environment,
             "folder": str(self.folder),
             "walls": self.walls,
             "output": OUTPUT,
-            "limits": {**(self.sandbox.bounds.limits() if self.sandbox else {}), **self.limits},
-            "watch": self.sandbox.watch if self.sandbox else {},
+            "limits": {**bounds, **self.limits},
+            "watch": watch,
+            "user": self.user.uid if self.user else None,
         }
         order = marshal.dumps(words)
         return b"%d\n%b" % (len(order), order)
+
+    def _bounds(self) -> tuple[dict[str, int], dict[str, int]]:
+        """What it may take, as the kernel's limits and as the guardian watches it."""
+        if self.sandbox:
+            return self.sandbox.bounds.limits(), self.sandbox.watch
+        return (self.user.limits, self.user.watch) if self.user else ({}, {})
 
     @property
     def walls(self) -> Literal["none", "namespaces", "sandbox"]:
@@ -77,8 +88,8 @@ class Launch:
     @contextmanager
     def command_of(self, guardian: list[str]) -> Iterator[tuple[list[str], Group]]:
         """The guardian's command within what stands around both, and what counts their use."""
-        if self.sandbox:
-            with self.sandbox.around(guardian) as found:
+        if wall := self.sandbox or self.user:
+            with wall.around(guardian) as found:
                 yield found
         else:
             yield guardian, Group(())
@@ -194,6 +205,11 @@ class Process:
         Empty where the kernel does not tell, and when the process is gone.
         """
         return self._ask("WAITS") or {}  # type: ignore[return-value]  # the guardian's own
+
+    @property
+    def last_waits_ns(self) -> dict[str, int]:
+        """As `waits_ns`, of the main thread alone, when the process ended; empty before."""
+        return {} if self._waited_ns is None else {self._main_thread: self._waited_ns}
 
     def asleep(self) -> bool:
         """Its main thread waits for something, as a node's does between its callbacks."""
@@ -325,4 +341,5 @@ class Process:
         seen.left_behind = int(str(event["left_behind"]))
         seen.output_bytes = int(str(event["output_bytes"]))
         seen.output_dropped_bytes = int(str(event["dropped_bytes"]))
+        seen.ending_cut = bool(event["ending_cut"])
         seen.bounds_met = event["bounds_met"]  # type: ignore[assignment]  # the guardian's own

@@ -18,7 +18,7 @@ from pathlib import Path
 
 from roslings.arena import cgroup
 from roslings.arena.bounds import MB, Bounds
-from roslings.arena.environment import HERE, QUICK_DISCOVERY, base_environment
+from roslings.arena.environment import HERE, PACED, QUICK_DISCOVERY, base_environment
 
 USER = "1000"
 """The same for everybody, as in arena/etc."""
@@ -111,7 +111,7 @@ def _once_for_all() -> tuple[Path, ...]:
     """What every process may see of the system, and what a guardian needs of the engine."""
     folders = [Path(name) for name in SYSTEM if not Path(name).is_symlink()]
     settings = [Path("/etc", name) for name in SETTINGS]
-    shown = [*folders, *settings, QUICK_DISCOVERY, *GUARDIAN, *map(compiled, GUARDIAN)]
+    shown = [*folders, *settings, QUICK_DISCOVERY, PACED, *GUARDIAN, *map(compiled, GUARDIAN)]
     return tuple(filter(Path.exists, shown))
 
 

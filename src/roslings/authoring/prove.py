@@ -1,25 +1,26 @@
-"""`./roslings prove LAB`: the solution passes, the starter does not, each mutant is caught.
+"""`./roslings prove LAB ...`: the solution passes, the starter does not, each mutant is caught.
 
 All are graded for real, as many at once as the machine bears, by the same path as submissions.
+What could not be told is graded again; what can never be told is not proven.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Protocol
 
 from roslings.batch.capacity import Capacity
 from roslings.batch.gradebook import gradebook
-from roslings.batch.result import Result
+from roslings.batch.result import Order, Result
 from roslings.batch.shift import Shift, Watcher, Wish
 from roslings.batch.submissions import Submission
 from roslings.course import Lab, Mutant
 from roslings.course.task import is_current
+from roslings.experiment.declare import Clock
 from roslings.experiment.run_folder import LOCK, run_folder
 from roslings.judge.sheet import dependants
-
-SOLUTION, STARTER = "solution", "starter"
 
 
 @dataclass(frozen=True)
@@ -31,6 +32,8 @@ class Proof:
     """What is wrong; empty where it holds."""
     is_open: bool = False
     """The machine could not tell."""
+    package: str = ""
+    """The name of the package that was graded for it; empty where none was."""
 
     @property
     def holds(self) -> bool:
@@ -45,93 +48,229 @@ class Proof:
         return f"{'open ' if self.is_open else 'WRONG'}  {self.about}\n       {self.problem}"
 
 
-def prove(lab: Lab, watcher: Watcher, jobs: int | None = None) -> Iterator[Proof]:
-    """All that must hold: what the files tell first, then what the gradings tell."""
-    yield from files_fit(lab)
-    yield from gradings_fit(lab, watcher, jobs)
+# --- the packages, and what must come of each --------------------------------------------------
+
+
+class Package(Protocol):
+    """One package of a lab that must get a certain verdict."""
+
+    @property
+    def lab(self) -> Lab:
+        """Whose it is."""
+
+    @property
+    def clock(self) -> Clock:
+        """By which its experiments run."""
+
+    @property
+    def name(self) -> str:
+        """Of no other package of any lab."""
+
+    @property
+    def about(self) -> str:
+        """What must hold of it."""
+
+    def make(self, folder: Path) -> Path:
+        """Where it lies; `folder` is for what has to be made."""
+
+    def problem(self, result: Result) -> str:
+        """What is wrong with a conclusive result; empty where nothing is."""
+
+
+@dataclass(frozen=True)
+class Solution:
+    """It gets the full score."""
+
+    lab: Lab
+    clock: Clock = "auto"
+
+    @property
+    def name(self) -> str:
+        """It is the only one."""
+        return f"{self.lab.name}: solution"
+
+    @property
+    def about(self) -> str:
+        """Nothing in the card asks for more than the solution does."""
+        return f"{self.lab.name}: the solution gets 100 of 100"
+
+    def make(self, folder: Path) -> Path:
+        """It is there."""
+        return self.lab.solution
+
+    def problem(self, result: Result) -> str:
+        """Where it loses points."""
+        if result.score is None or result.score == 100:
+            return ""
+        return f"{result.score:g} of 100; {_failing(result)}"
+
+
+@dataclass(frozen=True)
+class Starter:
+    """It does not pass."""
+
+    lab: Lab
+    clock: Clock = "auto"
+
+    @property
+    def name(self) -> str:
+        """It is the only one."""
+        return f"{self.lab.name}: starter"
+
+    @property
+    def about(self) -> str:
+        """Who has done nothing has not done the lab."""
+        return f"{self.lab.name}: the starter does not pass"
+
+    def make(self, folder: Path) -> Path:
+        """It is there."""
+        return self.lab.starter
+
+    def problem(self, result: Result) -> str:
+        """That it passes."""
+        return "it passes: who has done nothing has done the lab" if result.word == "pass" else ""
+
+
+@dataclass(frozen=True)
+class Wrong:
+    """A mutant: it fails in the checks that it names, and in no other."""
+
+    lab: Lab
+    mutant: Mutant
+    clock: Clock = "auto"
+
+    @property
+    def name(self) -> str:
+        """Those that run by another clock have it in their name."""
+        clock = "" if self.clock == "auto" else f" by the clock {self.clock}"
+        return f"{self.lab.name}: mutant {self.mutant.name}{clock}"
+
+    @property
+    def about(self) -> str:
+        """Which checks catch it."""
+        return f"{self.name} fails {_all(self.mutant.fails)}".replace(": mutant ", ": ")
+
+    def make(self, folder: Path) -> Path:
+        """The solution, injured."""
+        package = folder / self.name / self.lab.card.package
+        package.parent.mkdir(parents=True)
+        return self.mutant.make(self.lab.solution, package).parent
+
+    def problem(self, result: Result) -> str:
+        """Where its failed checks, their faults, or the skipped ones are others."""
+        checks = result.verdict.checks if result.verdict else ()
+        failed = {check.id: check.fault for check in checks if check.outcome == "fail"}
+        skipped = {check.id for check in checks if check.outcome == "skip"}
+        must_skip = dependants(self.lab, set(self.mutant.fails)) | set(self.mutant.skips)
+        if set(failed) != set(self.mutant.fails):
+            return _failing(result)
+        if skipped != must_skip:
+            return f"skipped: {_all(sorted(skipped))}; must be: {_all(sorted(must_skip))}"
+        wanted = self.mutant.faults
+        other = {name: failed[name] for name, kind in wanted.items() if failed[name] != kind}
+        return f"other faults: {other}" if other else ""
+
+
+def packages_of(lab: Lab) -> list[Package]:
+    """All that is graded to prove a lab."""
+    return [Solution(lab), Starter(lab), *(Wrong(lab, mutant) for mutant in lab.mutants())]
+
+
+# --- the proofs --------------------------------------------------------------------------------
+
+
+def prove(labs: Sequence[Lab], watcher: Watcher, jobs: int | None = None) -> Iterator[Proof]:
+    """All that must hold: what the files tell first, then what the gradings tell.
+
+    Of several labs the last one is graded first: later labs take longer.
+    """
+    for lab in labs:
+        yield from files_fit(lab)
+    packages = [package for lab in reversed(labs) for package in packages_of(lab)]
+    yield from gradings_fit(packages, watcher, jobs)
 
 
 def files_fit(lab: Lab) -> Iterator[Proof]:
     """What can be seen without running anything."""
     stale = f"bring it up to date: python -m roslings.course.task {lab.name}"
-    yield Proof("task.md says what the card says", "" if is_current(lab) else stale)
+    yield Proof(f"{lab.name}: task.md says what the card says", "" if is_current(lab) else stale)
     without = [check for check in lab.card.points if check not in lab.hints]
-    yield Proof("each check has a hint", f"without one: {_all(without)}" if without else "")
+    problem = f"without one: {_all(without)}" if without else ""
+    yield Proof(f"{lab.name}: each check has a hint", problem)
     caught = {check for mutant in lab.mutants() for check in mutant.fails}
     unseen = [check for check in lab.card.points if check not in caught]
     problem = f"nobody has seen these fail: {_all(unseen)}" if unseen else ""
-    yield Proof("each check is shown at work by a mutant", problem)
+    yield Proof(f"{lab.name}: each check is shown at work by a mutant", problem)
 
 
-def gradings_fit(lab: Lab, watcher: Watcher, jobs: int | None) -> Iterator[Proof]:
-    """Grade all of them, and hold the verdicts against what they must be."""
-    mutants = {mutant.name: mutant for mutant in lab.mutants()}
-    with run_folder() as scratch, gradebook(scratch, lab.name) as book:
-        packages = list(_packages(lab, mutants, scratch / "made"))
-        wish = Wish(lab.name, scratch, scratch / LOCK, keeps_evidence=False)
-        Shift(wish, book, Capacity(fixed=jobs), watcher).run(packages)
-        latest = book.latest()
-    yield _solution_passes(latest[SOLUTION])
-    yield _starter_fails(latest[STARTER])
-    for name, mutant in mutants.items():
-        yield _is_caught(lab, mutant, latest[_submission(name)])
+def gradings_fit(
+    packages: Collection[Package], watcher: Watcher, jobs: int | None = None
+) -> Iterator[Proof]:
+    """Grade packages of any labs at once, and hold the verdicts against what they must be.
+
+    They begin in their order, and what could not be told is tried twice more, alone.
+    """
+    with run_folder() as scratch:
+        results = _graded(packages, scratch, watcher, jobs)
+    for package in packages:
+        yield proof_of(package, results[package.name])
 
 
-def _packages(lab: Lab, mutants: dict[str, Mutant], folder: Path) -> Iterator[Submission]:
-    yield Submission(SOLUTION, lab.solution)
-    yield Submission(STARTER, lab.starter)
-    for name, mutant in mutants.items():
-        package = folder / name / lab.card.package
-        package.parent.mkdir(parents=True)
-        yield Submission(_submission(name), mutant.make(lab.solution, package).parent)
+@dataclass(frozen=True)
+class _ManyLabs(Wish):
+    """Grade each submission for its own lab, by its own clock."""
+
+    packages: Mapping[str, Package] = field(default_factory=dict)
+
+    def order(self, submission: Submission, digest: str, attempt: int) -> Order:
+        """The order for one try of a submission."""
+        package = self.packages[submission.name]
+        own = {"lab": package.lab.name, "clock": package.clock}
+        return super().order(submission, digest, attempt).model_copy(update=own)
 
 
-def _submission(mutant: str) -> str:
-    return f"mutant {mutant}"
+def _graded(
+    packages: Collection[Package], scratch: Path, watcher: Watcher, jobs: int | None
+) -> dict[str, Result]:
+    """Package's name to what came of it."""
+    submissions = [Submission(each.name, each.make(scratch / "made")) for each in packages]
+    wish = _ManyLabs(
+        "", scratch, scratch / LOCK, keeps_evidence=False,
+        packages={each.name: each for each in packages},
+    )  # fmt: skip
+    with gradebook(scratch, "labs") as book:
+        shift = Shift(wish, book, Capacity(fixed=jobs), watcher)
+        shift.run(submissions)
+        if not all(result.is_conclusive for result in book.latest().values()):
+            shift.run(submissions)
+        return book.latest()
 
 
-def _solution_passes(result: Result) -> Proof:
-    about = "the solution gets 100 of 100"
-    if open_ := _open(about, result):
-        return open_
-    if result.score == 100:
-        return Proof(about)
-    return Proof(about, f"{result.score:g} of 100; {_failing(result)}" if result.verdict else "")
-
-
-def _starter_fails(result: Result) -> Proof:
-    about = "the starter does not pass"
-    problem = "it passes: who has done nothing has done the lab" if result.word == "pass" else ""
-    return _open(about, result) or Proof(about, problem)
-
-
-def _is_caught(lab: Lab, mutant: Mutant, result: Result) -> Proof:
-    about = f"{mutant.name} fails {_all(mutant.fails)}"
-    if (open_ := _open(about, result)) or result.verdict is None:
-        return open_ or Proof(about, "no verdict")
-    failed = {check.id: check.fault for check in result.verdict.failed()}
-    skipped = {check.id for check in result.verdict.checks if check.outcome == "skip"}
-    must_skip = dependants(lab, set(mutant.fails)) | set(mutant.skips)
-    if set(failed) != set(mutant.fails):
-        return Proof(about, _failing(result))
-    if skipped != must_skip:
-        return Proof(about, f"skipped: {_all(sorted(skipped))}; must be: {_all(sorted(must_skip))}")
-    other = {name: failed[name] for name, kind in mutant.faults.items() if failed[name] != kind}
-    return Proof(about, f"other faults: {other}" if other else "")
-
-
-def _open(about: str, result: Result) -> Proof | None:
+def proof_of(package: Package, result: Result) -> Proof:
     """Nothing can be said where the machine could not tell, or where nothing was graded."""
     if result.word == "inconclusive":
-        return Proof(about, "not everything could be told; prove it again", is_open=True)
-    if result.word == "refused":
-        return Proof(about, result.reason)
-    return None
+        unclear = _told(result, "inconclusive") or result.reason
+        problem = f"not everything could be told, prove it again: {unclear}"
+        return Proof(package.about, problem, is_open=True, package=package.name)
+    problem = result.reason if result.word == "refused" else package.problem(result)
+    return Proof(package.about, problem, package=package.name)
 
 
 def _failing(result: Result) -> str:
-    failed = [check.id for check in result.verdict.failed()] if result.verdict else []
-    return f"it fails: {_all(failed)}" if failed else "it passes every check"
+    failed, skipped = _told(result, "fail"), _told(result, "skip")
+    if not failed and skipped:
+        return f"no check fails, and these are skipped: {skipped}"
+    return f"it fails: {failed}" if failed else "it passes every check"
+
+
+def _told(result: Result, outcome: str) -> str:
+    """The checks with an outcome, and what is said of each."""
+    checks = result.verdict.checks if result.verdict else ()
+    return "; ".join(
+        f"{check.id} ({check.measured or check.why})"
+        for check in checks
+        if check.outcome == outcome
+    )
 
 
 def _all(names: list[str] | tuple[str, ...]) -> str:

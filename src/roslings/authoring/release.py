@@ -17,7 +17,7 @@ from roslings.course import CourseError, Lab, all_labs
 from roslings.course.labs import EXAMPLE
 from roslings.workspace.sources import files
 
-TESTS = ("conftest.py", "arena", "report")
+TESTS = ("conftest.py", "costs.py", "once.py", "arena", "report")
 """Parts of tests/ that students get: they show that the installation works."""
 MAINTAINERS_ONLY = (".ci", ".github")
 SOLUTION_COMMAND = re.compile(r"(\./roslings check )[\w-]+( --solution)")

@@ -1,8 +1,8 @@
-"""How many gradings at once: measured, because most of a grading is waiting.
+"""How many gradings at once: measured, because a part of a grading is waiting.
 
-It begins with two for each core: a grading keeps half a core busy. While the processors have time
-to spare and there is memory for one more, one more is let in; when nothing is left to spare, one
-fewer, down to one for each core.
+It begins with one for each core: the experiments of a grading run side by side, and keep a core
+busy. While the processors have time to spare and there is memory for one more, one more is let in;
+when nothing is left to spare, one fewer, down to one for each core.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ LOOK_EVERY_S = 3.0
 NEWEST = 0.3
 """What the newest look weighs in the mean: those that build at the same time wait at the same time,
 so that one look often sees only the one or only the other."""
-MOST_PER_CORE = 4
+MOST_PER_CORE = 2
 NEEDS_BYTES = 500_000_000
 """Memory that one grading may come to need: grader, probe, colcon and nodes."""
 
@@ -67,7 +67,7 @@ class Capacity:
     """The idle part of the processors: a mean in which older looks weigh less and less."""
 
     def __post_init__(self) -> None:
-        self.allowed = self.fixed or 2 * self.cores
+        self.allowed = self.fixed or self.cores
 
     def now(self, working: int) -> int:
         """How many may work now, of whom `working` do already; at least one."""

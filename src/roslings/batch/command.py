@@ -6,11 +6,11 @@ import fcntl
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from roslings import course
-from roslings.arena import Lack, choose_isolation
+from roslings.arena import Isolation
 from roslings.batch.capacity import Capacity
 from roslings.batch.crew import Limits
 from roslings.batch.far import FarCrew, far_crew
@@ -22,18 +22,9 @@ from roslings.batch.shift import Shift, Standing, Wish
 from roslings.batch.submissions import Submission, find_submissions
 from roslings.batch.trouble import BatchError
 from roslings.batch.words import standing_line, summary_lines
+from roslings.experiment import insist_on_wall
 from roslings.experiment.run_folder import LOCK, run_folder
 from roslings.report import Progress
-
-
-class NoSandbox(BatchError):
-    """Strangers' code would run as you."""
-
-    def __init__(self, lack: Lack) -> None:
-        super().__init__(
-            f"Submissions are strangers' code, and nothing would hold it: {lack.reason}.",
-            f"{lack.next_step}\nOr trust every submission with this machine: --trust",
-        )
 
 
 class AlreadyGrading(BatchError):
@@ -82,8 +73,8 @@ def grade(choices: Choices) -> Report:
     lab = course.lab(choices.lab, choices.hidden)
     _ = lab.card, lab.hints  # a mistake in the course is told before anything is run
     submissions = find_submissions(choices.submissions)
-    if not choices.dask and not choices.trust and (lack := choose_isolation().lack):
-        raise NoSandbox(lack)
+    if not choices.dask and not choices.trust:
+        choices = _at_once(choices, insist_on_wall(lab, choices.submissions, choices.out))
     _make(choices)
     with _alone_in(choices.out), gradebook(choices.out, lab.name) as book:
         keep(book, _settings(choices, submissions))
@@ -95,14 +86,19 @@ def grade(choices: Choices) -> Report:
         return Report(lines, unclear)
 
 
+def _at_once(choices: Choices, wall: Isolation) -> Choices:
+    """Users of one machine share its network: one at a time, none can speak in another's place."""
+    return replace(choices, jobs=1) if wall.wall == "user" else choices
+
+
 def _make(choices: Choices) -> None:
-    """The folder of the gradebook. Raises BatchError."""
+    """The folder of the gradebook, for nobody else's eyes. Raises BatchError."""
     out = choices.out.absolute()
     if out.is_relative_to(choices.submissions.absolute()):
         problem = f"{choices.out} lies among the submissions: it would be graded as one."
         raise BatchError(problem, "Give a place outside of that folder: --out ../grades")
     try:
-        out.mkdir(parents=True, exist_ok=True)
+        out.mkdir(mode=0o700, parents=True, exist_ok=True)
     except OSError as error:
         problem = f"{choices.out} cannot be made: {error.strerror}."
         raise BatchError(problem, "Give a place where you may write: --out ~/grades") from error
@@ -123,7 +119,8 @@ def _grade_all(choices: Choices, submissions: list[Submission], book: Gradebook)
         wish = Wish(
             lab=choices.lab, scratch=scratch, lock=scratch / LOCK, clock=choices.clock,
             hidden=choices.hidden.absolute() if choices.hidden else None,
-            keeps_evidence=choices.keeps_evidence, limits=Limits(choices.limit_s),
+            strangers=not choices.trust, keeps_evidence=choices.keeps_evidence,
+            limits=Limits(choices.limit_s),
         )  # fmt: skip
         teller = Teller(progress)
         if choices.dask is None:

@@ -13,16 +13,15 @@ from types import FrameType
 
 import roslings
 from roslings import course
-from roslings.arena import NoFreeDomain
+from roslings.arena import NoFreeDomain, NoFreeUser
 from roslings.batch.fingerprints import Fingerprint, fingerprint
 from roslings.batch.opening import package_in
 from roslings.batch.result import Order, Result, broken
 from roslings.batch.trouble import Refused
 from roslings.course import Lab
-from roslings.evidence import Evidence
+from roslings.evidence import Evidence, evidence_json
 from roslings.experiment import Choices, MeasuringFailed, measure
-from roslings.experiment.forked import Fork
-from roslings.judge import judge
+from roslings.judge.loaded import judge_for
 from roslings.report.html.intervals import watched
 from roslings.report.whole_file import write_whole
 from roslings.saving import asked_rates
@@ -67,7 +66,7 @@ def answer(order: Order) -> Result:
 
 def packed(evidence: Evidence) -> bytes:
     """The evidence as the gradebook keeps it."""
-    return zlib.compress(evidence.model_dump_json(by_alias=True).encode(), 6)
+    return zlib.compress(evidence_json(evidence), 6)
 
 
 def unpacked(content: bytes) -> Evidence:
@@ -83,7 +82,7 @@ def grade(order: Order) -> tuple[Result, Evidence | None]:
         found = _measured(order, lab)
     except Refused as refusal:
         return _refused(order, refusal, time.monotonic() - began_s), None
-    except (MeasuringFailed, MachineTrouble, NoFreeDomain) as trouble:
+    except (MeasuringFailed, MachineTrouble, NoFreeDomain, NoFreeUser) as trouble:
         return broken(order, str(trouble), time.monotonic() - began_s), None
     result = Result(
         submission=order.submission, digest=order.digest, attempt=order.attempt, state="graded",
@@ -96,14 +95,16 @@ def grade(order: Order) -> tuple[Result, Evidence | None]:
 
 def _measured(order: Order, lab: Lab) -> Measured:
     """The way of `check`: read, measure, judge."""
-    began_s = time.monotonic()
+    began_ns = time.monotonic_ns()
     package = package_in(order.path, lab.card.package, order.room)
     files = inspect_package(package, lab.card)
     choices = Choices(
-        order.seed, order.clock, hidden=order.hidden, builds=order.builds, begin=Fork
+        order.seed, order.clock, hidden=order.hidden, builds=order.builds,
+        strangers=order.strangers, for_others=order.strangers,
     )  # fmt: skip
-    evidence = measure(lab.name, package, files, choices, _silent)
-    verdict = judge(lab, evidence, time.monotonic() - began_s)
+    with judge_for(lab, order.strangers) as judge:
+        evidence = measure(lab.name, package, files, choices, _silent)
+        verdict = judge(evidence, began_ns)
     return Measured(verdict, evidence, _fingerprint(package))
 
 

@@ -84,7 +84,7 @@ def _again(book: Gradebook, result: Result, lab: Lab) -> str:
     if content is None:
         return "without"
     evidence = unpacked(content)
-    verdict = judge(lab, evidence, result.verdict.seconds.total)
+    verdict = judge(lab, evidence).model_copy(update={"seconds": result.verdict.seconds})
     version = version_of(lab)
     if verdict == result.verdict and version == result.lab_version:
         return "same"

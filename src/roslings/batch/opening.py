@@ -6,9 +6,9 @@ from pathlib import Path
 
 from roslings.batch.archives import is_archive, unpack
 from roslings.batch.trouble import Refused
-from roslings.workspace.packages import find_package, packages_in
+from roslings.workspace.packages import find_package, nothing_in, packages_in
 from roslings.workspace.sources import files
-from roslings.workspace.trouble import MachineTrouble, WorkspaceError
+from roslings.workspace.trouble import MachineTrouble, WorkspaceError, without_places
 
 MOST_ARCHIVES = 100
 
@@ -56,9 +56,8 @@ def _archives_in(folder: Path) -> list[Path]:
 
 
 def _chosen(folder: Path, name: str) -> Path:
-    packages = packages_in(folder)
-    if not packages:
-        raise Refused(*_nothing_in(folder, name))
+    if not packages_in(folder):
+        raise nothing_in(folder, name)
     package = find_package(folder, name)
     if not package.resolve().is_relative_to(folder.resolve()):
         reason = "A link in it leads to another place."
@@ -66,19 +65,7 @@ def _chosen(folder: Path, name: str) -> Path:
     return package
 
 
-def _nothing_in(folder: Path, name: str) -> tuple[str, str]:
-    archives = _archives_in(folder)
-    if len(archives) > 1:
-        reason = f"It holds {len(archives)} archives and no package."
-        return reason, "Unpack it once, and grade the folder that comes out."
-    reason = "There is no ROS package in it: no folder has a package.xml."
-    return reason, f"Hand in the folder of the package {name!r}, with package.xml in it."
-
-
 def _in_its_own_words(error: WorkspaceError, places: tuple[Path, ...]) -> Refused:
     """The same sentences, without the paths of the machine that grades."""
-    reason, step = error.problem, error.next_step
-    for place in places:
-        for path in (place.resolve() / "unpacked", place / "unpacked", place.resolve(), place):
-            reason, step = (text.replace(str(path), "submission") for text in (reason, step))
-    return Refused(reason, step)
+    inside = [*(place / "unpacked" for place in places), *places]
+    return Refused(without_places(error.problem, inside), without_places(error.next_step, inside))

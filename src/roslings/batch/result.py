@@ -30,6 +30,8 @@ class Order(BaseModel):
     hidden: Path | None = None
     builds: Path | None = None
     keeps_evidence: bool = True
+    strangers: bool = False
+    """Somebody else's, and not trusted: the wall for strangers' code is taken."""
 
     @property
     def answer(self) -> Path:

@@ -31,6 +31,7 @@ class Wish:
     hidden: Path | None = None
     clock: str = "auto"
     keeps_evidence: bool = True
+    strangers: bool = False
     limits: Limits = field(default_factory=Limits)
     life: str = GRADING
     """What each process does: MODULE:FUNCTION."""
@@ -45,6 +46,7 @@ class Wish:
                 "attempt": attempt, "path": submission.path.absolute(), "room": room,
                 "seed": seed, "clock": self.clock, "hidden": self.hidden,
                 "builds": self.scratch / "builds", "keeps_evidence": self.keeps_evidence,
+                "strangers": self.strangers,
             }
         )  # fmt: skip
 

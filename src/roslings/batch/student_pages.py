@@ -12,7 +12,7 @@ from roslings.batch.grades import Grade
 from roslings.batch.grading import unpacked
 from roslings.batch.result import Result
 from roslings.course import Lab
-from roslings.report import write_check50, write_gradescope, write_json, write_junit
+from roslings.report import Refusal, write_check50, write_gradescope, write_json, write_junit
 from roslings.report.html.document import POLICY, STYLE
 from roslings.report.html.markup import Markup, prose, tag
 from roslings.report.whole_file import write_whole
@@ -53,14 +53,21 @@ def _stamp_of(place: Path) -> str:
 
 def _write(book: Gradebook, lab: Lab, result: Result, place: Path) -> None:
     verdict = result.verdict
+    told = verdict or _refusal(lab, result)
+    write_gradescope(told, place / "results.json")
+    write_junit(told, place / "junit.xml")
+    write_check50(told, place / "check50.json")
     if verdict is None:
         write_whole(place / "report.html", _page_without(result).encode())
         return
     write_json(verdict, place / "verdict.json")
-    write_gradescope(verdict, place / "results.json")
-    write_junit(verdict, place / "junit.xml")
-    write_check50(verdict, place / "check50.json")
     _write_report(book, lab, result, verdict, place / "report.html")
+
+
+def _refusal(lab: Lab, result: Result) -> Refusal:
+    """For the platforms; the next step of a broken grading is the instructor's."""
+    refused = result.state == "refused"
+    return Refusal(lab.name, result.reason, result.next_step if refused else "", refused)
 
 
 def _write_report(book: Gradebook, lab: Lab, result: Result, verdict: Verdict, path: Path) -> None:

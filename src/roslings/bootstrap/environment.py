@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from roslings.bootstrap import sizes
+from roslings.bootstrap.bytecode import compile_packages
 from roslings.bootstrap.installing import TOOLS, Installer
 from roslings.bootstrap.interfaces import GROUP, Interfaces
 from roslings.bootstrap.lock import locked
@@ -97,6 +98,7 @@ class _Work:
         if self.virtual.runs() and not forget_damaged(self.virtual.site):
             if GROUP in groups:
                 self._interfaces().name_headers()
+            compile_packages(self.virtual)  # a copy may have given its files new times
             self.record.write(groups, self._installer().libraries())
 
     def _make(self) -> None:
@@ -113,6 +115,7 @@ class _Work:
         self._install(self._to_install())
         if GROUP in groups:
             self._interfaces().build()
+        compile_packages(self.virtual)
         self.record.write({TOOLS, *groups}, self._installer().libraries())
         say(f"The environment is ready, after {time.monotonic() - started_s:.0f} s.\n")
 

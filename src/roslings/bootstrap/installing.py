@@ -54,7 +54,7 @@ class Installer:
         if not seed.is_dir():
             seed = find_seed(python, scratch)
         first = replace(self.pip(), command=(python, str(seed)))
-        # Compiling all of the two takes longer than all else here, and little of them is ever used.
+        # Compiling pip takes longer than all else here; setuptools is compiled with the packages.
         words = ["install", "--ignore-installed", "--no-deps", "--no-compile"]
         tools = [f"{name}=={version}" for name, version in pins.items()]
         drain(first, [*words, *tools], self.place.root)

@@ -5,6 +5,7 @@
     groups/NAME       an empty file for each group that is installed
     libraries         what LD_LIBRARY_PATH needs for the ROS wheels; empty without them
     interfaces/       the sources of the labs' own message types, as they were built
+    bytecode          an empty file: all packages are compiled
 
 The script `./roslings` reads the same files. A record is there only while all of it is true: it
 is put aside before the first change and comes back, in one step, after the last.
@@ -19,6 +20,8 @@ from pathlib import Path
 
 from roslings.bootstrap.interfaces import GROUP, files_of
 from roslings.bootstrap.place import Place
+
+BYTECODE = "bytecode"
 
 
 @dataclass(frozen=True)
@@ -58,6 +61,7 @@ class Record:
         """Whether `groups` are installed as the course now pins them."""
         return (
             self.complete
+            and (self._folder / BYTECODE).exists()  # an older bootstrap left it to each build
             and self.groups >= set(groups)
             and all(self._same(file) for file in (self.place.constraints, self.place.pyproject))
             and (GROUP not in groups or self._types_stand())
@@ -77,10 +81,11 @@ class Record:
             self._folder.rename(self._aside)
 
     def write(self, groups: Iterable[str], libraries: Iterable[Path]) -> None:
-        """The environment is finished, and all its files are on the disk."""
+        """The environment is finished and compiled, and all its files are on the disk."""
         new = self.place.environment / "roslings.new"
         shutil.rmtree(new, ignore_errors=True)
         (new / "groups").mkdir(parents=True)
+        (new / BYTECODE).touch()
         groups = set(groups)
         for group in groups:
             (new / "groups" / group).touch()

@@ -1,28 +1,36 @@
 """The course's own files: days, labs, cards, hints, mutants, graders. Knows no ROS.
 
-The only room that reads them; each mistake in them is told with file and line.
+The only room that reads them; each mistake in them is told with file and line. The models of a card
+are made when one is first used: `./roslings status` needs none.
 """
 
-from roslings.course.card import (
-    ActionContract,
-    AnswerContract,
-    Card,
-    ConstantContract,
-    GiveUpContract,
-    Hint,
-    LaunchContract,
-    NodeContract,
-    OutcomeContract,
-    ParameterContract,
-    PictureContract,
-    QosContract,
-    RateContract,
-    ServiceContract,
-    TopicContract,
-)
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
 from roslings.course.files import CourseError, NoSolution, NoSuchLab
 from roslings.course.labs import Lab, all_labs, lab, root
-from roslings.course.mutants import Edit, Mutant
+
+if TYPE_CHECKING:
+    from roslings.course.card import (
+        ActionContract,
+        AnswerContract,
+        Card,
+        ConstantContract,
+        GiveUpContract,
+        Hint,
+        LaunchContract,
+        NodeContract,
+        OutcomeContract,
+        ParameterContract,
+        PictureContract,
+        QosContract,
+        RateContract,
+        ServiceContract,
+        TopicContract,
+    )
+    from roslings.course.mutants import Edit, Mutant
 
 __all__ = [
     "ActionContract",
@@ -50,3 +58,14 @@ __all__ = [
     "lab",
     "root",
 ]
+
+
+_MUTANTS = ("Edit", "Mutant")
+
+
+def __getattr__(name: str) -> Any:
+    """Import the module that holds `name` when it is first asked for (PEP 562)."""
+    if name not in __all__:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    home = "mutants" if name in _MUTANTS else "card"
+    return getattr(import_module(f"{__name__}.{home}"), name)

@@ -9,7 +9,9 @@ from __future__ import annotations
 import string
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
+from pydantic import BaseModel, ConfigDict, Field, RootModel, field_validator, model_validator
+
+from roslings.course.outline import DAY, PACKAGE
 
 DEFAULT_WITHIN = 0.1
 """The part of a rate that it may be off, where the card says nothing."""
@@ -207,20 +209,25 @@ class Hint(Contract):
     )
 
 
+class Hints(RootModel[dict[str, Hint]]):
+    """The file `hints.yaml`: check's name to its hint."""
+
+
 class Card(Contract):
     """All that a lab asks for. Points of all checks add up to 100."""
 
     id: str = Field(pattern=r"^[a-z][a-z0-9-]*$")
     title: str
-    day: str = Field(pattern=r"^[0-9]{2}-[a-z0-9-]+$")
+    day: str = Field(pattern=DAY)
     needs: tuple[str, ...] = Field(default=(), description="Labs to do before this one")
-    package: str = Field(pattern=r"^[a-z][a-z0-9_]*$")
+    package: str = Field(pattern=PACKAGE)
     build_type: Literal["ament_python"] = "ament_python"
     groups: tuple[GroupName, ...] = Field(
         default=(), description="Dependency groups that its check needs besides the usual ones"
     )
     nodes: tuple[NodeContract, ...]
     launch: LaunchContract | None = None
+    builds_within_s: float = Field(default=180.0, gt=0, description="The most that colcon may take")
     ends_within_s: float = Field(default=2.0, gt=0, description="After Ctrl-C")
     pictures: tuple[PictureContract, ...] = ()
     board: bool = Field(default=False, description="A node talks to a board on a serial port")

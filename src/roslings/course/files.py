@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import yaml
-from pydantic import BaseModel, ValidationError
 
-Model = TypeVar("Model", bound=BaseModel)
+if TYPE_CHECKING:
+    from pydantic import BaseModel
+
+Model = TypeVar("Model", bound="BaseModel")
 Location = tuple[int | str, ...]
 LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 """A card is read several times in one grading; in C that takes a tenth of the time."""
@@ -46,15 +48,23 @@ def read_yaml(path: Path, model: type[Model]) -> Model:
 
     Raises BadCourseFile with the line where the first mistake stands.
     """
+    from pydantic import ValidationError
+
     try:
-        return model.model_validate(yaml.load(_text(path), Loader=LOADER))
-    except yaml.YAMLError as error:
-        raise _bad_yaml(path, error) from error
+        return model.model_validate(read_tree(path))
     except ValidationError as error:
         first = error.errors()[0]
         problem = f"{'.'.join(map(str, first['loc']))}: {first['msg']}"
         tree = yaml.compose(_text(path), Loader=LOADER)
         raise BadCourseFile(path, _line_of(tree, first["loc"]), problem) from error
+
+
+def read_tree(path: Path) -> Any:
+    """What YAML reads from `path`, in no model yet. Raises BadCourseFile."""
+    try:
+        return yaml.load(_text(path), Loader=LOADER)
+    except yaml.YAMLError as error:
+        raise _bad_yaml(path, error) from error
 
 
 def _text(path: Path) -> str:

@@ -7,17 +7,14 @@ import os
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from pydantic import RootModel
+from roslings.course.files import NoSuchLab, read_tree, read_yaml
+from roslings.course.outline import Outline, outline_in
 
-from roslings.course.card import Card, Hint
-from roslings.course.files import NoSuchLab, read_yaml
-from roslings.course.hidden import hidden_points
-from roslings.course.mutants import Mutant
-
-
-class Hints(RootModel[dict[str, Hint]]):
-    """The file `hints.yaml`: check's name to its hint."""
+if TYPE_CHECKING:
+    from roslings.course.card import Card, Hint
+    from roslings.course.mutants import Mutant
 
 
 def root() -> Path:
@@ -26,6 +23,7 @@ def root() -> Path:
 
 
 EXAMPLE = "example"
+MUTANTS = "mutants"
 
 
 def example_root() -> Path:
@@ -46,9 +44,30 @@ class Lab:
     @cached_property
     def card(self) -> Card:
         """The contract, with the points of hidden checks. Raises BadCourseFile."""
+        from roslings.course.card import Card
+        from roslings.course.hidden import hidden_points
+
         card = read_yaml(self.folder / "card.yaml", Card)
         more = hidden_points(self.hidden, card) if self.hidden else {}
         return card.model_copy(update={"points": {**card.points, **more}})
+
+    @cached_property
+    def hidden_checks(self) -> frozenset[str]:
+        """Names of the checks that students do not have. Raises BadCourseFile."""
+        if self.hidden is None:
+            return frozenset()
+        from roslings.course.card import Card
+        from roslings.course.hidden import hidden_points
+
+        return frozenset(hidden_points(self.hidden, read_yaml(self.folder / "card.yaml", Card)))
+
+    @cached_property
+    def outline(self) -> Outline:
+        """What the card says of the lab as a whole. Raises BadCourseFile."""
+        if plain := outline_in(read_tree(self.folder / "card.yaml")):
+            return plain
+        card = self.card  # says what is wrong, and where
+        return Outline(card.title, card.day, card.needs, card.package)
 
     @property
     def graders(self) -> tuple[Path, ...]:
@@ -58,6 +77,8 @@ class Lab:
     @cached_property
     def hints(self) -> dict[str, Hint]:
         """Check's name to its hint. Raises BadCourseFile."""
+        from roslings.course.card import Hints
+
         return read_yaml(self.folder / "hints.yaml", Hints).root
 
     @property
@@ -68,12 +89,12 @@ class Lab:
     @property
     def starter(self) -> Path:
         """The package that the student starts from."""
-        return self.folder / "starter" / self.card.package
+        return self.folder / "starter" / self.outline.package
 
     @property
     def solution(self) -> Path:
         """The package that gets the full score."""
-        return self.folder / "solution" / self.card.package
+        return self.folder / "solution" / self.outline.package
 
     def lesson_of(self, check: str) -> str | None:
         """Anchor of the paragraph that explains a check; None where the lesson is not there."""
@@ -83,7 +104,9 @@ class Lab:
 
     def mutants(self) -> list[Mutant]:
         """The wrong packages, by name. Raises BadCourseFile."""
-        files = sorted((self.folder / "mutants").glob("*.yaml"))
+        from roslings.course.mutants import Mutant
+
+        files = sorted((self.folder / MUTANTS).glob("*.yaml"))
         return [read_yaml(file, Mutant).model_copy(update={"name": file.stem}) for file in files]
 
 
@@ -91,7 +114,7 @@ def all_labs() -> list[Lab]:
     """Every lab of the course, in the order of its days; in a day, what needs less comes first."""
     folders = [path.parent for path in (root() / "labs").glob("*/card.yaml")]
     labs = [_lab_in(folder) for folder in folders]
-    return sorted(labs, key=lambda lab: (lab.card.day, len(lab.card.needs), lab.name))
+    return sorted(labs, key=lambda lab: (lab.outline.day, len(lab.outline.needs), lab.name))
 
 
 def lab(name: str, hidden: Path | None = None) -> Lab:

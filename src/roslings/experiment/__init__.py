@@ -5,16 +5,30 @@ behind the wall that the machine allows, so that no fault in there reaches the c
 """
 
 from roslings.experiment.declare import Experiment, experiment, experiments_of
-from roslings.experiment.measure import Choices, MeasuringFailed, measure
-from roslings.experiment.scene import Scene, mending
+from roslings.experiment.measure import (
+    Choices,
+    Measuring,
+    MeasuringFailed,
+    measure,
+    measuring_process,
+)
+from roslings.experiment.scene import Run, Scene, mending
+from roslings.experiment.unobserved import Unobserved
+from roslings.experiment.walls import NoWall, insist_on_wall
 
 __all__ = [
     "Choices",
     "Experiment",
+    "Measuring",
     "MeasuringFailed",
+    "NoWall",
+    "Run",
     "Scene",
+    "Unobserved",
     "experiment",
     "experiments_of",
+    "insist_on_wall",
     "measure",
+    "measuring_process",
     "mending",
 ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 import time
 from collections.abc import Iterator, Mapping, Sequence
@@ -21,20 +22,25 @@ from roslings.experiment.on_the_wall import (
     singing,
     trouble,
 )
+from roslings.experiment.own_time import OwnTime
 from roslings.experiment.scene import Scene
+from roslings.experiment.timing import accounting, timing
 from roslings.near import nearest
 from roslings.probe.actions import Goal, GoalGiver, GoalTaker, read_actions
 from roslings.rates import measure_rate, own_rate
 
 ANSWER_WITHIN_S = 5.0
-HEARS_WITHIN_S = 10.0
-"""A node that answers no question for so long is blocked; a busy computer may need some of it."""
+HEARS_WITHIN_S = 6.0
+"""A node that answers no question for so long of its own time is blocked."""
 
 ENDS_WITHIN_S = 45.0
 """A goal that is under way, and whose robot moves, may take so long."""
 
 RESTS_S = 8.0
 """A robot that has not moved for so long will not get there."""
+
+IDLE_S = 4.0
+"""Nor will one that was told nothing at all for so long."""
 
 STRAYS_S = 12.0
 """Nor will one that has not come nearer for so long: a slow one turns about in less."""
@@ -44,7 +50,20 @@ MOVED_RAD = 0.1
 CANCELS_WITHIN_S = 5.0
 """No end for so long after a request to cancel is none; a late one is told as late."""
 
-SHOWS_WITHIN_S = 3.0
+REFUSED_S = 0.5
+"""A goal whose cancel was refused may still be about to end by itself; it is not awaited longer."""
+
+SENDS_WITHIN_S = 6.0
+SHOWS_WITHIN_S, SHOWS_MORE_WITHIN_S = 3.0, 1.0
+"""For a feedback, and for the next ones when one was not shown."""
+
+
+def answer_to(part: str) -> str:
+    """The timed stretch in which the goal of a part is to be answered."""
+    return f"the answer to the goal {part!r}"
+
+
+HEARS = "whether the node hears"
 CALM_S = 0.7
 """So long a robot is watched after it stands: it must not be told to drive on."""
 
@@ -66,7 +85,7 @@ class Director:
         A goal that comes before is rightly refused: on a busy computer, it may.
         """
         await_action(self.scene)
-        await_turn(self.scene, self.process, self.node)
+        self._turned()
 
     @contextmanager
     def giving(self) -> Iterator[GoalGiver | None]:
@@ -90,11 +109,14 @@ class Director:
     def cancel(self, part: str, goal: Mapping[str, float], after_m: float) -> None:
         """Give a goal, cancel it when the robot has gone so far, and watch until it stands."""
         with self.giving() as giver:
-            if given := self._give(giver, part, goal):
-                self._await_way(given, after_m)
-                self._cancel(given)
-                self._watch_rest(given)
+            given = self._give(giver, part, goal)
+            if given and self._look_whether_it_hears():
+                on_its_way = self._await_way(given, after_m)
+                with timing(self.scene, part):
+                    self._cancel(given)
+                    self._watch_rest(given)
                 self._note_lateness(given)
+                self._silent = not (on_its_way and given.ended)
 
     def refuse(self, part: str, goal: Mapping[str, float]) -> None:
         """Give a goal that is to be refused; one that is accepted is cancelled at once."""
@@ -107,10 +129,12 @@ class Director:
     ) -> None:
         """Give a goal, and another one on the way; watch what becomes of the first."""
         with self.giving() as giver:
-            if given := self._give(giver, part, goal):
-                self._await_way(given, after_m)
+            given = self._give(giver, part, goal)
+            if given and self._look_whether_it_hears():
+                on_its_way = self._await_way(given, after_m)
                 second = self._give(giver, f"{part}: another", other)
-                self._await_end(given)
+                if on_its_way:
+                    self._await_end(given)
                 if second and not second.ended:
                     self._cancel(second)
 
@@ -121,7 +145,8 @@ class Director:
         if giver is None or self._silent:
             return None
         given = giver.give(dict(goal), part)
-        accepted = given.await_answer(ANSWER_WITHIN_S, lambda: self.process.alive)
+        with accounting(self.scene, answer_to(part)):
+            accepted = given.await_answer(ANSWER_WITHIN_S, lambda: self.process.alive)
         if given.seen.answered_ns is None:
             self._silent = True
             self._look_whether_it_hears()
@@ -140,37 +165,57 @@ class Director:
                 f" check up for {held_s:.2f} s"
             )
 
-    def _look_whether_it_hears(self) -> None:
-        """Does the node run its other callbacks meanwhile?"""
+    def _look_whether_it_hears(self) -> bool:
+        """Does the node run its other callbacks meanwhile? Where it does not: nothing more."""
         near = nearest(self.node.node, self.scene.seen.graph.nodes)
-        if near is None or not self.process.alive or near.found in self.scene.seen.stuck:
-            return
-        if not self.scene.probe.turned(near.found, HEARS_WITHIN_S) and self.process.alive:
-            self.scene.seen.stuck.append(near.found)
+        if near is None or not self.process.alive:
+            return False
+        stuck = self.scene.seen.stuck
+        if near.found not in stuck and not self._turned() and self.process.alive:
+            stuck.append(near.found)
+        self._silent = self._silent or bool(stuck)
+        return not stuck
+
+    def _turned(self) -> bool:
+        """Wait until the node has run the callbacks of all that came: it is complete, and spins.
+
+        The graph shows an action server before its constructor has ended, and long before it has
+        heard where the robot is.
+        """
+        near = nearest(self.node.node, self.scene.seen.graph.nodes)
+        if near is None or not self.process.alive:
+            return True
+        with accounting(self.scene, HEARS):
+            return self.scene.turned(near.found, HEARS_WITHIN_S)
 
     def _await_end(self, given: Goal) -> None:
         """Wait for the goal's end, as long as the robot moves and the node hears."""
         if self.scene.seen.stuck:
-            self._silent = True
             return
-        rest = Rest(self.robot, given.seen.goal)
-        self.scene.until(lambda: given.ended or rest.is_over(), ENDS_WITHIN_S)
+        rest = Rest(self.robot, given.seen.goal, OwnTime(self.scene.arena))
+        with accounting(self.scene, given.seen.part):
+            self.scene.until(lambda: given.ended or rest.is_over(), ENDS_WITHIN_S)
         self._silent = not given.ended
 
-    def _await_way(self, given: Goal, way_m: float) -> None:
-        """Wait until the robot has gone so far, or clearly does not go."""
-        begin, rest = self.robot.pose, Rest(self.robot, given.seen.goal)
-        self.scene.until(
-            lambda: self.robot.distance_to(begin.x_m, begin.y_m) >= way_m or rest.is_over(),
-            ENDS_WITHIN_S,
-        )
+    def _await_way(self, given: Goal, way_m: float) -> bool:
+        """Wait until the robot has gone so far, or clearly does not go; whether it has."""
+        begin = self.robot.pose
+        rest = Rest(self.robot, given.seen.goal, OwnTime(self.scene.arena))
+
+        def there() -> bool:
+            return self.robot.distance_to(begin.x_m, begin.y_m) >= way_m
+
+        self.scene.until(lambda: there() or given.ended or rest.is_over(), ENDS_WITHIN_S)
+        return there()
 
     def _cancel(self, given: Goal) -> None:
-        before_ns = self.process.waits_ns()
+        """Ask for it, and wait for the goal's end; not for long where the node says no."""
+        own = OwnTime(self.scene.arena)
         given.cancel()
-        self.scene.until(lambda: given.ended, CANCELS_WITHIN_S)
-        if now_ns := self.process.waits_ns():
-            given.seen.cpu_wait_s = longest_wait_s(before_ns, now_ns)
+        self.scene.until(lambda: given.ended or given.cancel_refused, CANCELS_WITHIN_S)
+        if given.cancel_refused:
+            self.scene.until(lambda: given.ended, REFUSED_S)
+        given.seen.cpu_wait_s = own.waited_s()
 
     def _watch_rest(self, given: Goal) -> None:
         """Watch until the robot stands, and a little longer."""
@@ -196,32 +241,24 @@ def await_action(scene: Scene) -> None:
             scene.seen.actions = ends
         return any(end.kind == "server" for end in ends)
 
-    scene.until(there, FIRST_MESSAGE_WITHIN_S)
-
-
-def await_turn(scene: Scene, process: Process, node: NodeContract) -> None:
-    """Wait until the node has run the callbacks of all that came: it is complete, and spins.
-
-    The graph shows an action server before its constructor has ended, and long before it has heard
-    where the robot is.
-    """
-    near = nearest(node.node, scene.seen.graph.nodes)
-    if near and process.alive:
-        scene.probe.turned(near.found, HEARS_WITHIN_S)
+    scene.appears(there, "an action")
 
 
 class Rest:
     """Tells that a robot will not get to a point: it stands, or has not come nearer, for long."""
 
-    def __init__(self, robot: Robot, goal: Mapping[str, float]) -> None:
-        self._robot, self._goal = robot, goal
+    def __init__(self, robot: Robot, goal: Mapping[str, float], own: OwnTime | None = None) -> None:
+        """`own` is the time of the node that is to command the robot, from now on."""
+        self._robot, self._goal, self._own = robot, goal, own
         self._nearest_m = math.inf
         self._moved_s = self._nearer_s = time.monotonic()
-        self._pose = robot.pose
+        self._pose, self._told = robot.pose, len(robot.seen.commands)
 
     def is_over(self) -> bool:
         """It has been so for long enough."""
         now_s = time.monotonic()
+        if self._own and len(self._robot.seen.commands) == self._told:
+            return self._own.is_past(IDLE_S)
         if self._moves():
             self._pose, self._moved_s = self._robot.pose, now_s
         distance_m = self._robot.distance_to(self._goal["x"], self._goal["y"])
@@ -245,7 +282,8 @@ def timed_feedback(scene: Scene, action: ActionContract) -> Iterator[None]:
         scene.probe.listen_to_canary(limit.hz)
         scene.until(lambda: bool(seen.canary and seen.canary.messages), CANARY_WITHIN_S)
         before = [process.waits_ns() for process in scene.arena.processes]
-        yield
+        with scene.timed():
+            yield
         for process, before_ns in zip(scene.arena.processes, before, strict=True):
             if now_ns := process.waits_ns():
                 process.seen.cpu_wait_s = longest_wait_s(before_ns, now_ns)
@@ -305,12 +343,14 @@ def lead(
     result: Mapping[str, Any],
 ) -> None:
     """Take the client's goal, send it feedback, each when the one before is shown, and end it."""
-    scene.until(lambda: _took_goal(scene, taker), FIRST_MESSAGE_WITHIN_S)
+    scene.until_own(lambda: _took_goal(scene, taker), SENDS_WITHIN_S)
     if not taker.has_goal:
         return
+    within_s = SHOWS_WITHIN_S
     for each, text in zip(feedback, shown, strict=True):
         taker.tell(dict(each))
-        scene.until(lambda text=text: scene.is_written(process, text), SHOWS_WITHIN_S)  # type: ignore[misc]
+        if not scene.until_own(functools.partial(scene.is_written, process, text), within_s):
+            within_s = SHOWS_MORE_WITHIN_S
     taker.end(how, dict(result))
 
 

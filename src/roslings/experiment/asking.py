@@ -11,6 +11,7 @@ from roslings.course import AnswerContract, NodeContract, ServiceContract, Topic
 from roslings.evidence import ServiceEnd
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
 from roslings.experiment.scene import Scene
+from roslings.experiment.timing import accounting, timing
 from roslings.near import nearest, nearest_endpoint
 from roslings.probe.calling import Call, Caller, Server
 from roslings.probe.services import read_services
@@ -26,6 +27,9 @@ STATE_WITHIN_S = 3.0
 STATE_MESSAGES = 2
 """The first message after an answer may have been under way before it."""
 
+CLIENT_ENDS = "a client's end"
+"""The timed stretch in which a client is to end by itself."""
+
 MOST_LATE = 0.05
 """The part of the answers that may be late: a computer does other things, too."""
 
@@ -37,13 +41,13 @@ class Asker:
         """Looks for the node's services, and waits until they are all there."""
         self._scene, self._process, self._node = scene, process, node
         self._silent = False
-        scene.until(self._all_there, FIRST_MESSAGE_WITHIN_S)
+        scene.appears(self._all_there, "all services")
 
     def ask_each(
         self, service: ServiceContract, answers: Sequence[AnswerContract], state: TopicContract
     ) -> None:
         """Ask once for each of `answers`, and watch what `state` says afterwards."""
-        with self._client_of(service) as callers:
+        with self._client_of(service) as callers, accounting(self._scene, service.service):
             for number, answer in enumerate(answers):
                 for call in self._ask(callers, [answer], service.service, number):
                     self._watch_state(call, state)
@@ -74,7 +78,7 @@ class Asker:
         part: str,
     ) -> None:
         late = 0
-        with self._client_of(service, clients) as callers:
+        with self._client_of(service, clients) as callers, timing(self._scene, part):
             for number in range(count):
                 turn = [answers[(number + each) % len(answers)] for each in range(len(callers))]
                 calls = self._ask(callers, turn, part, number)
@@ -176,7 +180,9 @@ def await_end(scene: Scene, process: Process, node: NodeContract) -> None:
     """Wait for a node that ends by itself; where it does not, look whether it is stuck."""
     scene.until(lambda: _has_clients(scene), TURNS_WITHIN_S)
     gives_up_s = node.gives_up.within_s if node.gives_up else 0.0
-    if process.wait_ended(gives_up_s + ENDS_WITHIN_S):
+    with accounting(scene, CLIENT_ENDS):
+        scene.until_own(lambda: not process.alive, gives_up_s + ENDS_WITHIN_S)
+    if not process.alive:
         return
     near = nearest(node.node, scene.seen.graph.nodes)
     if near and not scene.probe.turned(near.found, TURNS_WITHIN_S) and process.alive:

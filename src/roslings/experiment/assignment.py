@@ -7,24 +7,27 @@ from pathlib import Path
 
 from pydantic import BaseModel
 
-from roslings.arena import Place, Sandbox, Wall
-from roslings.evidence import PackageSeen
+from roslings.arena import Place, Sandbox, User, Wall
+from roslings.evidence import HeldBy, PackageSeen
 from roslings.experiment.declare import Clock
 
 
 class Assignment(BaseModel):
-    """One package to measure; both processes read it from a file in the run's folder."""
+    """What is to be done with a package, once it is told which."""
 
     lab: str
     seed: int
     wall: Wall
     sandbox: Sandbox | None = None
     """What stands around each process of the student's, where the machine allows it."""
+    user: User | None = None
+    """Who the student's processes are, where they are not the grader's own user."""
     clock: Clock = "auto"
     folder: Path
     """The run's own folder: the staged source, the build, the nodes' home, the evidence."""
-    package: PackageSeen
     keeps_bags: bool = False
+    for_others: bool = False
+    """Whether somebody believes the result who did not make it."""
     port: Path | None = None
     """Where a real board is, when it is to take the place of the one in Python."""
 
@@ -33,10 +36,14 @@ class Assignment(BaseModel):
     builds: Path | None = None
     """Where builds are shared between packages of equal content."""
 
+    def source_of(self, package: PackageSeen) -> Path:
+        """Where the copy of the package lies that is built."""
+        return self.folder / "src" / package.name
+
     @property
-    def file(self) -> Path:
-        """Where the assignment itself lies."""
-        return self.folder / "assignment.json"
+    def errors(self) -> Path:
+        """Where the measuring process writes its last words."""
+        return self.folder / "stderr"
 
     @property
     def evidence(self) -> Path:
@@ -49,27 +56,42 @@ class Assignment(BaseModel):
         return self.folder / "bags"
 
     @property
+    def held_by(self) -> HeldBy:
+        """The wall between the student's code and whoever runs the command."""
+        if self.sandbox:
+            return "namespaces"
+        return "user" if self.user else "none"
+
+    @property
+    def theirs(self) -> Path:
+        """Where the folders are that the student's processes use; another user's lie apart."""
+        return self.user.folder if self.user else self.folder
+
+    @property
     def home(self) -> Path:
         """The nodes' HOME."""
-        return self.folder / "home"
+        return self.theirs / "home"
 
     @property
     def devices(self) -> Path:
         """Where the boards and cameras are that nodes may use."""
-        return self.folder / "devices"
+        return self.theirs / "devices"
 
     @property
     def room(self) -> Path:
         """Where the package is built; behind a sandbox's walls it holds so much and no more."""
-        return self.folder / "room"
+        return self.theirs / "room"
 
     @property
     def place(self) -> Place:
         """Where the nodes live: in the room that the measuring process was put into."""
         around = replace(self.sandbox, terminals=True) if self.sandbox else None
-        return Place(self.wall, self.home, self.devices, around)
+        return Place(self.wall, self.home, self.devices, around, user=self.user)
 
     def make_folders(self) -> None:
         """Those that all of this needs. Raises OSError."""
         for folder in (self.home, self.devices, self.room):
             folder.mkdir()
+        if self.user:
+            self.user.own(self.home)
+            self.user.show(self.devices)

@@ -14,8 +14,9 @@ from roslings.devices.board.attached import AttachedBoard
 from roslings.devices.rover import Body, Box, Rover, World
 from roslings.evidence import BoardMark, BoardSeen, CableLine, Endpoint, MotorsSeen, WaySeen
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
-from roslings.experiment.scene import Scene
+from roslings.experiment.scene import Scene, hears, says
 from roslings.experiment.start import Start
+from roslings.experiment.timing import timing
 from roslings.near import nearest_endpoint
 
 SAY_EVERY_S = 0.05
@@ -23,6 +24,9 @@ STANDS_WITHIN_S = 5.0
 STANDS_RAD_S = 0.02
 SETTLES_LINES = 10
 """So many messages after the wheels stand, what was said before has been worked through."""
+
+SPEAKS_WITHIN_S = 8.0
+"""A complete node's own time until its first message: some wait until the board has started."""
 
 COMES_BACK_WITHIN_S = 40.0
 LONGEST_LINE = 200
@@ -95,10 +99,11 @@ class Cable:
         ear = self._ear(topic)
         if ear is None:
             return
-        until_s = self._now_s + for_s
-        while self._now_s < until_s and self.say(ear, forward_m_s, turn_rad_s):
-            self._scene.until(self._goes_on, SAY_EVERY_S)
-        self.mark(part)
+        with timing(self._scene, part):
+            until_s = self._now_s + for_s
+            while self._now_s < until_s and self.say(ear, forward_m_s, turn_rad_s):
+                self._scene.until(self._goes_on, SAY_EVERY_S)
+            self.mark(part)
 
     def flood(self, topic: TopicContract, motions: Sequence[tuple[float, float]]) -> None:
         """Say many motions without a pause between them."""
@@ -109,7 +114,8 @@ class Cable:
 
     def rest(self, part: str, counted: TopicContract) -> None:
         """Say nothing until the wheels stand and the node has told so; marks where the rover is."""
-        self._scene.until(self._stands, STANDS_WITHIN_S)
+        with timing(self._scene, part):
+            self._scene.until(self._stands, STANDS_WITHIN_S)
         behind = self._lines() - self._heard(counted) - self._never_heard
         self.await_messages(counted, max(0, behind) + SETTLES_LINES, STANDS_WITHIN_S)
         self.mark(part)
@@ -124,9 +130,29 @@ class Cable:
     def await_messages(
         self, topic: TopicContract, count: int, within_s: float = COMES_BACK_WITHIN_S
     ) -> bool:
-        """Wait until so many more messages came on a topic, or on the one nearest to it."""
+        """Wait until so many more messages came on a topic, or on the one nearest to it.
+
+        The board is there: a node that says nothing at all for long is not waited for again.
+        """
         before = self._heard(topic)
+        if not self._scene.hear(topic, grace_s=SPEAKS_WITHIN_S):
+            return False
         return self._scene.until(lambda: self._heard(topic) >= before + count, within_s)
+
+    def await_return(self, topic: TopicContract, count: int) -> bool:
+        """The same after the board was away: a node may take long until it looks again.
+
+        Where it is silent beside a board that is there, it is not waited for.
+        """
+        before = self._heard(topic)
+
+        def come() -> bool:
+            return self._heard(topic) >= before + count
+
+        self._scene.until_own(
+            lambda: come() or self._scene.is_missed(says(topic)), COMES_BACK_WITHIN_S
+        )
+        return come()
 
     def live(self, for_s: float) -> None:
         """Let so much of the board's time pass."""
@@ -174,8 +200,9 @@ class Cable:
 
     def write_down(self) -> None:
         """Put what the board and its cable saw into the evidence."""
+        keeps = self._scene.probe.store.keeps
         self.seen.told = lines_of(self.board.told)
-        self.seen.heard = lines_of(self.board.heard)
+        self.seen.heard = [each for each in lines_of(self.board.heard) if keeps("requests", each)]
         self.seen.rejected = self._chip.counts.rejected
         self.seen.lost_bytes = self.board.lost_bytes
         self.seen.motors = [
@@ -210,7 +237,7 @@ class Cable:
             graph = self._scene.seen.graph
             return nearest_endpoint(graph, "subscription", topic.topic, topic.type)
 
-        self._scene.until(lambda: find() is not None, FIRST_MESSAGE_WITHIN_S)
+        self._scene.appears(lambda: find() is not None, hears(topic))
         return find()
 
 

@@ -25,8 +25,8 @@ class Experiment:
     function: Callable[..., None]
     clock: Literal["auto", "wall"] = "wall"
     """`auto` where it makes sense in simulated time as well; most experiments do not."""
-    alongside: bool = False
-    """It mostly waits, so it runs beside the others, in an arena of its own."""
+    unobserved: bool = False
+    """Nothing of ours joins its domain; made only where the result is for others."""
 
     @property
     def about(self) -> str:
@@ -44,13 +44,13 @@ class Experiment:
 def experiment(function: Callable[..., None]) -> Experiment: ...
 @overload
 def experiment(
-    *, clock: Literal["auto", "wall"] = "wall", alongside: bool = False
+    *, clock: Literal["auto", "wall"] = "wall", unobserved: bool = False
 ) -> Callable[[Callable[..., None]], Experiment]: ...
 def experiment(
     function: Callable[..., None] | None = None,
     *,
     clock: Literal["auto", "wall"] = "wall",
-    alongside: bool = False,
+    unobserved: bool = False,
 ) -> Experiment | Callable[[Callable[..., None]], Experiment]:
     """Make a function of a grader's file an experiment.
 
@@ -61,7 +61,7 @@ def experiment(
     """
 
     def declare(function: Callable[..., None]) -> Experiment:
-        return Experiment(function.__name__, function, clock, alongside)
+        return Experiment(function.__name__, function, clock, unobserved)
 
     return declare(function) if function else declare
 

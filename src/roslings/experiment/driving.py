@@ -101,13 +101,13 @@ class Robot:
                 self._rover.drive(motion)
         except (AttributeError, ValueError):  # another type; a speed that is no number
             return
-        self.seen.commands.append(
-            CommandSeen(
-                arrival_ns=time.monotonic_ns(),
-                forward_m_s=motion.forward_m_s,
-                turn_rad_s=motion.turn_rad_s,
-            )
+        command = CommandSeen(
+            arrival_ns=time.monotonic_ns(),
+            forward_m_s=motion.forward_m_s,
+            turn_rad_s=motion.turn_rad_s,
         )
+        if self._probe.store.keeps("requests", command):
+            self.seen.commands.append(command)
         self._probe.notify()
 
     def _live(self) -> None:
@@ -169,7 +169,7 @@ def _found(
         found = find()
         return found is not None and found.type == contract.type
 
-    scene.until(there, FIRST_MESSAGE_WITHIN_S)
+    scene.appears(there, f"a {kind} on {contract.topic} of its type")
     return find()
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import os
 import time
 from collections.abc import Iterator, Sequence
@@ -13,9 +14,9 @@ from roslings.devices.camera import Frame, Light, SocketCamera, SyntheticCamera
 from roslings.devices.rover import Disc
 from roslings.evidence import StageMark
 from roslings.experiment.looking import IMAGE, FilmLooker
-from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
-from roslings.experiment.scene import Scene
+from roslings.experiment.scene import Scene, says
 from roslings.experiment.start import Start
+from roslings.experiment.timing import accounting
 from roslings.near import nearest, nearest_endpoint
 from roslings.probe.calling import set_parameter
 
@@ -25,7 +26,12 @@ PICTURES = 16
 GRAIN = 6.0
 """Noise, in levels: it tells two pictures apart where they show the same."""
 
-SAYS_WITHIN_S = 8.0
+SAYS_WITHIN_S, SILENT_WITHIN_S = 6.0, 1.5
+"""For a trouble, and for one after another that it did not tell of."""
+
+SHOWS_WITHIN_S = 4.0
+"""A complete node's own time until its first picture: it may open its camera by a timer."""
+
 ANSWERS_WITHIN_S = 5.0
 COMES_WITHIN_S = 20.0
 
@@ -68,6 +74,8 @@ class Filming:
     ) -> None:
         self.camera = camera
         self._scene, self._looker, self._parameter = scene, looker, parameter
+        self._speechless, self._part = False, "film"
+        """It did not tell of the last trouble."""
 
     def start(self) -> Start:
         """How the node is started: with the name of this camera."""
@@ -75,12 +83,35 @@ class Filming:
 
     def begin(self, part: str) -> None:
         """A part of the experiment begins."""
+        self._part = part
         self._scene.seen.stages.append(StageMark(part=part, at_ns=time.monotonic_ns()))
 
     def await_pictures(self, topic: TopicContract, count: int) -> bool:
-        """Wait until so many more pictures came on a topic, or on the one nearest to it."""
-        before = self._heard(topic)
-        return self._scene.until(lambda: self._heard(topic) >= before + count, COMES_WITHIN_S)
+        """Wait until so many more pictures came on a topic, or on the one nearest to it.
+
+        The camera is there: a node that shows nothing at all for long is not waited for again.
+        """
+        began_ns = time.monotonic_ns()
+        if not self._scene.hear(topic, grace_s=SHOWS_WITHIN_S):
+            return False
+        return self._scene.until_own(
+            lambda: self._came_after(began_ns, topic) >= count, COMES_WITHIN_S
+        )
+
+    def await_return(self, topic: TopicContract, count: int) -> bool:
+        """The same after the camera was away: a node may take long until it looks again.
+
+        Where it shows nothing beside a camera that is there, it is not waited for.
+        """
+        began_ns = time.monotonic_ns()
+
+        def come() -> bool:
+            return self._came_after(began_ns, topic) >= count
+
+        missed = functools.partial(self._scene.is_missed, says(topic))
+        with accounting(self._scene, self._part):
+            self._scene.until_own(lambda: come() or missed(), COMES_WITHIN_S)
+        return come()
 
     def refuse(self, number: int) -> None:
         """From now on, opening the camera answers with this error; 0 for none."""
@@ -98,22 +129,26 @@ class Filming:
         def said() -> bool:
             return any(word in line.text for line in process.lines()[before:] for word in words)
 
-        return self._scene.until(said, SAYS_WITHIN_S)
+        within_s = SILENT_WITHIN_S if self._speechless else SAYS_WITHIN_S
+        with accounting(self._scene, self._part):
+            self._speechless = not self._scene.until_own(said, within_s)
+        return not self._speechless
 
     def expect_lighter(self, levels: float) -> None:
         """From now on, pictures may be lighter by so many levels of 255."""
         self._looker.expect_lighter(levels)
 
-    def _heard(self, topic: TopicContract) -> int:
+    def _came_after(self, began_ns: int, topic: TopicContract) -> int:
+        """By their arrival: on a busy computer, pictures of before may still wait to be read."""
         found = nearest_endpoint(self._scene.seen.graph, "publisher", topic.topic, topic.type)
-        return self._scene.probe.count(found.topic) if found else 0
+        came = self._scene.probe.messages(found.topic) if found else []
+        return sum(picture.arrival_ns > began_ns for picture in came)
 
 
 def change_parameter(
     scene: Scene, node: NodeContract, name: str, value: bool | int | float | str
 ) -> bool:
     """Set a parameter of a running node, or of the one nearest to it; whether it agreed."""
-    scene.until(lambda: bool(scene.seen.graph.nodes), FIRST_MESSAGE_WITHIN_S)
     near = nearest(node.node, scene.seen.graph.nodes)
     if near is None:
         return False

@@ -1,54 +1,51 @@
-"""The measuring process as a fork: what all gradings of a lab need is loaded once, before.
+"""The measuring process: a fork, which has all that its parent has loaded.
 
-For a process that measures often. It must have no threads of its own.
+It has a session of its own: Ctrl-C in the terminal reaches the command alone, which then asks the
+process to end in order. It works in the run's folder, not in the student's: a file `random.py`
+there would be imported in Python's place. Whoever forks must have no threads of its own.
 """
 
 from __future__ import annotations
 
 import os
-import re
 import subprocess
 import sys
 from contextlib import suppress
-from functools import cache
 from multiprocessing import get_context
-from pathlib import Path
 
-from roslings.arena import Isolation, choose_isolation, kernel, ros_environment
-from roslings.course import lab
+from roslings.arena import Isolation, kernel
+from roslings.evidence import PackageSeen
 from roslings.experiment.assignment import Assignment
-from roslings.experiment.declare import load_grader
 from roslings.experiment.measuring import carry_out
-from roslings.probe.beforehand import load_ros
-
-TYPES = re.compile(r'"(\w+/(?:msg|srv|action)/\w+)"')
-"""Names of message types in a card."""
-
-
-@cache
-def load_beforehand(name: str, hidden: Path | None = None) -> None:
-    """Load rclpy, the middleware, the lab's message types and its graders; choose the walls.
-
-    What cannot be loaded is told by the grading that needs it.
-    """
-    with suppress(Exception):
-        os.environ.update(ros_environment(choose_isolation().wall))
-        task = lab(name, hidden)
-        load_ros(TYPES.findall(task.card.model_dump_json()))
-        for grader in task.graders:
-            load_grader(grader)
 
 
 class Fork:
-    """A measuring process that has all that this one has loaded."""
+    """A measuring process; it begins when it is told of a package."""
 
     def __init__(self, assignment: Assignment, walls: Isolation, errors: int) -> None:
+        """Its last words go into the file of the descriptor `errors`."""
         steps, told = os.pipe()
-        words = (os.getpid(), assignment, walls, told, errors)
+        heard, voice = os.pipe()
+        words = (os.getpid(), assignment, walls, (heard, told, errors), (steps, voice))
         self._process = get_context("fork").Process(target=_live, args=words)
         self._process.start()
         os.close(told)
+        os.close(heard)
+        self._voice = open(voice, "w", encoding="utf-8")  # noqa: PTH123, SIM115
         self.stdout = open(steps, encoding="utf-8")  # noqa: PTH123, SIM115
+        """A line of text a step."""
+
+    def tell(self, package: str) -> None:
+        """Say what stands in the package's files, as JSON: it is built from now on."""
+        with suppress(BrokenPipeError):  # it is gone, and its last words tell why
+            self._voice.write(package)
+            self._voice.close()
+
+    def close(self) -> None:
+        """Close our ends of what joins us with it."""
+        self.stdout.close()
+        with suppress(BrokenPipeError):
+            self._voice.close()
 
     def poll(self) -> int | None:
         """Its status; None while it runs."""
@@ -70,16 +67,24 @@ class Fork:
         self._process.kill()
 
 
-def _live(begun_by: int, assignment: Assignment, walls: Isolation, told: int, errors: int) -> None:
-    """In the fork, to its end."""
+def _live(
+    begun_by: int,
+    assignment: Assignment,
+    walls: Isolation,
+    ends: tuple[int, int, int],
+    others: tuple[int, int],
+) -> None:
+    """In the fork, to its end. `ends` become its standard streams; `others` are its parent's."""
     os.setsid()
-    for number, target in ((1, told), (2, errors)):
+    for number, target in enumerate(ends):
         os.dup2(target, number)
-    os.close(told)
+    for each in (*ends, *others):
+        os.close(each)
     sys.stdout = open(1, "w", encoding="utf-8", closefd=False)  # noqa: SIM115
     sys.stderr = open(2, "w", encoding="utf-8", closefd=False)  # noqa: SIM115
     os.chdir(assignment.folder)
     walls.enter(assignment.room)
     kernel.die_with_parent()
-    if os.getppid() == begun_by:  # the folder's lock tells a fork nothing: it holds it as well
-        carry_out(assignment)
+    package = open(0, encoding="utf-8", closefd=False).read()  # noqa: SIM115
+    if package and os.getppid() == begun_by:  # else nobody wants to know any more
+        carry_out(assignment, PackageSeen.model_validate_json(package))

@@ -14,6 +14,9 @@ from roslings.experiment.scene import COMES_UP_WITHIN_S, Scene
 ENGINE = Path(__file__).parents[1]
 ROS2 = ENGINE / "ros2" / "start.py"
 LABEL = "ros2 launch"
+NEXT_NODE_S = 4.0
+"""A launch starts its nodes at once; so much later than the one before, none comes any more."""
+
 CREW_ENDS_WITHIN_S = 8.0
 """The launch waits 5 s for its nodes before it becomes stern with them."""
 
@@ -26,6 +29,7 @@ def launched(scene: Scene, package: str, contract: LaunchContract) -> Iterator[P
         process.seen.executable = f"{LABEL} {package} {contract.name}"
         scene.seen.processes[LABEL] = process.seen
         count = len(contract.starts)
-        scene.until(lambda: len(scene.seen.graph.nodes) >= count, COMES_UP_WITHIN_S)
+        scene.until(lambda: bool(scene.seen.graph.nodes), COMES_UP_WITHIN_S)
+        scene.appears(lambda: len(scene.seen.graph.nodes) >= count, f"{count} nodes", NEXT_NODE_S)
         yield process
         process.interrupt(CREW_ENDS_WITHIN_S)

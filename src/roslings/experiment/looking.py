@@ -135,6 +135,7 @@ class MarkLooker:
         seen.spoiled = float(drawn[~near].mean())
         seen.swapped_off = float(swapped[~near].mean())
         seen.marked = float(drawn[near].mean()) if near.any() else 0.0
+        seen.swapped_marked = float(swapped[near].mean()) if near.any() else 0.0
 
     def _near(self, shape: tuple[int, ...]) -> npt.NDArray[np.bool_]:
         if self._disc is None:

@@ -7,10 +7,10 @@ import platform
 
 import roslings
 from roslings.arena import Wall
-from roslings.evidence import MachineSeen
+from roslings.evidence import HeldBy, MachineSeen
 
 
-def look_at_machine(wall: Wall) -> MachineSeen:
+def look_at_machine(wall: Wall, held_by: HeldBy | None = None) -> MachineSeen:
     """What an appeal needs to know to measure again in the same way."""
     return MachineSeen(
         roslings=roslings.__version__,
@@ -19,4 +19,5 @@ def look_at_machine(wall: Wall) -> MachineSeen:
         python=platform.python_version(),
         platform=f"{platform.system()} {platform.release()} {platform.machine()}",
         isolation=wall,
+        wall=held_by,
     )

@@ -9,11 +9,11 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from roslings.arena import Isolation, choose_isolation
+from roslings.arena import Isolation, choose_isolation, isolation_for_strangers
 from roslings.evidence import Evidence, PackageSeen
 from roslings.experiment.assignment import Assignment
-from roslings.experiment.begin import Begin, Begun, in_a_fresh_python
 from roslings.experiment.declare import Clock
+from roslings.experiment.forked import Fork
 from roslings.experiment.run_folder import run_folder
 from roslings.workspace.student import stage
 from roslings.workspace.trouble import DiskFull
@@ -46,56 +46,83 @@ class Choices:
     """A grader's file that students do not have."""
     builds: Path | None = None
     """A folder in which packages of equal content share one build."""
-    begin: Begin = in_a_fresh_python
-    """How the measuring process begins."""
+    strangers: bool = False
+    """Whether somebody else's package is graded: then the wall for strangers' code is taken."""
+    for_others: bool = False
+    """Whether somebody else believes the result, trusted package or not."""
+
+
+class Measuring:
+    """A measuring process that has begun, and waits for the package that it is to measure."""
+
+    def __init__(self, assignment: Assignment, walls: Isolation, process: Fork) -> None:
+        self._order, self._walls, self._process = assignment, walls, process
+
+    def measure(
+        self,
+        package: Path,
+        seen: PackageSeen,
+        on_step: Callable[[str], None],
+        meanwhile: Callable[[], object] = lambda: None,
+    ) -> Evidence:
+        """Build and run the package at `package`; `on_step` is told what happens.
+
+        `meanwhile` is called while colcon builds. Raises MeasuringFailed, DiskFull, and whatever
+        staging a copy of the package raises.
+        """
+        stage(package, self._order.source_of(seen))
+        self._process.tell(seen.model_dump_json())
+        meanwhile()
+        self._follow(on_step)
+        evidence = Evidence.model_validate_json(self._order.evidence.read_bytes())
+        if self._walls.because:
+            because = f"Measured without a network of its own: {self._walls.because}."
+            evidence.advice.append(because)
+        return evidence
+
+    def _follow(self, on_step: Callable[[str], None]) -> None:
+        for line in self._process.stdout:
+            on_step(line.rstrip())
+        if status := self._process.wait():
+            if shutil.disk_usage(self._order.folder).free < ROOM_NEEDED_BYTES:
+                raise DiskFull(self._order.folder)
+            words = self._order.errors.read_text("utf-8", errors="replace").splitlines()
+            raise MeasuringFailed(status, "\n".join(words[-LAST_WORDS:]))
+
+
+@contextmanager
+def measuring_process(lab: str, choices: Choices) -> Iterator[Measuring]:
+    """A measuring process behind the machine's best wall; it ends with the block.
+
+    It is a fork: begin before this process has threads.
+    """
+    walls = isolation_for_strangers() if choices.strangers else choose_isolation()
+    with run_folder() as folder, walls.user() as user:
+        assignment = Assignment(
+            lab=lab, seed=choices.seed, wall=walls.wall, sandbox=walls.sandbox,
+            clock=choices.clock, folder=folder, keeps_bags=choices.bags is not None,
+            port=choices.port, hidden=choices.hidden, user=user,
+            builds=None if user else choices.builds, for_others=choices.for_others,
+        )  # fmt: skip
+        assignment.make_folders()
+        with assignment.errors.open("wb") as errors:
+            fork = Fork(assignment, walls, errors.fileno())
+        with _ended(fork) as process:
+            yield Measuring(assignment, walls, process)
+        if choices.bags is not None and assignment.bags.is_dir():
+            shutil.copytree(assignment.bags, choices.bags)
 
 
 def measure(
     lab: str, package: Path, seen: PackageSeen, choices: Choices, on_step: Callable[[str], None]
 ) -> Evidence:
-    """Build and run the package at `package`; `on_step` is told what happens.
-
-    Raises MeasuringFailed, and whatever staging a copy of the package raises.
-    """
-    with run_folder() as folder:
-        wall = choose_isolation()
-        assignment = Assignment(
-            lab=lab, seed=choices.seed, wall=wall.wall, sandbox=wall.sandbox,
-            clock=choices.clock, folder=folder,
-            package=seen, keeps_bags=choices.bags is not None, port=choices.port,
-            hidden=choices.hidden, builds=choices.builds,
-        )  # fmt: skip
-        assignment.make_folders()
-        stage(package, folder / "src" / seen.name)
-        _follow(choices.begin, assignment, wall, on_step)
-        evidence = Evidence.model_validate_json(assignment.evidence.read_text("utf-8"))
-        if choices.bags is not None and assignment.bags.is_dir():
-            shutil.copytree(assignment.bags, choices.bags)
-    if wall.because:
-        evidence.advice.append(f"Measured without a network of its own: {wall.because}.")
-    return evidence
-
-
-def _follow(
-    begin: Begin, order: Assignment, walls: Isolation, on_step: Callable[[str], None]
-) -> None:
-    """Follow the measuring process to its end. Raises MeasuringFailed, DiskFull."""
-    folder = order.folder
-    errors = folder / "stderr"
-    with errors.open("wb") as stderr, _ended(begin(order, walls, stderr.fileno())) as process:
-        assert process.stdout is not None
-        for line in process.stdout:
-            on_step(line.rstrip())
-        status = process.wait()
-    if status:
-        if shutil.disk_usage(folder).free < ROOM_NEEDED_BYTES:
-            raise DiskFull(folder)
-        words = errors.read_text("utf-8", errors="replace").splitlines()[-LAST_WORDS:]
-        raise MeasuringFailed(status, "\n".join(words))
+    """Begin to measure, and measure the package at `package`, as `Measuring` does."""
+    with measuring_process(lab, choices) as begun:
+        return begun.measure(package, seen, on_step)
 
 
 @contextmanager
-def _ended(process: Begun) -> Iterator[Begun]:
+def _ended(process: Fork) -> Iterator[Fork]:
     """A process that ends with the block, after it has ended all that it started."""
     try:
         yield process
@@ -107,5 +134,4 @@ def _ended(process: Begun) -> Iterator[Begun]:
             except subprocess.TimeoutExpired:
                 process.kill()
                 process.wait()
-        if process.stdout is not None:
-            process.stdout.close()
+        process.close()

@@ -1,40 +1,53 @@
-"""The measuring process: build the package, run the grader's experiments, write the evidence.
-
-    python -m roslings.experiment.measuring ASSIGNMENT
+"""In the measuring process: build the package, run the grader's experiments, write the evidence.
 
 It writes one line of text a step to standard output, for the command to show.
 """
 
 from __future__ import annotations
 
+import functools
 import os
 import shutil
 import signal
 import sys
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
-from dataclasses import dataclass, field
-from pathlib import Path
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from dataclasses import dataclass, field, replace
 from types import FrameType
 from typing import Literal
 
-from roslings.arena import CannotStart, Installed, kernel, opened, ros_environment
-from roslings.course import lab
+from roslings.arena import CannotStart, Installed, opened, ros_environment
+from roslings.course import Card, lab
 from roslings.devices.trouble import DeviceTrouble
 from roslings.endings import must_end_again
-from roslings.evidence import BuildSeen, Evidence, ExperimentSeen
-from roslings.experiment.alongside import Alongside
+from roslings.evidence import (
+    BuildSeen,
+    Evidence,
+    ExperimentSeen,
+    PackageSeen,
+    Span,
+    evidence_json,
+)
+from roslings.experiment.alongside import MOST_AT_ONCE, Alongside
 from roslings.experiment.assignment import Assignment
+from roslings.experiment.beforehand import load_beforehand
 from roslings.experiment.declare import Experiment, experiments_of, load_grader
 from roslings.experiment.machine import look_at_machine
-from roslings.experiment.run_folder import is_abandoned
+from roslings.experiment.packets import Tap, tapped
+from roslings.experiment.presence import Absences
 from roslings.experiment.scene import Scene
 from roslings.experiment.simulated import clock_publishers
+from roslings.experiment.turns import Turns
+from roslings.experiment.unobserved import Unobserved
 from roslings.probe import Probe
-from roslings.probe.bag import MOST_BYTES, fresh_folder, write_bag
+from roslings.probe.bag import fresh_folder, write_bag
+from roslings.probe.budget import GRADING_BYTES, LARGE_BYTES, Budget
+from roslings.probe.ear import ALL_QUEUES_BYTES
+from roslings.timeline import noted
 from roslings.workspace.build import BuildRoom, build
 from roslings.workspace.shared_build import shared_build
 
+LARGE_TYPES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/PointCloud2")
 MOST_RUNS = 3
 """A busy computer is given two more chances; then the verdict is inconclusive."""
 
@@ -43,68 +56,63 @@ class Stopped(BaseException):
     """The command wants this process to end: leave every block, and end what it started."""
 
 
-def main(path: Path) -> None:
-    """Measure what the file at `path` asks for."""
-    kernel.die_with_parent()
-    assignment = Assignment.model_validate_json(path.read_text("utf-8"))
-    if not is_abandoned(assignment.folder):
-        carry_out(assignment)
-
-
-def carry_out(assignment: Assignment) -> None:
+def carry_out(assignment: Assignment, package: PackageSeen) -> None:
     """Measure, and put the evidence where the command looks for it; the process's whole life."""
     signal.signal(signal.SIGTERM, _stop)
-    os.environ.update(ros_environment(assignment.wall))
     os.environ["ROS_LOG_DIR"] = str(assignment.folder / "log")  # not in the student's ~/.ros
     try:
-        evidence = measure_here(assignment)
+        evidence = measure_here(assignment, package)
     except (DeviceTrouble, CannotStart) as trouble:
         sys.exit(str(trouble))
-    assignment.evidence.write_text(evidence.model_dump_json(by_alias=True), "utf-8")
+    assignment.evidence.write_bytes(evidence_json(evidence))
 
 
 def _stop(number: int, frame: FrameType | None) -> None:
     raise Stopped
 
 
-def measure_here(assignment: Assignment) -> Evidence:
-    """Build, and run the experiments in their order."""
+def measure_here(assignment: Assignment, package: PackageSeen) -> Evidence:
+    """Build, and run the experiments."""
     task = lab(assignment.lab, assignment.hidden)
-    say(f"Building {task.card.package} with colcon")
-    seen, installed = _build(assignment, task.card.package)
+    if assignment.for_others:
+        load_beforehand(assignment.lab, assignment.hidden)  # nothing a build does can change it
+    timeline: list[Span] = []
+    say(f"Building {package.name} with colcon")
+    with noted(timeline, "building", package.name):
+        seen, installed = _build(assignment, package, task.card.builds_within_s)
     evidence = Evidence(
         lab=task.name,
         seed=assignment.seed,
-        machine=look_at_machine(assignment.wall),
-        package=assignment.package,
+        machine=look_at_machine(assignment.wall, assignment.held_by),
+        package=package,
         build=seen,
     )
     if installed:
-        stage = Stage(installed, assignment, task.card.ends_within_s)
-        declared = [each for file in task.graders for each in experiments_of(load_grader(file))]
+        paced = carries_pictures(task.card)
+        os.environ.update(ros_environment(assignment.wall, paced))
+        stage = Stage(installed, assignment, task.card.ends_within_s, timeline, paced)
+        declared = [each for file in task.graders for each in experiments_of(load_grader(file))
+                    if assignment.for_others or not each.unobserved]  # fmt: skip
         _run_all(stage, declared, evidence)
+    evidence.timeline = timeline
     evidence.advice.extend(advice_on_clocks(evidence))
     return evidence
 
 
 def _run_all(stage: Stage, declared: Sequence[Experiment], evidence: Evidence) -> None:
-    """Run the experiments in their order, beside those that mostly wait."""
-    with Alongside(stage.run_alone, stage.call_off) as alongside:
+    """Run the experiments side by side; the evidence has them in their order."""
+    with Alongside(stage.runs_of, stage.call_off, stage.at_once) as alongside:
         for number, each in enumerate(declared):
-            if stage.runs_alongside(each):
-                say(f"Watching meanwhile: {each.about}")
-                alongside.begin(each, number)
-        for number, each in enumerate(declared):
-            runs = alongside.runs_of(each)
-            if runs is None:
-                say(f"Watching: {each.about}")
-                runs = stage.runs_of(each, number, _asked_for(each, evidence))
-            *attempts, evidence.experiments[each.name] = runs
+            alongside.begin(each, number)
+        for each in declared:
+            *attempts, evidence.experiments[each.name] = alongside.runs_of(each)
             evidence.attempts.extend(attempts)
 
 
-def _asked_for(each: Experiment, evidence: Evidence) -> list[ExperimentSeen]:
-    return [evidence.experiments[name] for name in each.needs]
+def carries_pictures(card: Card) -> bool:
+    """Its nodes send or hear messages that go in many pieces."""
+    topics = (topic for node in card.nodes for topic in (*node.publishes, *node.subscribes))
+    return any(topic.type in LARGE_TYPES for topic in topics)
 
 
 def advice_on_clocks(evidence: Evidence) -> list[str]:
@@ -130,13 +138,17 @@ def _would_have_spoken(seen: ExperimentSeen) -> bool:
     return spoke and not any(process.ended_by_itself for process in seen.processes.values())
 
 
-def _build(assignment: Assignment, package: str) -> tuple[BuildSeen, Installed | None]:
-    source = assignment.folder / "src" / package
+def _build(
+    assignment: Assignment, package: PackageSeen, within_s: float
+) -> tuple[BuildSeen, Installed | None]:
+    """Meanwhile, what the experiments need is loaded: colcon has a processor of its own."""
+    source, place = assignment.source_of(package), assignment.place
     if assignment.builds:
-        return shared_build(assignment.builds, source, assignment.room, assignment.place)
-    room = BuildRoom(assignment.room, package)
-    shutil.copytree(source, room.source, symlinks=True)
-    return build(room, assignment.place)
+        return shared_build(assignment.builds, source, assignment.room, place, within_s)
+    alone = BuildRoom(assignment.room, package.name)
+    shutil.copytree(source, alone.source, symlinks=True)
+    load = functools.partial(load_beforehand, assignment.lab, assignment.hidden)
+    return build(alone, place, within_s, load)
 
 
 @dataclass(frozen=True)
@@ -146,19 +158,27 @@ class Stage:
     installed: Installed
     assignment: Assignment
     ends_within_s: float
+    timeline: list[Span] = field(default_factory=list)
+    """What was done when."""
+    paced: bool = False
+    """Whether its messages are larger than the network's buffers."""
     probes: set[Probe] = field(default_factory=set)
     """Those that watch now."""
+    turns: Turns = field(default_factory=Turns)
+    absences: Absences = field(default_factory=Absences)
+    keeps: Budget = field(default_factory=lambda: Budget(GRADING_BYTES))
+    """What the evidence of all experiments may take."""
+    queues: Budget = field(default_factory=lambda: Budget(ALL_QUEUES_BYTES))
+    """What the middleware may hold for those that watch now."""
 
-    def runs_alongside(self, each: Experiment) -> bool:
-        """Whether it runs beside others: a real board is there for one at a time."""
-        return each.alongside and self.assignment.port is None
-
-    def run_alone(self, each: Experiment, number: int) -> list[ExperimentSeen]:
-        """Run an experiment that asks for no other's evidence."""
-        return self.runs_of(each, number, ())
+    @property
+    def at_once(self) -> int:
+        """How many experiments run side by side: a real board is there for one at a time."""
+        return MOST_AT_ONCE if self.assignment.port is None else 1
 
     def call_off(self) -> None:
         """Make all that watch end soon."""
+        self.turns.call_off()
         for probe in set(self.probes):
             probe.call_off()
 
@@ -169,6 +189,7 @@ class Stage:
 
         Where a node ended badly in it, all that once more.
         """
+        say(f"Watching: {each.about}")
         runs = [*self._until_believed(each, number, earlier)]
         if must_end_again(runs[-1], [*earlier, *runs[:-1]], self.ends_within_s):
             say("A node did not end well; once more, to be sure")
@@ -198,18 +219,39 @@ class Stage:
     ) -> ExperimentSeen:
         """Run an experiment once, in a fresh arena."""
         seen = ExperimentSeen(name=each.name, clock=clock)
-        large_bytes = MOST_BYTES if self.assignment.keeps_bags else 0
+        place = replace(self.assignment.place, paced=self.paced)
+        if each.unobserved:
+            with (
+                opened(self.installed, place) as arena,
+                self._reading_along(arena.domain_id) as tap,
+            ):
+                each.function(Unobserved(arena, seen, self.ends_within_s, tap), *earlier)
+            return seen
+        large_bytes = LARGE_BYTES if self.assignment.keeps_bags else 0
         with (
-            opened(self.installed, self.assignment.place) as arena,
-            Probe(arena.domain_id, seen, large_bytes=large_bytes) as probe,
+            opened(self.installed, place) as arena,
+            Probe(
+                arena.domain_id,
+                seen,
+                large_bytes=large_bytes,
+                whole=self.keeps,
+                queues=self.queues,
+            ) as probe,
             self._watching(probe),
         ):
             seed, port = self.assignment.seed + number, self.assignment.port
-            scene = Scene(arena, probe, seed, self.ends_within_s, port)
+            scene = Scene(
+                arena, probe, seed, self.ends_within_s, port, self.turns, self.timeline,
+                self.absences,
+            )  # fmt: skip
             each.function(scene, *earlier)
         if self.assignment.keeps_bags:
             write_bag(fresh_folder(self.assignment.bags / each.name), seen, probe.recorders)
         return seen
+
+    def _reading_along(self, domain: int) -> AbstractContextManager[Tap | None]:
+        """Where there is no wall, nodes speak through shared memory: no packet shows that."""
+        return nullcontext() if self.assignment.wall == "domain" else tapped(domain)
 
     @contextmanager
     def _watching(self, probe: Probe) -> Iterator[None]:
@@ -223,7 +265,3 @@ class Stage:
 def say(step: str) -> None:
     """Tell the command what happens now."""
     print(step, flush=True)
-
-
-if __name__ == "__main__":
-    main(Path(sys.argv[1]))

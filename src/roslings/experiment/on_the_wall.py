@@ -9,9 +9,10 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 
-from roslings.arena import Arena
+from roslings.arena import LONGEST_WAIT_S, Arena
 from roslings.course import RateContract
 from roslings.evidence import CanarySeen, Endpoint, ExperimentSeen
+from roslings.experiment.turns import Turns
 from roslings.probe import Probe, canary
 from roslings.rates import LONGEST_STALL_S, MOST_UNEVEN, NS_PER_S, Rate, measure_rate, own_rate
 
@@ -48,8 +49,9 @@ class WallWatch:
     publisher: Callable[[], Endpoint | None]
     until: Callable[[Callable[[], bool], float], bool]
     """Waits for a condition, as long as every process lives."""
-    until_there: Callable[[Callable[[], bool]], bool]
-    """Waits for what a node does first; longer where it waits for a processor."""
+    until_heard: Callable[[], bool]
+    """Waits for the first message, as long as that is not in vain."""
+    turns: Turns = field(default_factory=Turns)
     _began: list[dict[str, int]] = field(default_factory=list)
     _judged: int = -1
     _sure: bool = False
@@ -59,16 +61,21 @@ class WallWatch:
         seen = self.probe.seen
         with singing(self.limit.hz, self.arena.domain_id):
             self.probe.listen_to_canary(self.limit.hz)
-            self.until_there(lambda: bool(self._count()))
-            self.until(self._canary_sings, CANARY_WITHIN_S)
+            with self.turns.busy():
+                self.until(self._canary_sings, CANARY_WITHIN_S)
+            self.until_heard()
             if self._count():
-                self._watch_rate()
+                with self.turns.timed():
+                    self._watch_rate()
         if self.arena.all_alive() or self._canary_sings():
-            seen.machine_fault = self._unheard() or trouble(seen, self._rate(), self.limit)
+            rate_trouble = trouble(seen, self._rate(), self.limit) if self._count() else None
+            seen.machine_fault = self._unheard() or rate_trouble
 
     def _unheard(self) -> str | None:
         """Silence is the node's own only where it would have been heard."""
-        topic = self._topic()
+        topic, waited_s = self._topic(), self.arena.waited_s()
+        if not self._count() and waited_s > LONGEST_WAIT_S:
+            return f"your node waited {waited_s:.0f} s for a free processor, so it is not judged"
         silent = topic and not self._count() and self.arena.all_alive()
         if not silent or self.probe.connected(topic):
             return None

@@ -6,6 +6,7 @@ import fcntl
 import os
 import shutil
 import tempfile
+import time
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
@@ -15,6 +16,8 @@ LOCK = "lock"
 """Held as long as the run lives. It is there before all else, and the last to go."""
 UNLOCKED = "unlocked"
 """The same file before it is held."""
+LOCKS = (LOCK, UNLOCKED)
+MOST_TRIES, AGAIN_S = 20, 0.05
 
 
 @contextmanager
@@ -42,24 +45,41 @@ def _made() -> tuple[Path, IO[str]]:
 
 
 def sweep() -> None:
-    """Remove folders of runs that were killed: their lock is free, or not there and nothing is."""
+    """Remove folders of runs that were killed: their lock is free, or it is not there."""
     for folder in Path(tempfile.gettempdir()).glob(f"{_prefix()}*"):
-        for name in (LOCK, UNLOCKED):
+        for name in LOCKS:
             with suppress(OSError), (folder / name).open("r+") as lock:
                 fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
                 _remove(folder)
         with suppress(OSError):
             folder.rmdir()
+        if _inside(folder) and not (folder / LOCK).exists():
+            _remove(folder)  # the lock came before all that is inside, so it was removed
 
 
 def _remove(folder: Path) -> None:
-    """The lock last: who is killed meanwhile leaves a folder that the next sweep knows."""
-    _open_all(folder)
-    with suppress(OSError):
-        for entry in folder.iterdir():
-            if entry.name not in (LOCK, UNLOCKED):
+    """The lock last: who is killed meanwhile leaves a folder that the next sweep knows.
+
+    A process that is just being ended may write once more, after its folder was emptied.
+    """
+    for _ in range(MOST_TRIES):
+        _open_all(folder)
+        for entry in _inside(folder):
+            with suppress(OSError):
                 _remove_entry(entry)
-    shutil.rmtree(folder, ignore_errors=True)
+        if not _inside(folder):
+            shutil.rmtree(folder, ignore_errors=True)
+        if not folder.exists():
+            return
+        time.sleep(AGAIN_S)
+
+
+def _inside(folder: Path) -> list[Path]:
+    """What lies there besides its locks."""
+    try:
+        return [entry for entry in folder.iterdir() if entry.name not in LOCKS]
+    except OSError:
+        return []
 
 
 def _open_all(folder: Path) -> None:

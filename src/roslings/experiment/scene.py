@@ -7,13 +7,17 @@ import random
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import AbstractContextManager, ExitStack, contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 
 from roslings.arena import LONGEST_WAIT_S, Arena, Process
 from roslings.course import NodeContract, TopicContract
-from roslings.evidence import Endpoint, ExperimentSeen
+from roslings.evidence import Endpoint, ExperimentSeen, Part, Span
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S, WallWatch
+from roslings.experiment.own_time import OwnTime
+from roslings.experiment.presence import GRACE_S, Absences, Presence, Turn
 from roslings.experiment.simulated import (
     IgnoresTheClock,
     NotBelieved,
@@ -21,8 +25,11 @@ from roslings.experiment.simulated import (
     followed_clock,
 )
 from roslings.experiment.start import PLAIN, Start
+from roslings.experiment.turns import Turns
 from roslings.near import Near, nearest, nearest_endpoint
 from roslings.probe import Probe
+from roslings.probe.recorder import can_record
+from roslings.timeline import noted
 
 COMES_UP_WITHIN_S = 20.0
 HEARD_WITHIN_S = 10.0
@@ -32,6 +39,17 @@ SPINS_WITHIN_S = 3.0
 RESTS_WITHIN_S = 1.0
 LOOKS_AT_REST = 3
 LOOK_AGAIN_S = 0.005
+FIRST_PERIODS = 3
+"""So many periods of its rate may pass before a complete node speaks for the first time."""
+
+
+@dataclass(frozen=True)
+class Run:
+    """A node that is to run, and how it is started."""
+
+    node: NodeContract
+    remaps: Sequence[str] = ()
+    start: Start = PLAIN
 
 
 class Scene:
@@ -44,10 +62,22 @@ class Scene:
         seed: int,
         ends_within_s: float,
         port: Path | None = None,
+        turns: Turns | None = None,
+        timeline: list[Span] | None = None,
+        absences: Absences | None = None,
     ) -> None:
-        """The clock is the one that `probe.seen` names; `port` leads to a real board."""
+        """The clock is the one that `probe.seen` names; `port` leads to a real board.
+
+        `turns` are those that it takes with the experiments beside it, `absences` what one of
+        them has waited for in vain; what it does is noted in `timeline`.
+        """
         self.port = port
+        self._turns = turns or Turns()
+        self._timeline = [] if timeline is None else timeline
+        self._over: Counter[str] = Counter()
+        """Nodes of blocks that are over: the fullest graph is kept, and they are still in it."""
         self._simulated = probe.seen.clock == "sim"
+        self._presence = Presence(probe, arena, absences or Absences(), self._simulated)
         self._arena = arena
         self._probe = probe
         self._random = random.Random(seed)
@@ -74,17 +104,53 @@ class Scene:
         self, node: NodeContract, remaps: Sequence[str] = (), start: Start = PLAIN
     ) -> Iterator[Process]:
         """Start a node, wait until it is in the graph; press Ctrl-C when the block ends."""
-        known = Counter(self.seen.graph.nodes)
-        words = start.arguments(remaps, simulated=self._simulated)
-        with self._arena.run(node.executable, words) as process:
-            self.seen.processes[start.label(node)] = process.seen
-            self._wait_up(process, known)
-            up_s = time.monotonic()
+        with self.run_all(Run(node, remaps, start)) as (process,):
             yield process
-            self._let_begin(process, Counter(self.seen.graph.nodes) - known, up_s)
-            self._probe.look_now()  # the graph has all of it now
-            self._let_rest(process)
-            self._end(process)
+
+    @contextmanager
+    def run_all(self, *runs: Run) -> Iterator[list[Process]]:
+        """Start several nodes at once, as `run` does one; press Ctrl-C in all when the block ends.
+
+        >>> with scene.run_all(Run(TALKER), Run(LISTENER)):
+        ...     scene.joined(CHATTER)
+        """
+        known = self._present()
+        with ExitStack() as running:
+            with self._turns.busy(), self._noted("starting"):
+                processes = [running.enter_context(self._started(each)) for each in runs]
+                self._wait_up(processes, known)
+            up_s = time.monotonic()
+            yield processes
+            own = self._present() - known
+            with self._noted("ending"):
+                self._let_begin(processes, own, up_s)
+                self._probe.look_now()  # the graph has all of them now
+                for process in processes:
+                    self._let_rest(process)
+                self._end(processes)
+        self._over += own
+
+    def _noted(self, part: Part) -> AbstractContextManager[None]:
+        return noted(self._timeline, part, self.seen.name)
+
+    @contextmanager
+    def _started(self, run: Run) -> Iterator[Process]:
+        words = run.start.arguments(run.remaps, simulated=self._simulated)
+        with self._arena.run(run.node.executable, words) as process:
+            self.seen.processes[run.start.label(run.node)] = process.seen
+            yield process
+
+    def _present(self) -> Counter[str]:
+        """The nodes that are there, as far as they are known."""
+        return Counter(self.seen.graph.nodes) - self._over
+
+    def timed(self) -> AbstractContextManager[None]:
+        """A stretch in which times are judged: no node of another experiment starts meanwhile.
+
+        >>> with scene.timed():
+        ...     asker.ask_in_a_row(SET_MAX_SPEED, SET_MAX_SPEED.answers, 100)
+        """
+        return self._turns.timed()
 
     def watch(self, contract: TopicContract) -> None:
         """Watch a topic, or the one nearest to it, until its rate is sure or the bound is met."""
@@ -98,7 +164,10 @@ class Scene:
         """In two stretches of simulated time; what speaks against believing it is written down."""
         try:
             topic = self._publisher_in_time(contract).topic
-            with followed_clock(self._probe, self.seen.graph.nodes) as (clock, barrier):
+            with (
+                self._turns.busy(),
+                followed_clock(self._probe, self.seen.graph.nodes) as (clock, barrier),
+            ):
                 SimulatedWatch(self._probe, clock, barrier, topic, contract.rate).watch()
             if not self._arena.all_alive():
                 raise NotBelieved("it ended while it was watched")
@@ -107,7 +176,7 @@ class Scene:
             self.seen.ignores_clock = isinstance(reason, IgnoresTheClock)
 
     def _publisher_in_time(self, contract: TopicContract) -> Endpoint:
-        self._until_there(lambda: self._publisher(contract) is not None)
+        self._until_there(lambda: self._publisher(contract) is not None, publishes(contract))
         publisher = self._publisher(contract)
         if publisher is None:
             raise NotBelieved("it publishes nothing")
@@ -117,10 +186,11 @@ class Scene:
         if contract.rate:
             find = functools.partial(self._publisher, contract)
             WallWatch(
-                self._probe, self._arena, contract.rate, find, self._until_alive, self._until_there
-            ).watch()
+                self._probe, self._arena, contract.rate, find, self._until_alive,
+                lambda: self._until_heard(contract), self._turns,
+            ).watch()  # fmt: skip
         else:
-            self._until_there(lambda: self._heard(contract) > 0)
+            self.hear(contract)
 
     def say_sentences(self, listener: Process, contract: TopicContract, count: int) -> None:
         """Say random sentences on a topic, or on the one nearest to it, and wait for each echo."""
@@ -135,7 +205,7 @@ class Scene:
         def find() -> Endpoint | None:
             return nearest_endpoint(self.seen.graph, "subscription", contract.topic, contract.type)
 
-        self._until_there(lambda: find() is not None)
+        self._until_there(lambda: find() is not None, hears(contract))
         return find()
 
     def sentence(self) -> str:
@@ -172,24 +242,25 @@ class Scene:
             return len(kinds) == 2
 
         with self._timed_watching():
-            self._until_there(both)
+            self._until_there(both, f"both sides of {contract.topic}")
 
-    def _wait_up(self, process: Process, known: Counter[str]) -> None:
-        began_s = time.monotonic()
-        self._probe.until(
-            lambda: not process.alive or bool(Counter(self.seen.graph.nodes) - known),
-            COMES_UP_WITHIN_S,
-        )
-        self.seen.discovery_s += time.monotonic() - began_s
+    def _wait_up(self, processes: Sequence[Process], known: Counter[str]) -> None:
+        """Until there is a node for each process that lives."""
 
-    def _let_begin(self, process: Process, nodes: Counter[str], up_s: float) -> None:
+        def up() -> bool:
+            living = sum(process.alive for process in processes)
+            return (self._present() - known).total() >= living
+
+        self._probe.until(up, COMES_UP_WITHIN_S)
+
+    def _let_begin(self, processes: Sequence[Process], nodes: Counter[str], up_s: float) -> None:
         """Wait until its nodes spin, as far as they ever do: no node ends well while it is made.
 
         A node is in the graph before its constructor has ended.
         """
         for node in nodes:
             left_s = up_s + SPINS_WITHIN_S - time.monotonic()
-            if left_s > 0 and process.alive:
+            if left_s > 0 and all(process.alive for process in processes):
                 self._probe.turned(node, left_s)
 
     def _let_rest(self, process: Process) -> None:
@@ -203,25 +274,76 @@ class Scene:
             looks = looks + 1 if process.asleep() else 0
             process.wait_ended(LOOK_AGAIN_S)
 
-    def _end(self, process: Process) -> None:
-        began_s = time.monotonic()
-        process.interrupt(self._ends_within_s + INTERRUPT_SLACK_S)
-        self.seen.ending_s += time.monotonic() - began_s
+    def _end(self, processes: Sequence[Process]) -> None:
+        within_s = self._ends_within_s + INTERRUPT_SLACK_S
+        with ThreadPoolExecutor(len(processes)) as fingers:
+            list(fingers.map(lambda process: process.interrupt(within_s), processes))
 
     def until(self, condition: Callable[[], bool], within_s: float) -> bool:
         """Wait for the condition, as long as every process lives. Whether it holds."""
         with self._timed_watching():
             return self._until_alive(condition, within_s)
 
+    def turned(self, node: str, within_s: float) -> bool:
+        """Wait until a node has run the callbacks of all that came; `within_s` of its own time."""
+        turn = Turn(self._probe, node)
+        return self.until_own(turn.is_over, within_s)
+
+    def until_own(self, condition: Callable[[], bool], within_s: float) -> bool:
+        """As `until`; what the processes wait for a processor comes on top, to a bound."""
+        own = OwnTime(self._arena)
+        self.until(lambda: condition() or own.is_past(within_s), within_s + LONGEST_WAIT_S)
+        return condition()
+
     def _until_alive(self, condition: Callable[[], bool], within_s: float) -> bool:
         """Wait for the condition, as long as every process lives."""
         self._probe.until(lambda: condition() or not self._arena.all_alive(), within_s)
         return condition()
 
-    def _until_there(self, condition: Callable[[], bool]) -> bool:
-        """As `_until_alive`; what the processes waited for a processor comes on top, to a bound."""
-        there = self._until_alive(condition, FIRST_MESSAGE_WITHIN_S)
-        return there or self._until_alive(condition, min(self._arena.waited_s(), LONGEST_WAIT_S))
+    def appears(self, condition: Callable[[], bool], what: str, grace_s: float = GRACE_S) -> bool:
+        """Wait for what a node makes when it begins; whether it is there.
+
+        When all nodes are complete, it is waited for during `grace_s` of their own time, and in no
+        later experiment: `what` is its name.
+        """
+        with self._timed_watching():
+            return self._until_there(condition, what, grace_s)
+
+    def is_missed(self, what: str) -> bool:
+        """Some experiment of this grading has waited for it in vain."""
+        return self._presence.is_known(what)
+
+    def hear(self, contract: TopicContract, count: int = 1, grace_s: float = GRACE_S) -> bool:
+        """Wait for the first messages on a topic, or the one nearest to it, as `appears` does."""
+        with self._timed_watching():
+            return self._until_heard(contract, count, grace_s)
+
+    def _until_heard(
+        self, contract: TopicContract, count: int = 1, grace_s: float = GRACE_S
+    ) -> bool:
+        """First its publisher, then the connection to it, then what it says."""
+        self._until_there(lambda: self._publisher(contract) is not None, publishes(contract))
+        if publisher := self._publisher(contract):
+            self._until_alive(
+                lambda: self._probe.connected(publisher.topic) or not can_record(publisher),
+                FIRST_MESSAGE_WITHIN_S,
+            )
+        limit = contract.rate
+        periods_s = FIRST_PERIODS / limit.hz if limit else 0.0
+        return self._until_there(
+            lambda: self._heard(contract) >= count, says(contract), max(grace_s, periods_s)
+        )
+
+    def _until_there(
+        self, condition: Callable[[], bool], what: str, grace_s: float = GRACE_S
+    ) -> bool:
+        """Wait for the condition, as long as every process lives and it is not in vain."""
+        self._until_alive(
+            lambda: condition() or self._presence.in_vain(what, grace_s), LONGEST_WAIT_S * 2
+        )
+        if not condition():
+            self._presence.note(what)
+        return condition()
 
     def _publisher(self, contract: TopicContract) -> Endpoint | None:
         return nearest_endpoint(self.seen.graph, "publisher", contract.topic, contract.type)
@@ -233,8 +355,24 @@ class Scene:
     @contextmanager
     def _timed_watching(self) -> Iterator[None]:
         began_s = time.monotonic()
-        yield
+        with self._noted("watching"):
+            yield
         self.seen.watching_s += time.monotonic() - began_s
+
+
+def publishes(contract: TopicContract) -> str:
+    """The name of a publisher, where it is missed."""
+    return f"a publisher on {contract.topic}"
+
+
+def hears(contract: TopicContract) -> str:
+    """The name of a subscription, where it is missed."""
+    return f"a subscription to {contract.topic}"
+
+
+def says(contract: TopicContract) -> str:
+    """The name of the first message on a topic, where it is missed."""
+    return f"a message on {contract.topic}"
 
 
 def mending(node: NodeContract, seen: ExperimentSeen) -> list[str]:

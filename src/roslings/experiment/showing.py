@@ -16,16 +16,18 @@ from roslings.experiment.looking import IMAGE, MarkLooker
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
 from roslings.experiment.pictures import draw_cross, draw_ring, keep_picture
 from roslings.experiment.scene import Scene
+from roslings.experiment.timing import accounting
 from roslings.near import nearest_endpoint
 from roslings.probe.content import to_plain
 
-MOST_TRIES = 6
-LARGE_BYTES, MOST_TRIES_OF_LARGE = 100_000, 15
-"""A large picture goes in many pieces, best effort: when one piece is lost, all of it is. On a
-computer with three times as much work as cores, one was lost six times in a row."""
+MOST_TRIES = 2
+LARGE_BYTES, MOST_TRIES_OF_LARGE = 62_000, 6
+"""A large picture goes in many pieces, best effort: when one piece is lost, all of it is."""
 
 FEWEST_TRIES = 2
-SHOWS_WITHIN_S = 1.0
+SHOWS_WITHIN_S, SILENT_WITHIN_S = 1.0, 0.5
+"""For an answer, and for one of a node that did not answer the picture before."""
+
 TURNS_WITHIN_S = 6.0
 FOLLOWS_WITHIN_S = 0.3
 WORTH_SHOWING_PX = 3.0
@@ -102,7 +104,9 @@ class Projector:
 
     def begin(self) -> None:
         """Wait until the node listens and can answer."""
-        self._scene.until(lambda: bool(self._ear() and self._draws_on()), FIRST_MESSAGE_WITHIN_S)
+        self._scene.appears(
+            lambda: bool(self._ear() and self._draws_on()), "what hears pictures and answers them"
+        )
 
     def show(self, part: str, shot: Shot) -> None:
         """Show one picture, until it is answered or was shown often enough."""
@@ -110,24 +114,31 @@ class Projector:
         self._looker.show(frame, shot.ball)
         seen = self._write_down(part, shot, frame)
         said, drawn = self._counts()
-        for _ in range(self._tries(frame)):
-            if not self._send(seen, frame.content):
-                break
-            seen.answered = self._scene.until(lambda: self._counts()[1] > drawn, SHOWS_WITHIN_S)
-            seen.turned = self._turned()
-            seen.answered = seen.answered or self._counts() != (said, drawn)
-            if seen.answered or not seen.turned:
-                break
+        with accounting(self._scene, part):
+            self._show_until_answered(seen, frame, (said, drawn))
         if shot.ball and seen.answered:
             self._scene.until(lambda: self._counts()[0] > said, FOLLOWS_WITHIN_S)
         self._silent = 0 if seen.answered else self._silent + 1
         seen.until_ns = time.monotonic_ns()
         self._keep(seen, frame, said)
 
+    def _show_until_answered(
+        self, seen: PictureShown, frame: Frame, before: tuple[int, int]
+    ) -> None:
+        within_s = SILENT_WITHIN_S if self._silent else SHOWS_WITHIN_S
+        for _ in range(self._tries(frame)):
+            if not self._send(seen, frame.content):
+                break
+            seen.answered = self._scene.until_own(lambda: self._counts()[1] > before[1], within_s)
+            seen.turned = self._turned()
+            seen.answered = seen.answered or self._counts() != before
+            if seen.answered or not seen.turned:
+                break
+
     def _tries(self, frame: Frame) -> int:
         """Fewer for a node that was silent before: its first silence tells enough."""
-        if self._silent > 1:
-            return FEWEST_TRIES
+        if self._silent:
+            return 1
         return MOST_TRIES_OF_LARGE if len(frame.content) > LARGE_BYTES else MOST_TRIES
 
     def show_spoiled(self, part: str, encoding: str, missing: int, words: str) -> None:
@@ -143,7 +154,9 @@ class Projector:
         for _ in range(FEWEST_TRIES):
             if not self._send(seen, frame.content[: seen.bytes]):
                 break
-            seen.answered = self._scene.until(lambda: self._wrote(words, before), SHOWS_WITHIN_S)
+            seen.answered = self._scene.until_own(
+                lambda: self._wrote(words, before), SHOWS_WITHIN_S
+            )
             seen.turned = self._turned()
             if seen.answered:
                 break
@@ -184,9 +197,7 @@ class Projector:
 
     def _turned(self) -> bool:
         ear = self._ear()
-        return bool(
-            ear and self._process.alive and self._scene.probe.turned(ear.node, TURNS_WITHIN_S)
-        )
+        return bool(ear and self._process.alive and self._scene.turned(ear.node, TURNS_WITHIN_S))
 
     def _wrote(self, words: str, before: int) -> bool:
         return any(words in line.text for line in self._process.lines()[before:])

@@ -25,4 +25,4 @@ def await_publishers(scene: Scene) -> None:
         ends = own_endpoints(scene.seen.graph)
         return {e.node for e in ends if e.kind == "publisher"} >= set(scene.seen.graph.nodes)
 
-    scene.until(there, FIRST_MESSAGE_WITHIN_S)
+    scene.appears(there, "a publisher of each node")

@@ -9,11 +9,14 @@ from roslings.arena import Process
 from roslings.course import TopicContract
 from roslings.evidence import Endpoint, Spoken
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
-from roslings.experiment.scene import Scene
+from roslings.experiment.scene import Scene, hears
 from roslings.near import nearest_endpoint
 
 TURNS_WITHIN_S = 3.0
 SHOWS_WITHIN_S = 1.5
+SILENT_TIMES, SILENT_WITHIN_S = 2, 0.3
+"""A node whose callbacks ran and that showed nothing so often, will hardly show something now."""
+
 BY_A_TIMER = 3
 """Messages to wait for: the first one may have been under way before the value was heard."""
 
@@ -29,8 +32,9 @@ class Teller:
     ) -> None:
         self._scene, self._process = scene, process
         self._heard, self._shown = heard, shown
-        self._is_heard = False
-        scene.until(lambda: self._ear() is not None, FIRST_MESSAGE_WITHIN_S)
+        self._is_heard = self._stuck = False
+        self._silent = 0
+        scene.appears(lambda: self._ear() is not None, hears(heard))
 
     def _make_heard(self, fields: Mapping[str, Any], way: Callable[..., None]) -> None:
         """Tell the first value once before it counts.
@@ -72,14 +76,23 @@ class Teller:
         return self._scene.probe.say(ear, nested(fields), FIRST_MESSAGE_WITHIN_S)
 
     def _turns(self) -> bool:
-        """Wait until the node's callbacks have run. Whether they did."""
+        """Wait until the node's callbacks have run. Whether they did; asked once where not."""
         ear = self._ear()
-        return bool(
-            ear and self._process.alive and self._scene.probe.turned(ear.node, TURNS_WITHIN_S)
-        )
+        if ear is None or not self._process.alive or self._stuck:
+            return False
+        self._stuck = not self._scene.turned(ear.node, TURNS_WITHIN_S)
+        return not self._stuck
 
     def _shows(self, count: int) -> bool:
-        return self._scene.until(lambda: self._count() >= count, SHOWS_WITHIN_S)
+        """Wait for so many messages; a node that never showed any is soon waited for less.
+
+        One that shows some is always told its values in the same pace: that is judged, too.
+        """
+        known_as_silent = self._silent >= SILENT_TIMES and not self._count()
+        within_s = SILENT_WITHIN_S if known_as_silent else SHOWS_WITHIN_S
+        shown = self._scene.until_own(lambda: self._count() >= count, within_s)
+        self._silent = 0 if shown else self._silent + 1
+        return shown
 
     def _ear(self) -> Endpoint | None:
         return nearest_endpoint(

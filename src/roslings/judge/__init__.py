@@ -29,6 +29,7 @@ from roslings.judge.demands import (
 )
 from roslings.judge.faults import Fault, Inconclusive, NothingToJudge
 from roslings.judge.judge import BadGrader, judge
+from roslings.judge.unobserved import speak_unobserved
 from roslings.judge.views import ExperimentView, PackageView
 
 __all__ = [
@@ -60,5 +61,6 @@ __all__ = [
     "match_qos",
     "repeat",
     "say_its_text",
+    "speak_unobserved",
     "stay_up",
 ]

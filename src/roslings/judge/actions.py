@@ -13,13 +13,18 @@ from roslings.evidence import ActionEnd, DriveSeen, GoalSeen, MessageSeen, PoseS
 from roslings.experiment.acting import (
     ANSWER_WITHIN_S,
     CANCELS_WITHIN_S,
+    HEARS,
     HEARS_WITHIN_S,
+    IDLE_S,
+    answer_to,
     cancelled_after_s,
     stopped_after_s,
 )
+from roslings.experiment.own_time import PATIENCE_S
 from roslings.judge.demands import (
     most_similar,
     require_believable,
+    require_its_time,
     require_steady,
     written,
 )
@@ -177,6 +182,8 @@ def require_answer(experiment: ExperimentView, given: Trip) -> None:
             given.words, ANSWER_WITHIN_S, log=process.last_lines()
         )
     require_steady(experiment.seen.stall_s)
+    part = answer_to(given.goal.part)
+    require_its_time(experiment.seen, part, ANSWER_WITHIN_S, "the answer to a goal")
     raise faults.GoalUnanswered(given.words, ANSWER_WITHIN_S)
 
 
@@ -184,6 +191,7 @@ def hear_meanwhile(experiment: ExperimentView) -> None:
     """While a goal is under way, the node's other callbacks run."""
     if experiment.seen.stuck:
         require_steady(experiment.seen.stall_s)
+        require_its_time(experiment.seen, HEARS, PATIENCE_S, "an answer of the node")
         raise faults.BlocksTheNode(HEARS_WITHIN_S)
 
 
@@ -318,6 +326,7 @@ def _raise_no_end(experiment: ExperimentView, given: Trip) -> None:
     distances = [given.distance_m(pose) for pose in way]
     nearest_m = min(distances, default=math.inf)
     require_steady(experiment.seen.stall_s)
+    require_its_time(experiment.seen, given.goal.part, IDLE_S, "the end of a goal")
     moved = bool(distances) and max(distances) - nearest_m > PLACE_M
     raise faults.NeverArrives(given.words, nearest_m, distances[0] if distances else 0.0, moved)
 
@@ -420,6 +429,7 @@ def _require_cancelled(experiment: ExperimentView, given: Trip) -> None:
         raise faults.EndedInsteadOfPerforming(given.words, 0.0, log=process.last_lines())
     if goal.cancel_answered_ns is None:
         require_steady(experiment.seen.stall_s)
+        require_its_time(experiment.seen, goal.part, CANCELS_WITHIN_S, "the answer to a cancel")
         raise faults.CancelUnanswered(waited_s=CANCELS_WITHIN_S)
     if not goal.cancel_accepted and (goal.ended_ns or math.inf) > goal.cancel_answered_ns:
         raise faults.CancelRefused
@@ -427,6 +437,7 @@ def _require_cancelled(experiment: ExperimentView, given: Trip) -> None:
         raise NothingToJudge("the goal ended before it could be cancelled")
     if goal.ended_ns is None or _went_on_to_the_goal(given):
         require_steady(experiment.seen.stall_s)
+        require_its_time(experiment.seen, goal.part, CANCELS_WITHIN_S, "the end of a goal")
         raise faults.GoesOnAfterCancel(cancelled_after_s(goal) or CANCELS_WITHIN_S)
     _require_state(given, "canceled", "after a cancel")
 

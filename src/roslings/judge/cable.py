@@ -11,8 +11,9 @@ from roslings.course import TopicContract
 from roslings.devices.board import BadLine, Drive, Speeds, unframed
 from roslings.devices.rover import Body, Motion
 from roslings.evidence import BoardMark, BoardSeen, CableLine, MessageSeen
+from roslings.experiment.cable import STANDS_WITHIN_S
 from roslings.judge import faults
-from roslings.judge.demands import require_steady
+from roslings.judge.demands import require_its_time, require_steady
 from roslings.judge.faults import cable as cable_faults
 from roslings.judge.views import Demand, ExperimentView, TopicView
 
@@ -26,9 +27,15 @@ MOST_LINES_WAITING = 150
 SPEED_EXACT_RAD_S = 0.002
 PLACE_WITHIN_M = 0.05
 HEADING_WITHIN_RAD = math.radians(4)
+LAG_S = 0.25
+"""What is told of a rover that does not stand comes a little after what it tells of."""
+FASTEST_M_S, FASTEST_RAD_S = 0.3, 1.2
 PWM_WITHIN = 3
 FULL_PWM = 255
 STOPS_WITHIN_S = 1.0
+LATE_COMMAND_S = 0.4
+"""A node that is held up for so long lets the board stop by itself: it does after half a second."""
+
 FEWEST = 10
 
 
@@ -125,7 +132,8 @@ def know_the_way(experiment: ExperimentView, before: str, after: str) -> Demand[
         if math.hypot(really.x_m, really.y_m) < 0.02 and abs(really.turn_rad) < 0.1:
             raise faults.NothingToJudge("the rover did not move")
         told = _moved(_told_place(topic, marks[before]), _told_place(topic, marks[after]))
-        fault = _difference(after, really, told)
+        moving = any(m.left_pwm or m.right_pwm for m in (marks[before], marks[after]))
+        fault = _difference(after, really, told, LAG_S if moving else 0.0)
         if fault:
             require_steady(topic.experiment.stall_s)
             _require_whole(_board(experiment))
@@ -151,11 +159,15 @@ def _moved(begin: Place, end: Place) -> Place:
     return Place(dx * cos + dy * sin, dy * cos - dx * sin, turn)
 
 
-def _difference(part: str, really: Place, told: Place) -> cable_faults.WrongOdometry | None:
+def _difference(
+    part: str, really: Place, told: Place, lag_s: float
+) -> cable_faults.WrongOdometry | None:
+    """What is said of a rover that moves may be late by `lag_s`."""
     off_m = math.hypot(told.x_m - really.x_m, told.y_m - really.y_m)
     off_rad = abs(math.remainder(told.turn_rad - really.turn_rad, 2 * math.pi))
     length_m = math.hypot(really.x_m, really.y_m)
-    if off_m <= PLACE_WITHIN_M + 0.05 * length_m and off_rad <= HEADING_WITHIN_RAD:
+    place_within_m = PLACE_WITHIN_M + 0.05 * length_m + lag_s * FASTEST_M_S
+    if off_m <= place_within_m and off_rad <= HEADING_WITHIN_RAD + lag_s * FASTEST_RAD_S:
         return None
     ways = [(way.x_m, way.y_m, math.degrees(way.turn_rad)) for way in (really, told)]
     return cable_faults.WrongOdometry(part, *ways)
@@ -199,6 +211,7 @@ def drive_as_told(part: str, forward_m_s: float, turn_rad_s: float) -> Demand[Ex
         got = (mark.left_pwm, mark.right_pwm)
         if max(abs(g - w) for g, w in zip(got, wanted, strict=True)) > PWM_WITHIN:
             require_steady(experiment.seen.stall_s)
+            require_its_time(experiment.seen, part, LATE_COMMAND_S, "a command")
             raise _drive_fault((forward_m_s, turn_rad_s), wanted, got)
 
     return demand
@@ -226,6 +239,8 @@ def stop_by_itself(after: str) -> Demand[ExperimentView]:
         stop_s = next(stops, None)
         if stop_s is None or stop_s - begun_s > STOPS_WITHIN_S:
             require_steady(experiment.seen.stall_s)
+            late_s = (stop_s - begun_s if stop_s else STANDS_WITHIN_S) - STOPS_WITHIN_S
+            require_its_time(experiment.seen, None, late_s, "the stop")
             raise cable_faults.DoesNotStop(STOPS_WITHIN_S, stop_s and stop_s - begun_s)
 
     return demand

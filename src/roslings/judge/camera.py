@@ -10,7 +10,8 @@ from itertools import chain, pairwise
 
 from roslings.course import NodeContract, ParameterContract, TopicContract
 from roslings.evidence import LogLine, MessageSeen, ParameterSet, PixelsSeen, StageMark
-from roslings.judge.demands import most_similar, require_steady, written
+from roslings.experiment.own_time import PATIENCE_S
+from roslings.judge.demands import most_similar, require_its_time, require_steady, written
 from roslings.judge.faults import Fault, NothingToJudge
 from roslings.judge.faults import camera as faults
 from roslings.judge.views import Demand, EndpointView, ExperimentView, TopicView
@@ -250,6 +251,7 @@ def tell_of_trouble(
         if process.seen.ended_by_itself:
             raise faults.EndedWithoutCamera(*words, None, log=process.last_lines())
         require_steady(experiment.seen.stall_s)
+        require_its_time(experiment.seen, part, PATIENCE_S, "a line about the camera")
         raise faults.SilentAboutCamera(*words, most_similar(before + reasons[0], lines))
 
     return demand
@@ -263,6 +265,7 @@ def come_after(part: str, when: str, topic: TopicContract) -> Demand[ExperimentV
         heard = experiment.topic(topic).messages
         if not any(begin_ns < message.arrival_ns < end_ns for message in heard):
             require_steady(experiment.seen.stall_s)
+            require_its_time(experiment.seen, part, PATIENCE_S, "a picture")
             raise faults.NoPictureAfter(when, topic.topic)
 
     return demand

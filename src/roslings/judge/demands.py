@@ -50,6 +50,20 @@ def require_processors(executable: str, ending: Ending, limit_s: float) -> None:
         )
 
 
+def require_its_time(seen: ExperimentSeen, part: str | None, late_s: float, what: str) -> None:
+    """Before something late is held against the student: this computer did not make it so late.
+
+    `part` is the timed stretch; None: the worst of all. Raises Inconclusive.
+    """
+    stretches = [held for name, held in seen.held_up.items() if part in (name, None)]
+    held_s = max((held.longest_s for held in stretches), default=0.0)
+    if late_s <= held_s:
+        raise faults.Inconclusive(
+            f"{what} came late, but this computer held your node or the check up for {held_s:.2f} s"
+            " meanwhile; close other programs and check again"
+        )
+
+
 def written(value: Asked | None, where: str) -> Asked:
     """What the card says. Raises CourseError where it says nothing and a check asks."""
     if value is None:
@@ -174,6 +188,11 @@ def exit_cleanly(process: ProcessView) -> None:
     if agreed(process, is_unclean, "ended with an error"):
         how = describe_end(seen) + (", with a traceback" if tracebacks(seen) else "")
         raise faults.UncleanExit(seen.executable, how, log=process.last_lines())
+    if seen.ending_cut:
+        raise faults.Inconclusive(
+            f"too much to keep: {seen.output_dropped_bytes} bytes that {seen.executable} wrote had"
+            " no room in the evidence, some from after Ctrl-C; let it write less, then check again"
+        )
 
 
 def agreed(process: ProcessView, bad: Callable[[ProcessSeen], bool], what: str) -> bool:

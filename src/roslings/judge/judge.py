@@ -4,19 +4,21 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from pathlib import Path
 
 import pytest
 
 from roslings.course import Lab
 from roslings.course.files import CourseError
-from roslings.evidence import Evidence, ExperimentSeen
-from roslings.experiment.declare import experiments_of, load_grader
-from roslings.judge.plugin import Collector, evidence_plugin
+from roslings.evidence import Evidence, ExperimentSeen, Span
+from roslings.experiment.declare import Experiment, experiments_of, load_grader
+from roslings.judge.dropped import Looks, watched
+from roslings.judge.plugin import Collector, Evidences, evidence_plugin
 from roslings.judge.unrecorded import NotRecordedView
 from roslings.judge.views import ExperimentView, View, views_of
+from roslings.timeline import NS_PER_S, shares_s
 from roslings.verdict import (
     CheckResult,
     Environment,
@@ -33,9 +35,42 @@ class BadGrader(CourseError):
     """A grader's file cannot be used; the course's fault."""
 
 
-def judge(lab: Lab, evidence: Evidence, total_s: float = 0.0) -> Verdict:
-    """Run the lab's checks on `evidence`. Raises BadGrader."""
-    results = run_checks(lab, evidence)
+def judge(lab: Lab, evidence: Evidence, began_ns: int | None = None) -> Verdict:
+    """Run the lab's checks on `evidence`. Raises BadGrader.
+
+    The seconds are those from `began_ns` until now; by default, those that the evidence tells of.
+    """
+    return judge_later(lab, lambda: (evidence, began_ns))
+
+
+def judge_later(lab: Lab, bring: Callable[[], tuple[Evidence, int | None]]) -> Verdict:
+    """Load all that is judged by; then have `bring` bring the evidence, and judge it.
+
+    `bring` brings `began_ns`, too, as `judge` has it. Raises BadGrader.
+    """
+    _ = lab.card, lab.hints, lab.hidden_checks
+    declared = [each for grader in lab.graders for each in experiments_of(load_grader(grader))]
+    views: dict[str, View] = {}
+    looks = Looks()
+    brought: list[tuple[Evidence, int | None]] = []
+    timeline: list[Span] = []
+
+    def fill() -> None:
+        before_ns = time.monotonic_ns()
+        brought.append(bring())
+        judging.began_ns += time.monotonic_ns() - before_ns
+        evidence, _ = brought[0]
+        timeline.extend(evidence.timeline)
+        views.update({each.name: _missing(each, evidence) for each in declared})
+        views.update(views_of(watched(evidence, looks)))
+
+    judging = Span(part="judging", of="", began_ns=time.monotonic_ns(), ended_ns=0)
+    names = ("package", *(each.name for each in declared))
+    results = run_checks(lab, Evidences(names, views, fill), looks)
+    evidence, began_ns = brought[0]
+    if began_ns is not None:
+        judging.ended_ns = time.monotonic_ns()
+        timeline.append(judging)
     return Verdict(
         lab=lab.name,
         package=evidence.package.name,
@@ -43,17 +78,14 @@ def judge(lab: Lab, evidence: Evidence, total_s: float = 0.0) -> Verdict:
         score=score_of(results),
         checks=results,
         advice=tuple(evidence.advice),
-        seconds=_timings(evidence, total_s),
+        seconds=_timings(timeline, began_ns),
         environment=_environment(evidence),
     )
 
 
-def run_checks(lab: Lab, evidence: Evidence) -> tuple[CheckResult, ...]:
+def run_checks(lab: Lab, evidences: Evidences, looks: Looks) -> tuple[CheckResult, ...]:
     """The outcome of every check, in the grader's order."""
-    collector = Collector(lab)
-    views = views_of(evidence)
-    for name in (name for grader in lab.graders for name in _experiment_names(grader)):
-        views.setdefault(name, _missing(name, evidence))
+    collector = Collector(lab, looks)
     options = [
         *map(str, lab.graders),
         "-c",
@@ -79,7 +111,7 @@ def run_checks(lab: Lab, evidence: Evidence) -> tuple[CheckResult, ...]:
     for grader in lab.graders:
         sys.modules.pop(grader.stem, None)  # another course may have a grader of this name
     with _without_other_plugins():
-        pytest.main(options, plugins=[evidence_plugin(views), collector])
+        pytest.main(options, plugins=[evidence_plugin(evidences, collector), collector])
     _require_all(lab, collector)
     return tuple(collector.results)
 
@@ -100,15 +132,14 @@ def _without_other_plugins() -> Iterator[None]:
             os.environ[NO_PLUGINS] = before
 
 
-def _missing(name: str, evidence: Evidence) -> View:
-    """An experiment that was not made: none was, as nothing was built, or the grader is newer."""
-    if evidence.experiments:
-        return NotRecordedView(name)
-    return ExperimentView(ExperimentSeen(name=name, clock="wall"))
+def _missing(each: Experiment, evidence: Evidence) -> View:
+    """An experiment that was not made: none was, as nothing was built, or the grader is newer.
 
-
-def _experiment_names(grader: Path) -> list[str]:
-    return [each.name for each in experiments_of(load_grader(grader))]
+    One that nothing of ours observes is made only where the result is for others.
+    """
+    if evidence.experiments and not each.unobserved:
+        return NotRecordedView(each.name)
+    return ExperimentView(ExperimentSeen(name=each.name, clock="wall"))
 
 
 def _require_all(lab: Lab, collector: Collector) -> None:
@@ -123,14 +154,20 @@ def _require_all(lab: Lab, collector: Collector) -> None:
         )
 
 
-def _timings(evidence: Evidence, total_s: float) -> Timings:
-    experiments = evidence.experiments.values()
+def _timings(timeline: Sequence[Span], began_ns: int | None) -> Timings:
+    ended_ns = max((span.ended_ns for span in timeline), default=0)
+    if began_ns is None:
+        began_ns = min((span.began_ns for span in timeline), default=0)
+    shares = shares_s(timeline, began_ns, ended_ns)
     return Timings(
-        build=evidence.build.seconds if evidence.build else 0.0,
-        discovery=round(sum(e.discovery_s for e in experiments), 3),
-        watching=round(sum(e.watching_s for e in experiments), 3),
-        ending=round(sum(e.ending_s for e in experiments), 3),
-        total=round(total_s, 3),
+        reading=round(shares["reading"], 3),
+        build=round(shares["building"], 3),
+        discovery=round(shares["starting"], 3),
+        watching=round(shares["watching"], 3),
+        ending=round(shares["ending"], 3),
+        judging=round(shares["judging"], 3),
+        rest=round(shares[None], 3),
+        total=round((ended_ns - began_ns) / NS_PER_S, 3),
     )
 
 

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import traceback
 import types
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import pytest
 
 from roslings.course import Lab
 from roslings.judge.check import check_of
+from roslings.judge.dropped import Looks
 from roslings.judge.faults import Fault, Inconclusive, NothingToJudge, Unmet
 from roslings.judge.sheet import title_of
 from roslings.judge.unrecorded import NotRecordedView
@@ -21,14 +23,19 @@ from roslings.verdict import CheckResult
 class Collector:
     """Runs each check once its needs have passed, and writes down what came of it."""
 
-    def __init__(self, lab: Lab) -> None:
+    def __init__(self, lab: Lab, looks: Looks) -> None:
         self.results: list[CheckResult] = []
         self.problems: list[str] = []
         self._roots: dict[str, str] = {}
-        self._lab = lab
+        self._lab, self._looks = lab, looks
+
+    def pytest_addoption(self, parser: pytest.Parser) -> None:
+        """How a failure is written: nobody reads pytest's own page, half of a judgement's time."""
+        parser.addoption("--tb", dest="tbstyle", default="native")
 
     def pytest_runtest_setup(self, item: pytest.Item) -> None:
         """Skip a check whose need has not passed."""
+        self._looks.begin()
         for need in check_of(_function(item)).needs:
             root = self._root_of(need)
             if root is not None:
@@ -41,7 +48,8 @@ class Collector:
     ) -> Iterator[None]:
         """Turn what happened into one line of the verdict."""
         if call.when == "call" or (call.when == "setup" and call.excinfo):
-            self.results.append(self._result(item, call.excinfo and call.excinfo.value))
+            error = self._looks.outcome(call.excinfo.value if call.excinfo else None)
+            self.results.append(self._result(item, error))
         return (yield)
 
     def pytest_collectreport(self, report: pytest.CollectReport) -> None:
@@ -68,6 +76,7 @@ class Collector:
             "points": worth if error is None else 0.0,
             "max_points": worth,
             "lesson": self._lab.lesson_of(name),
+            "hidden": name in self._lab.hidden_checks,
             **_words_for(error, title_of(_function(item))),
         }
         if words["outcome"] == "fail" and hint:
@@ -114,17 +123,36 @@ def check_name(item: pytest.Item) -> str:
     return item.name.removeprefix("test_")
 
 
-def evidence_plugin(views: dict[str, View]) -> types.ModuleType:
-    """A pytest plugin with one fixture for each thing that a check can ask for by name."""
-    plugin = types.ModuleType("roslings_evidence")
-    for name, view in views.items():
-        setattr(plugin, name, _fixture(name, view))
-    return plugin
+@dataclass(frozen=True)
+class Evidences:
+    """What checks can ask for by name; the views are there when `fill` has filled them."""
+
+    names: tuple[str, ...]
+    views: Mapping[str, View]
+    fill: Callable[[], None]
 
 
-def _fixture(name: str, view: View) -> Any:
+def evidence_plugin(evidences: Evidences, collector: Collector) -> types.ModuleType:
+    """A pytest plugin with one fixture for each thing that a check can ask for by name.
+
+    The evidence is brought when every check is loaded, and none has run.
+    """
+    plugin: Any = types.ModuleType("roslings_evidence")
+    for name in evidences.names:
+        setattr(plugin, name, _fixture(name, evidences.views))
+
+    def pytest_collection_finish() -> None:
+        if not collector.problems:
+            evidences.fill()
+
+    plugin.pytest_collection_finish = pytest_collection_finish
+    return plugin  # type: ignore[no-any-return]  # a module, with names of its own
+
+
+def _fixture(name: str, views: Mapping[str, View]) -> Any:
     @pytest.fixture(name=name, scope="session")
     def give() -> View:
+        view = views[name]
         if isinstance(view, NotRecordedView):
             view.refuse()
         return view

@@ -16,8 +16,9 @@ from roslings.course import (
     TopicContract,
 )
 from roslings.evidence import CallSeen, ProcessSeen, ServiceEnd
-from roslings.experiment.asking import ANSWER_WITHIN_S, MOST_LATE
-from roslings.judge.demands import most_similar, require_steady, written
+from roslings.experiment.asking import ANSWER_WITHIN_S, CLIENT_ENDS, MOST_LATE
+from roslings.experiment.own_time import PATIENCE_S
+from roslings.judge.demands import most_similar, require_its_time, require_steady, written
 from roslings.judge.faults import EndedWithError, Inconclusive, NothingToJudge, NotLogged
 from roslings.judge.faults import services as faults
 from roslings.judge.views import Demand, ExperimentView, ProcessView, TopicView
@@ -143,6 +144,7 @@ def _require_answer(
             raise faults.Deadlock(call.service, asked, waited_s, calls)
         raise faults.StuckInCallback(call.service, asked, waited_s)
     require_steady(experiment.seen.stall_s)
+    require_its_time(experiment.seen, call.part, waited_s, "an answer")
     raise faults.NoAnswer(call.service, asked, waited_s)
 
 
@@ -215,6 +217,8 @@ def answer_in_time(
         late = [each for each in took_s if each > limit_s]
         if len(late) > MOST_LATE * asked:
             _require_worse_than_the_machine(experiment, took_s, limit_s)
+            excess_s = sum(each - limit_s for each in late)
+            require_its_time(experiment.seen, part, excess_s, "answers")
             name = calls[0].service
             raise faults.LateAnswers(name, who, limit_s, len(late), len(calls), took_s[-1])
 
@@ -323,6 +327,7 @@ def end_by_itself(
         process = experiment.process(node)
         if not process.seen.ended_by_itself:
             require_steady(experiment.seen.stall_s)
+            require_its_time(experiment.seen, CLIENT_ENDS, PATIENCE_S, "the client's end")
             if experiment.seen.stuck:
                 answered = bool(experiment.seen.served or experiment.seen.orders)
                 raise faults.ClientDeadlock(node.executable, process.ran_s, answered, when=when)
@@ -341,6 +346,8 @@ def give_up(node: NodeContract) -> Demand[ExperimentView]:
         process = experiment.process(node)
         if not process.seen.ended_by_itself:
             require_steady(experiment.seen.stall_s)
+            late_s = process.ran_s - contract.within_s
+            require_its_time(experiment.seen, CLIENT_ENDS, late_s, "the client's end")
             wait = "wait_for_server" if node.orders else "wait_for_service"
             raise faults.NeverGivesUp(node.executable, process.ran_s, contract.within_s, wait)
         if not any(contract.log in text for text in process.texts):

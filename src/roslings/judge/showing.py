@@ -7,9 +7,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from roslings.course import NodeContract, TopicContract
-from roslings.evidence import DiscShown, MessageSeen, PictureShown
+from roslings.evidence import DiscShown, MessageSeen, PictureShown, PixelsSeen
+from roslings.experiment.own_time import PATIENCE_S
 from roslings.judge.camera import pixels_of, require_set
-from roslings.judge.demands import most_similar, require_steady, written
+from roslings.judge.demands import most_similar, require_its_time, require_steady, written
 from roslings.judge.faults import Fault, Inconclusive, NothingToJudge
 from roslings.judge.faults import showing as faults
 from roslings.judge.sensing import as_number, field_of
@@ -20,6 +21,9 @@ SURELY_COMES_BYTES = 62_000
 """A message in one datagram: on one computer it is not lost. Larger ones go in pieces."""
 
 LEAST_MARKED, MOST_SPOILED = 0.01, 0.02
+BALLS_PART = 0.05
+"""Of the pixels around a ball, more are the ball's own."""
+SWAPPED = "its red and its blue are exchanged"
 NS_PER_S = 10**9
 
 
@@ -123,6 +127,7 @@ def _missing(experiment: ExperimentView, screen: Screen, look: Look) -> Fault:
     if look.drawings:
         return faults.NotFound(*words)
     require_steady(experiment.seen.stall_s)
+    require_its_time(experiment.seen, shown.part, PATIENCE_S, "the answer to a picture")
     if not shown.turned:
         return faults.TooSlowForPictures(*words)
     if shown.bytes > SURELY_COMES_BYTES:
@@ -309,13 +314,24 @@ def _require_drawing(screen: Screen, look: Look, message: MessageSeen) -> None:
         raise wrong(f"it has {pixels.bytes} bytes, and a step of {content['step']}")
     if pixels.spoiled is None or pixels.spoiled > MOST_SPOILED:
         raise wrong(_how_spoiled(pixels.swapped_off))
+    if _is_swapped(pixels):
+        raise wrong(SWAPPED)
     if look.shown.ball and look.places and (pixels.marked or 0.0) < LEAST_MARKED:
         raise wrong("there is no ring around the ball")
 
 
+def _is_swapped(pixels: PixelsSeen) -> bool:
+    """The ball has changed its colour, and has its own where red and blue are exchanged back.
+
+    What lies around it is grey, and tells nothing where it has little noise.
+    """
+    marked, back = pixels.marked, pixels.swapped_marked
+    return marked is not None and back is not None and marked > BALLS_PART and back < marked / 2
+
+
 def _how_spoiled(swapped: float | None) -> str:
     if swapped is not None and swapped <= MOST_SPOILED:
-        return "its red and its blue are exchanged"
+        return SWAPPED
     return "it is another picture than the one that was shown"
 
 

@@ -119,6 +119,12 @@ class Goal:
         self._cancel = self._ask_cancel(self.seen)
 
     @property
+    def cancel_refused(self) -> bool:
+        """The server has answered the request to cancel, and will not cancel it."""
+        self._note_cancel()
+        return self.seen.cancel_accepted is False
+
+    @property
     def ended(self) -> bool:
         """Its result is there; what came is noted."""
         self._note_cancel()
@@ -189,17 +195,17 @@ class GoalTaker:
         from rclpy.action import GoalResponse
 
         now_ns = time.monotonic_ns()
-        self._probe.seen.orders.append(
-            GoalSeen(
-                action=self._action,
-                type=self._type,
-                goal=to_plain(goal),
-                id=[],
-                sent_ns=now_ns,
-                answered_ns=now_ns,
-                accepted=self._accepts,
-            )
+        order = GoalSeen(
+            action=self._action,
+            type=self._type,
+            goal=to_plain(goal),
+            id=[],
+            sent_ns=now_ns,
+            answered_ns=now_ns,
+            accepted=self._accepts,
         )
+        if self._probe.store.keeps("requests", order):
+            self._probe.seen.orders.append(order)
         self._probe.notify()
         return GoalResponse.ACCEPT if self._accepts else GoalResponse.REJECT
 

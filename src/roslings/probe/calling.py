@@ -117,16 +117,16 @@ class Server:
     def _respond(self, request: Any, response: Any) -> Any:
         asked_ns, asked = time.monotonic_ns(), to_plain(request)
         said = self._answer(asked)
-        self._probe.seen.served.append(
-            CallSeen(
-                service=self._service,
-                type=self._type,
-                request=asked,
-                response=said,
-                sent_ns=asked_ns,
-                answered_ns=time.monotonic_ns(),
-            )
+        call = CallSeen(
+            service=self._service,
+            type=self._type,
+            request=asked,
+            response=said,
+            sent_ns=asked_ns,
+            answered_ns=time.monotonic_ns(),
         )
+        if self._probe.store.keeps("requests", call):
+            self._probe.seen.served.append(call)
         self._probe.notify()
         return _filled(response, said)
 

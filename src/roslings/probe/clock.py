@@ -36,11 +36,20 @@ class Barrier:
 
     def passed(self, within_s: float) -> bool:
         """Send all nodes on their round trips at once; whether all came back in time."""
+        self.send()
+        return self._passed.wait(within_s)
+
+    def send(self) -> None:
+        """Send all nodes on their round trips at once, and do not wait."""
         self._passed.clear()
         self._left = len(self._clients)
         for client in self._clients:
             self._trip(client, TRIPS)
-        return self._passed.wait(within_s)
+
+    @property
+    def is_passed(self) -> bool:
+        """All came back."""
+        return self._passed.is_set()
 
     def close(self) -> None:
         """Forget the nodes."""

@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import Any, Literal, NamedTuple
+from itertools import takewhile
+from typing import Any, Literal, NamedTuple, TypeVar
 
 from roslings.evidence import Endpoint, GraphSeen, Qos
+from roslings.probe.budget import MB, Budget, size_of
+
+MOST_BYTES = 4 * MB
+"""Of a graph: some 4,000 endpoints."""
 
 UNLIMITED_NS = 2**63 - 1
 UNNAMED = "_NODE_NAME_UNKNOWN_"
 """What rcl calls the node of an endpoint until discovery has brought its name."""
-Found = tuple[Literal["publisher", "subscription"], str, Any]
-"""What an endpoint is, its topic, and what rclpy tells of it."""
+T = TypeVar("T")
 
 
 class Outline(NamedTuple):
@@ -22,6 +26,11 @@ class Outline(NamedTuple):
     services: list[tuple[str, list[str]]]
     counts: list[tuple[int, int]]
 
+    @property
+    def size(self) -> int:
+        """How many names and endpoints there are."""
+        return len(self.nodes) + len(self.services) + sum(map(sum, self.counts))
+
 
 class Looker:
     """Reads the graph again when something in it has changed.
@@ -29,10 +38,12 @@ class Looker:
     To read all endpoints takes rclpy ten times as long as to count them.
     """
 
-    def __init__(self, eye: Any) -> None:
-        self._eye = eye
+    def __init__(self, eye: Any, most_bytes: int = MOST_BYTES) -> None:
+        self._eye, self._most_bytes = eye, most_bytes
         self._outline: Outline | None = None
         self._all_named = False
+        self.left_out = 0
+        """Names and endpoints that found no room in the graph that was read last."""
 
     def changed(self) -> GraphSeen | None:
         """The graph; None where it is what was read last."""
@@ -47,10 +58,24 @@ class Looker:
 
     def _read(self, outline: Outline) -> GraphSeen:
         """`outline` is older: what comes meanwhile is seen next time."""
-        found = list(_endpoints(self._eye, outline))
+        room = Budget(self._most_bytes)
+        names = (join(space, name) for name, space in outline.nodes)
+        nodes = list(_fitting(names, room))
+        found = list(_fitting(_endpoints(self._eye, outline), room))
+        services = dict(_fitting(((name, list(types)) for name, types in outline.services), room))
         self._outline = outline
-        self._all_named = all(info.node_name != UNNAMED for _, _, info in found)
-        return _graph(outline, found)
+        self._all_named = all(each.node.rpartition("/")[2] != UNNAMED for each in found)
+        self.left_out = max(0, outline.size - len(nodes) - len(found) - len(services))
+        return GraphSeen(
+            nodes=sorted(name for name in nodes if not is_hidden(name)),
+            endpoints=[each for each in found if not is_hidden(each.node)],
+            services=services,
+        )
+
+
+def _fitting(records: Iterable[T], room: Budget) -> Iterator[T]:
+    """The first ones, as many as find room."""
+    return takewhile(lambda each: room.take(size_of(each)), records)
 
 
 def outline_of(eye: Any) -> Outline:
@@ -69,15 +94,6 @@ def read_graph(eye: Any) -> GraphSeen:
     return Looker(eye).read()
 
 
-def _graph(outline: Outline, found: Iterable[Found]) -> GraphSeen:
-    names = (join(space, name) for name, space in outline.nodes)
-    return GraphSeen(
-        nodes=sorted(name for name in names if not is_hidden(name)),
-        endpoints=list(_visible(found)),
-        services={name: list(types) for name, types in outline.services},
-    )
-
-
 def join(namespace: str, name: str) -> str:
     """Full name of a node."""
     return f"{namespace.rstrip('/')}/{name}"
@@ -88,26 +104,23 @@ def is_hidden(full_name: str) -> bool:
     return full_name.rpartition("/")[2].startswith("_")
 
 
-def _endpoints(eye: Any, outline: Outline) -> Iterator[Found]:
+def _endpoints(eye: Any, outline: Outline) -> Iterator[Endpoint]:
     for topic, _ in outline.topics:
         for info in eye.get_publishers_info_by_topic(topic):
-            yield "publisher", topic, info
+            yield _endpoint("publisher", topic, info)
         for info in eye.get_subscriptions_info_by_topic(topic):
-            yield "subscription", topic, info
+            yield _endpoint("subscription", topic, info)
 
 
-def _visible(found: Iterable[Found]) -> Iterator[Endpoint]:
-    for kind, topic, info in found:
-        node = join(info.node_namespace, info.node_name)
-        if not is_hidden(node):
-            yield Endpoint(
-                kind=kind,
-                node=node,
-                topic=topic,
-                type=info.topic_type,
-                qos=read_qos(info.qos_profile),
-                gid=bytes(info.endpoint_gid).hex(),
-            )
+def _endpoint(kind: Literal["publisher", "subscription"], topic: str, info: Any) -> Endpoint:
+    return Endpoint(
+        kind=kind,
+        node=join(info.node_namespace, info.node_name),
+        topic=topic,
+        type=info.topic_type,
+        qos=read_qos(info.qos_profile),
+        gid=bytes(info.endpoint_gid).hex(),
+    )
 
 
 def read_qos(profile: Any) -> Qos:

@@ -20,11 +20,13 @@ from roslings.evidence import (
 )
 from roslings.near import own_endpoints
 from roslings.probe import canary
+from roslings.probe.budget import MB, Budget, Share, Store, size_of
 from roslings.probe.clock import Barrier, SimClock
 from roslings.probe.content import from_plain
-from roslings.probe.events import no_ear_events, no_mouth_events
-from roslings.probe.graph import Looker
-from roslings.probe.recorder import Read, Recorder, Store, can_record
+from roslings.probe.ear import Ear, Queues
+from roslings.probe.events import no_mouth_events
+from roslings.probe.graph import MOST_BYTES, Looker
+from roslings.probe.recorder import Read, Recorder, can_record
 from roslings.rates import place_on_ticks
 
 NAME = "_roslings_probe"
@@ -34,7 +36,11 @@ REST_AFTER_LOOK = 3.0
 HEARTBEAT_S = 0.02
 MOST_LOG_LINES = 2000
 LONGEST_LOG_LINE = 2000
+LARGEST_LOG_BYTES = 4 * MB
 MOST_LOGGERS = 200
+LOGGERS_OWN_BYTES = 16 * 1024
+"""Of each logger: 40 lines are kept, whatever others write."""
+
 MOST_TOPICS = 200
 """Each one recorded costs us a subscription, and those who publish on it time."""
 Condition = Callable[[], bool]
@@ -51,16 +57,26 @@ class Probe:
     """
 
     def __init__(
-        self, domain_id: int, seen: ExperimentSeen, record: bool = True, large_bytes: int = 0
+        self,
+        domain_id: int,
+        seen: ExperimentSeen,
+        record: bool = True,
+        large_bytes: int = 0,
+        whole: Budget | None = None,
+        queues: Budget | None = None,
     ) -> None:
         """With `record` off it looks at the graph and hears no message.
 
-        `large_bytes` of messages too large to be read are kept as bytes, for a bag.
+        `large_bytes` of messages too large to be read are kept as bytes, for a bag. `whole` is
+        what all experiments may keep together, `queues` what the middleware may hold for all.
         """
         self.seen = seen
         self._records = record
         self._domain_id = domain_id
-        self._store = Store(large_bytes)
+        self.store = Store(whole, large_bytes)
+        self._queues = Queues(queues)
+        self._loggers: dict[str, Share] = {}
+        self._unheard: set[str] = set()
         self._recorders: dict[str, Recorder] = {}
         self._publishers: dict[str, Any] = {}
         self._readers: dict[str, Read] = {}
@@ -85,7 +101,9 @@ class Probe:
         )  # fmt: skip
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self._eye)
-        self._looker = Looker(self._eye)
+        self._graph_bytes = MOST_BYTES if self.store.budget.take(MOST_BYTES) else 0
+        self._looker = Looker(self._eye, self._graph_bytes)
+        self._left_out = 0
         self._hear_logs()
         self._threads = [
             threading.Thread(target=self._spin, name="probe"),
@@ -102,16 +120,22 @@ class Probe:
         trace: TracebackType | None,
     ) -> None:
         self._closing.set()
-        self._executor.wake()
+        self._executor.create_task(_nothing)  # a task ends spin_once(); wake() does not
         for thread in self._threads:
             thread.join()
         self._executor.shutdown()
         self._eye.destroy_node()
         self._context.try_shutdown()
+        self._queues.close()
         for name, recorder in self._recorders.items():
             recorder.read_contents()
             place_on_ticks(recorder.seen.messages, self.seen.ticks)
             self.seen.topics[name] = recorder.seen
+        self.store.drop("rosout", int(self._logs.cut_short))
+        self.store.drop("topics", len(self._unheard))
+        self.store.drop("graph", self._left_out)
+        self.store.budget.give_back(self._graph_bytes - size_of(self.seen.graph))
+        self.seen.dropped = self.store.close()
 
     @property
     def recorders(self) -> Mapping[str, Recorder]:
@@ -167,7 +191,7 @@ class Probe:
 
     def _take_graph(self, graph: GraphSeen) -> None:
         if fullness(graph) >= fullness(self.seen.graph):
-            self.seen.graph = graph
+            self.seen.graph, self._left_out = graph, self._looker.left_out
         for endpoint in own_endpoints(graph):
             if self._records and endpoint.kind == "publisher":
                 self._record(endpoint)
@@ -177,7 +201,7 @@ class Probe:
     def count(self, topic: str) -> int:
         """How many messages came on `topic` so far."""
         recorder = self._recorders.get(topic)
-        return len(recorder.seen.messages) if recorder else 0
+        return recorder.count if recorder else 0
 
     def connected(self, topic: str) -> bool:
         """What a publisher on `topic` sends is heard."""
@@ -265,7 +289,7 @@ class Probe:
             kind="publisher", node=f"/{canary.NODE}", topic=canary.TOPIC, type=canary.TYPE,
             qos=Qos(), gid="canary",
         )  # fmt: skip
-        self._canary = Recorder(self._eye, mouth, self.notify)
+        self._canary = Recorder(self._eye, mouth, self.notify, self.store, queues=self._queues)
         self.seen.canary.messages = self._canary.seen.messages
 
     def _publisher_for(self, ear: Endpoint) -> Any:
@@ -279,28 +303,44 @@ class Probe:
         return self._publishers[ear.gid]
 
     def _record(self, endpoint: Endpoint) -> None:
-        recorder = self._recorders.get(endpoint.topic)
-        if recorder is None and len(self._recorders) < MOST_TOPICS and can_record(endpoint):
-            self._recorders[endpoint.topic] = Recorder(
-                self._eye, endpoint, self.notify, self._store, self._readers
-            )
+        if endpoint.topic in self._recorders or not can_record(endpoint):
+            return
+        if len(self._recorders) == MOST_TOPICS:
+            self._unheard.add(endpoint.topic)
+            return
+        self._recorders[endpoint.topic] = Recorder(
+            self._eye, endpoint, self.notify, self.store, self._readers, self._queues
+        )
 
     def _hear_logs(self) -> None:
         from rcl_interfaces.msg import Log
         from rclpy.qos import DurabilityPolicy, QoSProfile
 
         kept = QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-        self._eye.create_subscription(
-            Log, "/rosout", self._take_log, kept, event_callbacks=no_ear_events()
-        )
+        self._logs = Ear(self._eye, Log, "/rosout", self._take_log, kept, self._queues)
 
-    def _take_log(self, log: Any) -> None:
-        logs = self.seen.rosout
-        lines = logs.setdefault(log.name, []) if len(logs) < MOST_LOGGERS else logs.get(log.name)
-        if lines is not None and len(lines) < MOST_LOG_LINES:
-            text, now_ns = log.msg[:LONGEST_LOG_LINE], time.monotonic_ns()
-            lines.append(LogLine(arrival_ns=now_ns, text=text, source="rosout"))
+    def _take_log(self, raw: bytes, info: Any) -> None:
+        from rcl_interfaces.msg import Log
+        from rclpy.serialization import deserialize_message
+
+        log = deserialize_message(raw, Log) if len(raw) <= LARGEST_LOG_BYTES else None
+        if log is None or not self._keep_log(log.name, log.msg[:LONGEST_LOG_LINE]):
+            self.store.drop("rosout", 1, len(raw))
         self.notify()
+
+    def _keep_log(self, name: str, text: str) -> bool:
+        """Whether there was room for a line."""
+        line = LogLine(arrival_ns=time.monotonic_ns(), text=text, source="rosout")
+        logs, size = self.seen.rosout, size_of(line)
+        if name not in self._loggers:
+            size += size_of(name)
+            if len(logs) == MOST_LOGGERS:
+                return False
+            self._loggers[name] = self.store.share(LOGGERS_OWN_BYTES)
+        if len(logs.get(name, ())) == MOST_LOG_LINES or not self._loggers[name].take(size):
+            return False
+        logs.setdefault(name, []).append(line)
+        return True
 
     def _spin(self) -> None:
         while not self._closing.is_set():
@@ -314,6 +354,10 @@ class Probe:
             now_s = time.monotonic()
             self.seen.stall_s = max(self.seen.stall_s, now_s - before_s - HEARTBEAT_S)
             before_s = now_s
+
+
+def _nothing() -> None:
+    """What an executor does that is only to look up."""
 
 
 def fullness(graph: GraphSeen) -> tuple[int, int]:

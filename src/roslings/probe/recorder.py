@@ -7,50 +7,23 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from roslings.evidence import Endpoint, MessageSeen, TopicSeen
+from roslings.probe.budget import Store, size_of
 from roslings.probe.content import UnknownType, message_class, to_plain
-from roslings.probe.events import no_ear_events
+from roslings.probe.ear import QUEUE_DEPTH, Ear, Queues, waited_ns
 
-QUEUE_DEPTH = 5000
-"""A raw observer with this depth missed none of 6,000 messages at 1 kHz."""
-
-LONGEST_BACKLOG_NS = 60 * 10**9
 MOST_MESSAGES = 20_000
-MOST_MESSAGES_IN_ALL = 100_000
 LARGEST_CONTENT = 64 * 1024
-MOST_RAW_BYTES = 64 * 1024 * 1024
-MOST_CONTENT_CHARACTERS = 16 * 1024 * 1024
+OWN_BYTES = 32 * 1024
+"""Of each topic: 40 short texts are kept, whatever goes on beside it."""
+
+MESSAGE_BYTES = 400
+"""Of one message without its content, with what JSON writes of it."""
+
+TEXT_BYTES = 320
+"""Of a content with one field, beside its text: as bytes, as a value, and as JSON."""
+
 Read = Callable[[Any], Any]
 """Makes the plain values of a message that are to be kept."""
-
-
-class Allowance:
-    """How much of something may be kept: one for all topics of an experiment."""
-
-    def __init__(self, left: int = 0) -> None:
-        self._left = left
-
-    def take(self, size: int) -> bool:
-        """Take `size` of it, where as much is left."""
-        fits = size <= self._left
-        self._left -= size if fits else 0
-        return fits
-
-
-class Store:
-    """What all topics of an experiment may keep together, so that no node fills our memory.
-
-    `large_bytes` are for messages above LARGEST_CONTENT, whose contents are never read.
-    """
-
-    def __init__(self, large_bytes: int = 0) -> None:
-        self.messages = Allowance(MOST_MESSAGES_IN_ALL)
-        self.contents = Allowance(MOST_CONTENT_CHARACTERS)
-        self._raw = Allowance(MOST_RAW_BYTES)
-        self._large = Allowance(large_bytes)
-
-    def keeps(self, raw: bytes) -> bool:
-        """Whether there is room for the bytes of a message."""
-        return (self._raw if len(raw) <= LARGEST_CONTENT else self._large).take(len(raw))
 
 
 class Recorder:
@@ -63,8 +36,9 @@ class Recorder:
         heard: Callable[[], None],
         store: Store | None = None,
         readers: Mapping[str, Read] | None = None,
+        queues: Queues | None = None,
     ) -> None:
-        """Keeps what `store` has room for.
+        """Keeps what `store` has room for; `queues` is what the middleware may hold for us.
 
         A type in `readers`, which may change, is read when a message comes, whatever its size.
 
@@ -75,41 +49,57 @@ class Recorder:
         self._class = message_class(endpoint.type)
         self._heard = heard
         self._store = store or Store()
+        self._share = self._store.share(OWN_BYTES)
         self._readers = {} if readers is None else readers
         self._raw: list[bytes] = []
-        self._subscription = eye.create_subscription(
-            self._class, endpoint.topic, self._take, _matching_qos(endpoint), raw=True,
-            event_callbacks=no_ear_events(),
+        self._ear = Ear(
+            eye, self._class, endpoint.topic, self._take, _matching_qos(endpoint),
+            queues or Queues(),
         )  # fmt: skip
 
+    @property
+    def count(self) -> int:
+        """How many messages came, those that are not kept too."""
+        return len(self.seen.messages) + self.seen.not_kept
+
     def _take(self, raw: bytes, info: Any) -> None:
-        arrival_ns = _arrival_ns(info)
-        if len(self.seen.messages) < MOST_MESSAGES and self._store.messages.take(1):
-            self._keep(raw, info, arrival_ns)
+        arrival_ns = time.monotonic_ns() - waited_ns(info)
+        content = self._read_now(raw)
+        taken = self._taken_for(raw, content)
+        if len(self.seen.messages) < MOST_MESSAGES and self._share.take(taken):
+            self._keep(raw, info, arrival_ns, content)
         else:
+            self._share.full = True
             self.seen.not_kept += 1
+            self._store.drop("messages", 1, len(raw))
         self._heard()
 
-    def _keep(self, raw: bytes, info: Any, arrival_ns: int) -> None:
-        self._raw.append(raw if self._store.keeps(raw) else b"")
+    def _taken_for(self, raw: bytes, content: Any) -> int:
+        """What a message will take of the store, as far as that is known before it is read."""
+        later = _guess(raw) if len(raw) <= LARGEST_CONTENT else 0
+        return MESSAGE_BYTES + later + (0 if content is None else size_of(content))
+
+    def _keep(self, raw: bytes, info: Any, arrival_ns: int, content: Any) -> None:
+        fits = len(raw) <= LARGEST_CONTENT or self._store.large.take(len(raw))
+        self._raw.append(raw if fits else b"")
         self.seen.messages.append(
             MessageSeen(
                 source_ns=info["source_timestamp"] or None,
                 sequence=info["publication_sequence_number"],
                 arrival_ns=arrival_ns,
                 size=len(raw),
-                content=self._read_now(raw),
+                content=content,
             )
         )
 
     def _read_now(self, raw: bytes) -> Any:
         read = self._readers.get(self.seen.type)
-        return read(self._message(raw)) if read else None
+        return read(self._message(raw)) if read and not self._share.full else None
 
     @property
     def connected(self) -> bool:
         """A publisher and this subscription have found each other: what it sends is heard."""
-        return int(self._subscription.get_publisher_count()) > 0
+        return self._ear.connected
 
     def raw_messages(self) -> Iterator[tuple[MessageSeen, bytes]]:
         """Each message whose bytes were kept, and these, as they came."""
@@ -117,11 +107,20 @@ class Recorder:
 
     def read_contents(self) -> None:
         """Turn the bytes into values, after the watch, so that reading delays no message."""
+        self.seen.cut_short = self._ear.cut_short
         for message, raw in zip(self.seen.messages, self._raw, strict=True):
-            if message.content is None and 0 < len(raw) <= LARGEST_CONTENT:
-                content = to_plain(self._message(raw))
-                if self._store.contents.take(len(str(content))):
-                    message.content = content
+            if message.content is None:
+                message.content = self._content(raw) if 0 < len(raw) <= LARGEST_CONTENT else None
+                self.seen.not_read += message.content is None
+
+    def _content(self, raw: bytes) -> Any:
+        """The values; None where there is no room for them."""
+        content = to_plain(self._message(raw))
+        more = size_of(content) - _guess(raw)
+        if more > 0:
+            return content if self._share.take(more) else None
+        self._share.give_back(-more)
+        return content
 
     def _message(self, raw: bytes) -> Any:
         from rclpy.serialization import deserialize_message
@@ -129,15 +128,9 @@ class Recorder:
         return deserialize_message(raw, self._class)
 
 
-def _arrival_ns(info: Any) -> int:
-    """When the middleware received a message, on the monotonic clock.
-
-    Its own thread receives; this thread may be busy with the messages before, so the time of
-    taking would be late. The middleware stamps by the wall clock, a moment ago: how long ago is
-    the same on both clocks.
-    """
-    now_ns, ago_ns = time.monotonic_ns(), time.time_ns() - info["received_timestamp"]
-    return now_ns - ago_ns if 0 <= ago_ns < LONGEST_BACKLOG_NS else now_ns
+def _guess(raw: bytes) -> int:
+    """What the bytes of a message take with the values in them, where these are mostly a text."""
+    return TEXT_BYTES + 3 * len(raw)
 
 
 def can_record(endpoint: Endpoint) -> bool:

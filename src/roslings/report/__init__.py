@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from roslings.report.json_file import BadVerdictFile, read_json, write_json
     from roslings.report.junit import write_junit
     from roslings.report.progress import Progress
+    from roslings.report.refusal import Refusal
     from roslings.report.terminal import NoSuchCheck, print_verdict
     from roslings.report.whole_file import CannotWrite
 
@@ -29,6 +30,7 @@ __all__ = [
     "CannotWrite",
     "NoSuchCheck",
     "Progress",
+    "Refusal",
     "describe_graph",
     "draw_graph",
     "graph_text",
@@ -49,6 +51,7 @@ _HOMES = {
     "CannotWrite": "whole_file",
     "NoSuchCheck": "terminal",
     "Progress": "progress",
+    "Refusal": "refusal",
     "describe_graph": "graph_words",
     "draw_graph": "graph_picture",
     "graph_text": "graph_words",

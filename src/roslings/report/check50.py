@@ -6,8 +6,11 @@ import json
 from pathlib import Path
 from typing import Any
 
+from roslings import __version__
 from roslings.report.junit import lines_of
+from roslings.report.refusal import Refusal
 from roslings.report.safe_text import harmless
+from roslings.report.wall_words import held
 from roslings.report.whole_file import write_whole
 from roslings.verdict import CheckResult, Verdict
 
@@ -15,9 +18,10 @@ PASSED = {"pass": True, "fail": False}
 """A check that was skipped, or that nobody could judge, is neither."""
 
 
-def write_check50(verdict: Verdict, path: Path) -> None:
-    """Write `verdict` to `path`. Raises CannotWrite."""
-    text = json.dumps(check50_of(verdict), indent=2, ensure_ascii=True)
+def write_check50(told: Verdict | Refusal, path: Path) -> None:
+    """Write a verdict, or why there is none, to `path`. Raises CannotWrite."""
+    table = refused(told) if isinstance(told, Refusal) else check50_of(told)
+    text = json.dumps(table, indent=2, ensure_ascii=True)
     write_whole(path, f"{text}\n".encode())
 
 
@@ -26,8 +30,17 @@ def check50_of(verdict: Verdict) -> dict[str, Any]:
     return {
         "slug": f"roslings/{verdict.lab}",
         "version": verdict.environment.roslings,
-        "results": [_result(check) for check in verdict.checks],
+        "environment": {"wall": verdict.environment.wall, "about": held(verdict)},
+        "results": [_result(check) for check in verdict.checks if not check.hidden],
     }
+
+
+def refused(refusal: Refusal) -> dict[str, Any]:
+    """The file where there is no verdict: check50 names what kept it from running."""
+    kind = "Refused" if refusal.is_students else "NotGraded"
+    error = {"type": kind, "value": refusal.text, "traceback": [], "data": {},
+             "actions": {"show_traceback": False, "message": refusal.text}}  # fmt: skip
+    return {"slug": f"roslings/{refusal.lab}", "version": __version__, "error": error}
 
 
 def _result(check: CheckResult) -> dict[str, Any]:

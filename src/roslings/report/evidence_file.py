@@ -6,7 +6,7 @@ from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from roslings.evidence import SCHEMA_VERSION, Evidence
+from roslings.evidence import SCHEMA_VERSION, Evidence, evidence_json
 
 FILE = "evidence.json"
 AGAIN = "Save it again with: ./roslings check LAB --evidence DIR"
@@ -30,7 +30,7 @@ class _Head(BaseModel):
 
 def evidence_bytes(evidence: Evidence) -> bytes:
     """The evidence as the file holds it: JSON in UTF-8."""
-    return (evidence.model_dump_json(by_alias=True, indent=1) + "\n").encode("utf-8")
+    return evidence_json(evidence, indent=1) + b"\n"
 
 
 def read_evidence(path: Path, lab: str) -> Evidence:

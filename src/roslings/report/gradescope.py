@@ -10,7 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from roslings.report.junit import lines_of
+from roslings.report.refusal import Refusal
 from roslings.report.safe_text import harmless
+from roslings.report.wall_words import held
 from roslings.report.whole_file import write_whole
 from roslings.verdict import CheckResult, Verdict
 
@@ -18,12 +20,14 @@ INCONCLUSIVE = (
     "Not everything could be told: mostly the computer was too busy. This is no grade:"
     " submit again, or tell your instructor."
 )
+NO_GRADE = "This submission was not graded, and that is no fault of yours: tell your instructor."
 STATUS = {"pass": "passed", "fail": "failed"}
 
 
-def write_gradescope(verdict: Verdict, path: Path) -> None:
-    """Write `verdict` to `path`. Raises CannotWrite."""
-    text = json.dumps(gradescope_of(verdict), indent=2, ensure_ascii=True)
+def write_gradescope(told: Verdict | Refusal, path: Path) -> None:
+    """Write a verdict, or why there is none, to `path`. Raises CannotWrite."""
+    table = refused(told) if isinstance(told, Refusal) else gradescope_of(told)
+    text = json.dumps(table, indent=2, ensure_ascii=True)
     write_whole(path, f"{text}\n".encode())
 
 
@@ -33,7 +37,8 @@ def gradescope_of(verdict: Verdict) -> dict[str, Any]:
     An inconclusive verdict has no score at all: Gradescope then calls the run failed, and puts
     no zero into its gradebook.
     """
-    output = "\n".join(harmless(remark) for remark in verdict.advice)
+    remarks = [*verdict.advice, *filter(None, [held(verdict)])]
+    output = "\n".join(harmless(remark) for remark in remarks)
     if verdict.outcome == "inconclusive":
         output = f"{INCONCLUSIVE}\n{output}".rstrip()
     known = verdict.outcome != "inconclusive"
@@ -45,7 +50,29 @@ def gradescope_of(verdict: Verdict) -> dict[str, Any]:
         "visibility": "visible",
         "stdout_visibility": "hidden",
         "tests": [_test(check, known) for check in verdict.checks],
-        "extra_data": {"lab": verdict.lab, "outcome": verdict.outcome},
+        "extra_data": {
+            "lab": verdict.lab,
+            "outcome": verdict.outcome,
+            "wall": verdict.environment.wall,
+        },
+    }
+
+
+def refused(refusal: Refusal) -> dict[str, Any]:
+    """The file where there is no verdict.
+
+    A run without any score is shown to instructors only: what a student can mend is a zero, with
+    the words beside it.
+    """
+    counts = refusal.is_students
+    return {
+        **({"score": 0.0} if counts else {}),
+        "output": refusal.text if counts else f"{NO_GRADE}\n{refusal.text}",
+        "output_format": "text",
+        "visibility": "visible",
+        "stdout_visibility": "hidden",
+        "tests": [],
+        "extra_data": {"lab": refusal.lab, "outcome": "refused" if counts else "inconclusive"},
     }
 
 
@@ -53,7 +80,7 @@ def _test(check: CheckResult, known: bool) -> dict[str, Any]:
     points = {"score": check.points, "max_score": check.max_points} if known else {}
     words: dict[str, Any] = {
         "name": harmless(check.title), "number": check.id, **points,
-        "output_format": "text", "visibility": "visible",
+        "output_format": "text", "visibility": "hidden" if check.hidden else "visible",
         "output": harmless(_output(check), keep_newlines=True),
     }  # fmt: skip
     if check.outcome in STATUS:

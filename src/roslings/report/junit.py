@@ -6,7 +6,9 @@ import re
 from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
+from roslings.report.refusal import Refusal
 from roslings.report.safe_text import harmless
+from roslings.report.wall_words import held
 from roslings.report.whole_file import write_whole
 from roslings.verdict import CheckResult, Verdict
 
@@ -14,21 +16,43 @@ from roslings.verdict import CheckResult, Verdict
 _NO_XML = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
-def write_junit(verdict: Verdict, path: Path) -> None:
-    """Write `verdict` to `path`. Raises CannotWrite."""
-    write_whole(path, junit_of(verdict))
+def write_junit(told: Verdict | Refusal, path: Path) -> None:
+    """Write a verdict, or why there is none, to `path`. Raises CannotWrite."""
+    write_whole(path, refused(told) if isinstance(told, Refusal) else junit_of(told))
 
 
 def junit_of(verdict: Verdict) -> bytes:
     """One test suite; a check is a test case, an inconclusive one is an error."""
-    counts = {word: sum(c.outcome == word for c in verdict.checks) for word in ELEMENTS}
+    shown = [check for check in verdict.checks if not check.hidden]
+    counts = {word: sum(check.outcome == word for check in shown) for word in ELEMENTS}
     suite = Element(
-        "testsuite", name=f"roslings.{verdict.lab}", tests=str(len(verdict.checks)),
+        "testsuite", name=f"roslings.{verdict.lab}", tests=str(len(shown)),
         failures=str(counts["fail"]), errors=str(counts["inconclusive"]),
         skipped=str(counts["skip"]), time=f"{verdict.seconds.total:.3f}",
     )  # fmt: skip
-    for check in verdict.checks:
+    if words := held(verdict):
+        properties = SubElement(suite, "properties")
+        SubElement(properties, "property", name="wall", value=str(verdict.environment.wall))
+        SubElement(properties, "property", name="wall_about", value=words)
+    for check in shown:
         _add(suite, check, verdict)
+    return _written(suite)
+
+
+def refused(refusal: Refusal) -> bytes:
+    """One test case that failed, or an error where the machine is at fault."""
+    told = "failure" if refusal.is_students else "error"
+    suite = Element(
+        "testsuite", name=f"roslings.{refusal.lab}", tests="1", skipped="0",
+        failures=str(int(told == "failure")), errors=str(int(told == "error")),
+    )  # fmt: skip
+    case = SubElement(suite, "testcase", classname=f"roslings.{refusal.lab}", name="submission")
+    element = SubElement(case, told, message=_plain(refusal.reason), type="Refused")
+    element.text = _plain(refusal.text)
+    return _written(suite)
+
+
+def _written(suite: Element) -> bytes:
     indent(suite)
     text = tostring(suite, encoding="unicode")
     return f'<?xml version="1.0" encoding="utf-8"?>\n{text}\n'.encode()

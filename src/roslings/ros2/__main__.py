@@ -2,7 +2,8 @@
 
 import sys
 
+from roslings.leaving import leave
 from roslings.ros2.cli import main
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    leave(main(sys.argv[1:]))

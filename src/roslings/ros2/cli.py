@@ -8,7 +8,7 @@ import sys
 from collections.abc import Callable, Sequence
 from importlib import import_module
 
-from roslings.ros2 import stopping, surroundings
+from roslings.ros2 import own_output, stopping, surroundings
 from roslings.ros2.handover import hand_over
 from roslings.ros2.problem import Problem, did_you_mean
 from roslings.ros2.words import OK, WRONG_USE, Parser, only_in_full
@@ -16,21 +16,26 @@ from roslings.ros2.words import OK, WRONG_USE, Parser, only_in_full
 COMMANDS = {
     "action": "Various action related sub-commands",
     "bag": "Various rosbag related sub-commands",
+    "component": "Various component related sub-commands",
+    "daemon": "Various daemon related sub-commands",
     "doctor": "Check ROS setup and other potential issues",
     "interface": "Show information about ROS interfaces",
     "launch": "Run a launch file",
     "lifecycle": "Various lifecycle related sub-commands",
+    "multicast": "Various multicast related sub-commands",
     "node": "Various node related sub-commands",
     "param": "Various param related sub-commands",
     "pkg": "Various package related sub-commands",
     "run": "Run a package specific executable",
     "service": "Various service related sub-commands",
     "topic": "Various topic related sub-commands",
+    "wtf": "Use `wtf` as alias to `doctor`",
 }
-FULL_ONLY = (
-    "component", "control", "daemon", "extension_points", "extensions", "multicast", "plugin",
-    "security", "test", "trace", "wtf",
-)  # fmt: skip
+DOCTORS = ("doctor", "wtf")
+FULL_ONLY = ("control", "extension_points", "extensions", "plugin", "security", "test", "trace")
+STARTERS = ("launch", "run")
+"""What these start writes to our own standard output."""
+
 STOPPED = int(signal.SIGINT)
 """The exit code of the real `ros2` after Ctrl-C."""
 
@@ -74,23 +79,46 @@ def forget_stdout() -> None:
 
 def run(argv: list[str]) -> int:
     """Choose the command and run it."""
-    complete = "_ARGCOMPLETE" in os.environ
-    word = _completed_command() if complete else first_word(argv)
-    if not complete and word not in COMMANDS and word is not None:
-        return not_ours(word)
-    if word == "doctor" and not complete:
-        return examine(argv[1:])
-    parser = parser_for(word)
-    if complete:
-        from argcomplete import autocomplete
+    if "_ARGCOMPLETE" in os.environ:
+        complete()
+    leave_out_generator()
+    if first_word(argv) not in STARTERS:
+        own_output.keep()
+    return run_here(argv)
 
-        autocomplete(parser, exclude=["-h", "--help"])
-    options = parser.parse_args(argv)
+
+def leave_out_generator() -> None:
+    """Message types load, where it can be loaded, what makes them from .msg files.
+
+    That is a fifth of the start. Where it cannot be loaded they do without; a look makes no types.
+    """
+    sys.modules.setdefault("rosidl_generator_py.generate_py_impl", None)  # type: ignore[arg-type]  # Python's own way to say so
+
+
+def complete() -> None:
+    """What the Tab key offers; it does not come back."""
+    from argcomplete import autocomplete
+
+    autocomplete(parser_for(_completed_command()), exclude=["-h", "--help"])
+
+
+def run_here(argv: list[str]) -> int:
+    """Run the command in this process, and leave the process as it is."""
+    word = first_word(argv)
+    if word not in COMMANDS and word is not None:
+        return not_ours(word)
+    if word in DOCTORS:
+        return examine(word, argv[1:])
+    options = parser_for(word).parse_args(argv)
     return int(options.run(options))
 
 
-def examine(words: list[str]) -> int:
-    """`ros2 doctor ...`: every word, options too, is for the doctor of roslings."""
+def examine(command: str, words: list[str]) -> int:
+    """`ros2 doctor ...`: every word but hello, options too, is for the doctor of roslings."""
+    if words[:1] == ["hello"]:
+        from roslings.ros2.commands.hello import run as hello
+
+        return hello(command, words[1:])
     from roslings.doctor.cli import main as doctor
 
     return doctor(words)
@@ -122,7 +150,7 @@ def parser_for(word: str | None) -> Parser:
     words = parser.add_subparsers(title="Commands", metavar="COMMAND", parser_class=Parser)
     for name, about in COMMANDS.items():
         command = words.add_parser(name, help=about, description=about)
-        if name == word != "doctor":
+        if name == word and name not in DOCTORS:
             import_module(f"roslings.ros2.commands.{name}").declare(command)
     return parser
 

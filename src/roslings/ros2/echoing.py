@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import argparse
 import re
+import sys
+from collections.abc import Callable
 from typing import Any
 
+from roslings.ros2 import qos
 from roslings.ros2.eye import Eye
+from roslings.ros2.habits import index_in_field
 from roslings.ros2.interfaces import class_of, full_name
-from roslings.ros2.listening import known_type, subscribe, topic_in
+from roslings.ros2.listening import filter_in, known_type, subscribe, topic_in
 from roslings.ros2.problem import Problem, did_you_mean
-from roslings.ros2.words import FAILED, OK
-from roslings.ros2.yaml_out import Shape, as_csv, as_yaml, plain_of
+from roslings.ros2.words import OK
+from roslings.ros2.yaml_out import Shape, as_csv, as_yaml, is_message
 
 _PLACE = re.compile(r"([^.\[\]]+)|\[(\d+)\]")
 
@@ -28,13 +32,18 @@ def echo(options: argparse.Namespace) -> int:
     topic = topic_in(options)
     if options.message_type:  # a wrong type is said before anything is waited for
         class_of(options.message_type, "msg")
-    with Eye() as eye:
+    passes = filter_in(options)
+    for field in options.field or []:
+        index_in_field(field)
+    with Eye.asked_by(options) as eye:
         eye.settle()
         type_name = _type(eye, topic, options)
         picks = [_checked(field, class_of(type_name, "msg")) for field in options.field or []]
-        printer = Printer(options, picks)
-        subscribe(eye, topic, type_name, options, printer.hear)
-        return OK if eye.until(lambda: printer.done, options.timeout) else FAILED
+        printer = Printer(options, picks, passes)
+        subscribe(eye, topic, type_name, _profile(eye, topic, options), printer.hear, options.raw,
+                  None if options.no_lost_messages else say_lost)  # fmt: skip
+        eye.until(lambda: printer.done, options.timeout)
+    return OK
 
 
 def _type(eye: Eye, topic: str, options: argparse.Namespace) -> str:
@@ -43,34 +52,69 @@ def _type(eye: Eye, topic: str, options: argparse.Namespace) -> str:
     return known_type(eye, topic)
 
 
+def _profile(eye: Eye, topic: str, options: argparse.Namespace) -> Any:
+    """The quality to ask for; a word is said where it hears less than was meant."""
+    profile = qos.for_echo(options, eye.publishers(topic))
+    if qos.hears_nothing_earlier(profile):
+        print("NOTE: with one --qos option, all others are those of sensor_data, which is best"
+              " effort: what was sent before does not come. Add: --qos-reliability reliable",
+              file=sys.stderr)  # fmt: skip
+    return profile
+
+
+def say_lost(status: Any) -> None:
+    """Messages did not arrive; printed as the real tool does."""
+    print(f"A message was lost!!!\n\ttotal count change:{status.total_count_change}"
+          f"\n\ttotal count: {status.total_count}---")  # fmt: skip
+
+
 class Printer:
     """Prints messages, or fields of them, in the shape that the options ask for."""
 
-    def __init__(self, options: argparse.Namespace, picks: list[list[str | int]]) -> None:
+    def __init__(
+        self,
+        options: argparse.Namespace,
+        picks: list[list[str | int]],
+        passes: Callable[[Any], bool] = lambda _: True,
+    ) -> None:
+        """`picks` are the places of `--field`; `passes` is `--filter`."""
         self._once = options.once
         self._csv = options.csv
+        self._informed = options.include_message_info
         self._shape = shape_in(options)
         self._picks = picks
+        self._passes = passes
         self.done = False
 
-    def hear(self, message: Any) -> None:
+    def hear(self, message: Any, info: Any) -> None:
         """Print one message."""
         if self.done:
             return
         parts = [_picked(message, places) for places in self._picks] or [message]
-        print(self._text(parts))
+        if not self._passes(parts[0]):
+            return
+        print(self._text(parts, info if self._informed else None))
         self.done = self._once
 
-    def _text(self, parts: list[Any]) -> str:
+    def _text(self, parts: list[Any], info: Any) -> str:
+        if len(parts) == 1 and not is_message(parts[0]):
+            return f"{_raw_head(info)}{parts[0]}\n---"
         if self._csv:
-            return ",".join(as_csv(part, self._shape) for part in parts)
-        return "".join(_shown(part, self._shape) for part in parts) + "---"
+            head = [str(value) for value in info.values()] if info else []
+            return ",".join([*head, *(as_csv(part, self._shape) for part in parts)])
+        head = [f"{as_yaml(dict(sorted(info.items())), self._shape)}---\n"] if info else []
+        return "".join([*head, *(_shown(part, self._shape) for part in parts), "---"])
+
+
+def _raw_head(info: Any) -> str:
+    if info is None:
+        return ""
+    return f"---Got new message, message info:---\n{info}\n---Message data:---\n"
 
 
 def _shown(part: Any, shape: Shape) -> str:
-    """The real tool prints a text of `--field` as it is, without YAML's quotes."""
-    plain = plain_of(part, shape)
-    return f"{plain}\n" if isinstance(plain, str) else as_yaml(part, shape)
+    """The real tool prints a field that is no message as Python has it."""
+    return as_yaml(part, shape) if is_message(part) else f"{part}\n"
 
 
 def shape_in(options: argparse.Namespace) -> Shape:

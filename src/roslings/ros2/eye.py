@@ -2,11 +2,13 @@
 
 Discovery takes between 0.05 s and 3 s, by luck, so waiting for a fixed time is wrong both ways.
 But each program that takes part in ROS on this computer holds UDP ports of its domain, and the
-kernel lists them: so it is known how many must answer, and the look ends when all have.
+kernel lists them: so it is known who must answer, and the look ends when all have. They are asked
+at once, so that luck plays no part (`roll_call`).
 """
 
 from __future__ import annotations
 
+import argparse
 import os
 import sys
 import time
@@ -20,10 +22,12 @@ from roslings.ros2 import stopping
 from roslings.ros2.names import is_hidden, node_name
 from roslings.ros2.participants import participants_here
 from roslings.ros2.problem import Problem
+from roslings.ros2.roll_call import RollCall
 from roslings.ros2.surroundings import check_middleware, domain_id, looks_beyond_this_computer
 
-QUIET_S = 0.12
-"""After all have answered: the last endpoints come within this time of each other."""
+QUIET_S = 0.05
+"""After all have answered: the last endpoints come within this time of each other. Each speaker
+sends its endpoints in order, and those by which it names its nodes are its first."""
 
 QUIET_BEYOND_S = 1.5
 """Where other computers may answer too, nothing new for this long means that it is all."""
@@ -79,25 +83,42 @@ class Sight:
     endpoints: int
     unnamed: int
     nodes: int
+    half_known: frozenset[bytes] = frozenset()
+    """Those with an endpoint whose node is not known yet."""
 
     def complete(self, expected: int) -> bool:
         """Everybody on this computer has said all."""
         return len(self.here) >= expected and self.here <= self.named and not self.unnamed
 
+    def knows_all_of(self, participants: frozenset[bytes]) -> bool:
+        """They have said all; of those who have ended meanwhile nothing more will come."""
+        return participants <= (self.here & self.named) - self.half_known
+
 
 class Eye:
     """Our node, in a context of its own. A context manager: leaving the block ends both."""
 
-    def __init__(self, name: str = "") -> None:
-        """`name` is the node's; by default a hidden one, as the real tool has it."""
+    def __init__(self, name: str = "", sim_time: bool = False, look_s: float = 0.0) -> None:
+        """`name` is the node's; by default a hidden one, as the real tool has it.
+
+        With `sim_time` its clock is the topic /clock; each look takes `look_s` at least.
+        """
         self._name = name or f"_ros2cli_{os.getpid()}"
+        self._sim_time, self._look_s = sim_time, look_s
+
+    @classmethod
+    def asked_by(cls, options: argparse.Namespace, name: str = "") -> Eye:
+        """With what `--use-sim-time` and `--spin-time` say."""
+        return cls(name, options.use_sim_time, options.spin_time)
 
     def __enter__(self) -> Eye:
         self.domain = domain_id()
         check_middleware()
+        self._roll: RollCall | None = RollCall(self.domain).__enter__()
         try:
             self._open()
         except (ImportError, RuntimeError) as fault:
+            self._end_roll()
             raise RosDoesNotStart(fault) from fault
         return self
 
@@ -105,6 +126,7 @@ class Eye:
         import rclpy
         from rclpy.executors import SingleThreadedExecutor
         from rclpy.node import Node
+        from rclpy.parameter import Parameter
         from rclpy.signals import SignalHandlerOptions
 
         self.context = rclpy.Context()
@@ -115,6 +137,7 @@ class Eye:
         self.node = Node(
             self._name, context=self.context, use_global_arguments=False,
             enable_rosout=False, start_parameter_services=False,
+            parameter_overrides=[Parameter("use_sim_time", value=self._sim_time)],
         )  # fmt: skip
         self._executor = SingleThreadedExecutor(context=self.context)
         self._executor.add_node(self.node)
@@ -125,18 +148,28 @@ class Eye:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
+        self._end_roll()
         # A callback that Ctrl-C cut short never counts as done, so waiting has its bound.
         self._executor.shutdown(timeout_sec=END_WITHIN_S)
         self.node.destroy_node()
         self.context.try_shutdown()
 
-    def settle(self) -> Eye:
-        """Wait until the graph is complete."""
-        settling = Settling(self.domain)
-        while not settling.after(self._sight()):
-            stopping.check()
-            time.sleep(LOOK_EVERY_S)
+    def settle(self, only_nodes: bool = False) -> Eye:
+        """Wait until the graph is complete; with `only_nodes`, until all names of nodes are."""
+        self._roll = self._roll or RollCall(self.domain).__enter__()
+        settling = Settling(self.domain, self._roll, self._look_s, 0.0 if only_nodes else QUIET_S)
+        try:
+            while not settling.after(self._sight()):
+                stopping.check()
+                time.sleep(LOOK_EVERY_S)
+        finally:
+            self._end_roll()
         return self
+
+    def _end_roll(self) -> None:
+        if self._roll:
+            self._roll.__exit__(None, None, None)
+            self._roll = None
 
     def until(self, condition: Callable[[], Any], within_s: float | None = None) -> bool:
         """Run callbacks until `condition()` holds, at most `within_s`. Whether it does."""
@@ -216,28 +249,45 @@ class Eye:
             for info in self._infos(name)
         }
         own = next((gid for gid, node in seen.items() if node == self._name), b"")
-        who = {bytes(i.endpoint_gid)[:PREFIX] for i in self._infos(WHO)}
+        speak, hear = (
+            {bytes(info.endpoint_gid)[:PREFIX] for info in infos} for infos in self._both(WHO)
+        )
         return Sight(
-            here=frozenset(prefix for prefix in who if prefix[:HOST] == own[:HOST]),
+            here=frozenset(prefix for prefix in speak & hear if prefix[:HOST] == own[:HOST]),
             named=frozenset(gid[:PREFIX] for gid, node in seen.items() if node != UNNAMED),
             endpoints=len(seen),
             unnamed=sum(node == UNNAMED for node in seen.values()),
             nodes=len(self.node.get_node_names()),
+            half_known=frozenset(gid[:PREFIX] for gid, node in seen.items() if node == UNNAMED),
         )
 
     def _infos(self, raw_topic: str) -> list[Any]:
+        return [info for infos in self._both(raw_topic) for info in infos]
+
+    def _both(self, raw_topic: str) -> tuple[list[Any], list[Any]]:
+        """Its publishers, and its subscriptions: DDS tells of each kind by itself."""
         node = self.node
-        return [
-            *node.get_publishers_info_by_topic(raw_topic, no_mangle=True),
-            *node.get_subscriptions_info_by_topic(raw_topic, no_mangle=True),
-        ]
+        return (
+            node.get_publishers_info_by_topic(raw_topic, no_mangle=True),
+            node.get_subscriptions_info_by_topic(raw_topic, no_mangle=True),
+        )
 
 
 class Settling:
     """Tells when nothing more is to come."""
 
-    def __init__(self, domain: int) -> None:
+    def __init__(
+        self,
+        domain: int,
+        roll: RollCall | None = None,
+        at_least_s: float = 0.0,
+        quiet_s: float | None = None,
+    ) -> None:
+        """Without `roll` it is known how many must answer, and not who."""
         self._domain = domain
+        self._roll = roll
+        self._quiet_s = QUIET_S if quiet_s is None else quiet_s
+        self._until_s = time.monotonic() + at_least_s
         self._ports: deque[frozenset[int]] = deque(maxlen=BELIEVED_READINGS)
         self._before: Sight | None = None
         self._restart()
@@ -248,18 +298,24 @@ class Settling:
 
     def after(self, sight: Sight) -> bool:
         """Whether `sight`, the newest, is the whole graph, or all that will ever be seen of it."""
+        if self._roll:
+            self._roll.knows(sight.here)
         if sight != self._before:
             self._before = sight
             self._restart()
         self._looks += 1
         self._ports.append(participants_here(self._domain))
-        expected = len(frozenset().union(*self._ports))
-        if not sight.complete(expected):
-            return self._gave_up(expected - len(sight.here))
-        if self._looks < BELIEVED_READINGS:
+        ports = frozenset().union(*self._ports)
+        if not self._complete(sight, ports):
+            return self._gave_up(len(ports) - len(sight.here))
+        if len(self._ports) < BELIEVED_READINGS or time.monotonic() < self._until_s:
             return False
         quiet_s = time.monotonic() - self._since_s
-        return quiet_s >= (QUIET_BEYOND_S if looks_beyond_this_computer() else QUIET_S)
+        return quiet_s >= (QUIET_BEYOND_S if looks_beyond_this_computer() else self._quiet_s)
+
+    def _complete(self, sight: Sight, ports: frozenset[int]) -> bool:
+        present = self._roll.named(ports) if self._roll else None
+        return sight.complete(len(ports)) or (present is not None and sight.knows_all_of(present))
 
     def _gave_up(self, silent: int) -> bool:
         if self._looks < SILENT_LOOKS:

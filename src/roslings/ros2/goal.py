@@ -13,6 +13,7 @@ from roslings.ros2.eye import Eye
 from roslings.ros2.interfaces import class_of, full_name
 from roslings.ros2.names import checked_topic
 from roslings.ros2.problem import Problem, did_you_mean
+from roslings.ros2.shared_options import values_in
 from roslings.ros2.words import OK
 from roslings.ros2.yaml_in import filled
 from roslings.ros2.yaml_out import as_indented
@@ -68,7 +69,7 @@ def send(options: argparse.Namespace) -> int:
     type_name = full_name(options.action_type, "action")
     cls = class_of(type_name, "action")
     goal = cls.Goal()
-    filled(goal, options.goal)
+    filled(goal, values_in(options, options.goal))
     with Eye() as eye:
         client = ActionClient(eye.node, cls, action)
         try:

@@ -27,6 +27,16 @@ class UnknownTopic(Problem):
         )
 
 
+class BadFilter(Problem):
+    """`--filter` is no Python expression, or it does not fit the messages."""
+
+    def __init__(self, expression: str, fault: Exception) -> None:
+        super().__init__(
+            f"--filter '{expression}': {fault}. It must be an expression of Python in which m is"
+            " the message, for example: m.linear.x > 0"
+        )
+
+
 class SeveralTypes(Problem):
     """Two nodes use one name for two types."""
 
@@ -69,18 +79,18 @@ def subscribe(
     eye: Eye,
     topic: str,
     type_name: str,
-    options: argparse.Namespace,
+    profile: Any,
     hear: Callable[..., None],
     raw: bool = False,
+    lost: Callable[[Any], None] | None = None,
 ) -> Any:
-    """Subscribe with a quality that fits all publishers, or with the one that `options` ask for.
+    """Subscribe with the quality `profile`; `lost` is told of messages that were lost.
 
     What cannot match is said on stderr, now and for publishers that come later.
     """
     from rclpy.event_handler import SubscriptionEventCallbacks
 
     publishers = eye.publishers(topic)
-    profile = qos.matching(options, publishers)
     told = {bytes(info.endpoint_gid) for info in publishers}
     _say(qos.said_about(publishers, profile))
 
@@ -92,7 +102,7 @@ def subscribe(
     return eye.node.create_subscription(
         class_of(type_name, "msg"), topic, hear, profile, raw=raw,
         event_callbacks=SubscriptionEventCallbacks(
-            incompatible_qos=tell_of_new, use_default_callbacks=False
+            incompatible_qos=tell_of_new, message_lost=lost, use_default_callbacks=False
         ),
     )  # fmt: skip
 
@@ -100,6 +110,24 @@ def subscribe(
 def _say(sentences: list[str]) -> None:
     for sentence in sentences:
         print(f"WARNING: {sentence}", file=sys.stderr)
+
+
+def filter_in(options: argparse.Namespace) -> Callable[[Any], bool]:
+    """Whether a message passes `--filter`. Raises BadFilter, now and for a message."""
+    if not options.filter:
+        return lambda _: True
+    try:
+        code = compile(options.filter, "--filter", "eval")
+    except (SyntaxError, ValueError) as fault:
+        raise BadFilter(options.filter, fault) from None
+
+    def passes(message: Any) -> bool:
+        try:
+            return bool(eval(code, {"m": message}))  # the student's own words, on purpose
+        except Exception as fault:
+            raise BadFilter(options.filter, fault) from None
+
+    return passes
 
 
 def topic_in(options: argparse.Namespace) -> str:

@@ -32,14 +32,15 @@ class NothingForNode(Problem):
         )
 
 
-def values_for(path: Path, node: str) -> dict[str, Any]:
+def values_for(path: Path, node: str, wildcards: bool = True) -> dict[str, Any]:
     """The values in the file that are for `node`, a later entry over an earlier one.
 
+    Without `wildcards` entries such as `/**`, which are for many nodes, are left out.
     Raises BadParameterFile, NothingForNode.
     """
     tree = _read(path)
     values: dict[str, Any] = {}
-    chosen = [name for name in tree if _is_for(str(name), node)]
+    chosen = [n for n in tree if _is_for(str(n), node) and (wildcards or "*" not in str(n))]
     for name in chosen:
         values |= flat(_parameters(path, name, tree[name]))
     if not values:

@@ -62,6 +62,16 @@ def set_on(eye: Eye, node: str, values: Mapping[str, Any]) -> list[Any]:
     return list(ask(eye, SetParameters, f"{node}/set_parameters", request).results)
 
 
+def delete_on(eye: Eye, node: str, name: str) -> Any:
+    """Set one parameter to "not set", which takes its declaration away. Raises NoAnswer."""
+    from rcl_interfaces.msg import Parameter
+    from rcl_interfaces.srv import SetParameters
+
+    request = SetParameters.Request(parameters=[Parameter(name=name)])
+    (result,) = ask(eye, SetParameters, f"{node}/set_parameters", request, again=False).results
+    return result
+
+
 def plain(value: Any) -> Any:
     """A ParameterValue as Python has it; None where it is not set."""
     if value.type not in WORDS:

@@ -14,19 +14,20 @@ from roslings.ros2.interfaces import class_of, full_name
 from roslings.ros2.listening import topic_in
 from roslings.ros2.names import checked_node
 from roslings.ros2.problem import Problem, did_you_mean
+from roslings.ros2.shared_options import values_in
 from roslings.ros2.words import OK
 from roslings.ros2.yaml_in import filled
 
 SAY_EVERY_S = 1.0
 
 
-class NobodyListens(Problem):
+class TooFewListen(Problem):
     """The time to wait for subscriptions is over."""
 
-    def __init__(self, topic: str, within_s: float) -> None:
+    def __init__(self, topic: str, wanted: int, there: int) -> None:
         super().__init__(
-            f"Timed out waiting for subscribers: nobody subscribes to '{topic}' after"
-            f" {within_s:g} s. Start the node that listens, or look: ros2 topic info {topic}"
+            f"Timed out waiting for subscribers: Expected {wanted} subscribers but only got"
+            f" {there} subscribers. Start the node that listens, or look: ros2 topic info {topic}"
         )
 
 
@@ -35,16 +36,16 @@ def publish(options: argparse.Namespace) -> int:
     topic = topic_in(options)
     type_name = full_name(options.message_type, "msg")
     message = class_of(type_name, "msg")()
-    stamps = filled(message, options.values)
+    stamps = filled(message, values_in(options, options.values))
     name = checked_node(options.node_name) if options.node_name else ""
     times = 1 if options.once else options.times
-    with Eye(name) as eye:
+    with Eye.asked_by(options, name) as eye:
         voice = _voice(eye, topic, type(message), options)
         _warn(eye, topic, type_name)
         _await(eye, topic, voice, _wanted(options, times), options.max_wait_time_secs)
         print("publisher: beginning loop")
-        beat = Beat(1 / options.rate, times)
-        beat.run(eye, lambda count: _send(voice, message, stamps, count, options.print))
+        beat = (SimBeat if options.use_sim_time else Beat)(1 / options.rate, times)
+        beat.run(eye, lambda count: _send(eye, voice, message, stamps, count, options.print))
         if times:
             eye.until(lambda: False, options.keep_alive)
     return OK
@@ -98,7 +99,7 @@ def _await(eye: Eye, topic: str, voice: Any, wanted: int, within_s: float | None
             near_told = True
             _say_near(eye, topic)
         if end_s is not None and time.monotonic() >= end_s:
-            raise NobodyListens(topic, within_s or 0.0)
+            raise TooFewListen(topic, wanted, voice.get_subscription_count())
         eye.until(lambda: voice.get_subscription_count() >= wanted, SAY_EVERY_S)
 
 
@@ -109,19 +110,15 @@ def _say_near(eye: Eye, topic: str) -> None:
         print(f"No node subscribes to '{topic}'.{near}", file=sys.stderr)
 
 
-def _send(voice: Any, message: Any, stamps: list[Any], count: int, print_every: int) -> None:
-    now = _now() if stamps else None
+def _send(
+    eye: Eye, voice: Any, message: Any, stamps: list[Any], count: int, print_every: int
+) -> None:
+    now = eye.node.get_clock().now().to_msg() if stamps else None
     for stamp in stamps:
         stamp(now)
     if print_every and count % print_every == 0:
         print(f"publishing #{count}: {message!r}\n")
     voice.publish(message)
-
-
-def _now() -> Any:
-    from rclpy.clock import Clock
-
-    return Clock().now().to_msg()
 
 
 class Beat:
@@ -140,3 +137,21 @@ class Beat:
             eye.spin_to(due_s)
             count += 1
             act(count)
+
+
+class SimBeat(Beat):
+    """A beat in the time of /clock, as a timer of a node has it."""
+
+    def run(self, eye: Eye, act: Callable[[int], None]) -> None:
+        """Call `act(1)`, `act(2)`, ... on the beat; where /clock stands still, nothing happens."""
+        count = 0
+
+        def turn() -> None:
+            nonlocal count
+            if not self._times or count < self._times:
+                count += 1
+                act(count)
+
+        timer = eye.node.create_timer(self._period_s, turn)
+        eye.until(lambda: self._times and count >= self._times)
+        eye.node.destroy_timer(timer)

@@ -3,18 +3,28 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Iterable, Sequence
 from typing import Any
 
 from roslings.ros2.words import not_negative, seconds
 
-PRESETS = ("default", "parameters", "sensor_data", "services_default", "system_default")
+PRESETS = (
+    "default", "system_default", "sensor_data", "services_default", "parameters",
+    "parameter_events", "action_status_default", "best_available", "unknown",
+)  # fmt: skip
 POLICIES = {
     "history": ("keep_last", "keep_all", "system_default"),
-    "reliability": ("reliable", "best_effort", "system_default"),
-    "durability": ("volatile", "transient_local", "system_default"),
-    "liveliness": ("automatic", "manual_by_topic", "system_default"),
+    "reliability": ("reliable", "best_effort", "system_default", "best_available"),
+    "durability": ("volatile", "transient_local", "system_default", "best_available"),
+    "liveliness": ("automatic", "manual_by_topic", "system_default", "best_available"),
 }
+MATCHED = (
+    ("reliability", "RELIABLE", "BEST_EFFORT"), ("durability", "TRANSIENT_LOCAL", "VOLATILE"),
+)  # fmt: skip
+"""Policy, the better quality, the lesser one: who offers the lesser cannot reach who asks more."""
+
+SENSOR_DATA = "sensor_data"
 DEFAULT_DEPTH = 10
 
 
@@ -73,21 +83,56 @@ def matching(options: argparse.Namespace, publishers: Sequence[Any]) -> Any:
     profile = chosen(options)
     if options.qos_profile:
         return profile
-    for policy, best, least in (
-        ("reliability", "RELIABLE", "BEST_EFFORT"), ("durability", "TRANSIENT_LOCAL", "VOLATILE"),
-    ):  # fmt: skip
+    for policy, best, least in MATCHED:
         if not getattr(options, f"qos_{policy}"):
             offers = {getattr(info.qos_profile, policy).name for info in publishers}
             setattr(profile, policy, _kind(policy)[best if offers == {best} else least])
     return profile
 
 
+def for_echo(options: argparse.Namespace, publishers: Sequence[Any]) -> Any:
+    """What `topic echo` asks for.
+
+    As the full tool does it: any single policy that is given starts from the preset, sensor_data,
+    and nothing of it is matched to the publishers.
+    """
+    profile = chosen(options, SENSOR_DATA)
+    if any_policy_in(options):
+        return profile
+    for policy, best, least in MATCHED:
+        _set_common(profile, policy, best, least, publishers)
+    return profile
+
+
+def any_policy_in(options: argparse.Namespace) -> bool:
+    """One of the `--qos-*` options but the preset is given."""
+    names = ("depth", "liveliness_lease_duration_seconds", *POLICIES)
+    return any(getattr(options, f"qos_{name}") is not None for name in names)
+
+
+def hears_nothing_earlier(profile: Any) -> bool:
+    """It asks for what was sent before, and as best effort nothing is sent again."""
+    durability, reliability = profile.durability.name, profile.reliability.name
+    return bool(durability == "TRANSIENT_LOCAL" and reliability == "BEST_EFFORT")
+
+
+def _set_common(
+    profile: Any, policy: str, best: str, least: str, publishers: Sequence[Any]
+) -> None:
+    """The better quality where all publishers offer it; the lesser one reaches each of them."""
+    offers = {getattr(info.qos_profile, policy).name for info in publishers}
+    if len(offers) > 1 and best in offers:
+        kind = f"QoS{policy.capitalize()}Policy"
+        print(f"Some, but not all, publishers are offering {kind}.{best}. Falling back to"
+              f" {kind}.{least} as it will connect to all publishers", file=sys.stderr)  # fmt: skip
+    if offers:
+        setattr(profile, policy, _kind(policy)[best if offers == {best} else least])
+
+
 def mismatches(asked: Any, offered: Any) -> list[str]:
     """Why a subscription that asks for `asked` hears nothing from one who offers `offered`."""
     found = []
-    for policy, wanted, given in (
-        ("reliability", "RELIABLE", "BEST_EFFORT"), ("durability", "TRANSIENT_LOCAL", "VOLATILE"),
-    ):  # fmt: skip
+    for policy, wanted, given in MATCHED:
         asks, gives = getattr(asked, policy).name, getattr(offered, policy).name
         if asks == wanted and gives == given:
             found.append(f"it offers {policy} {gives}, and {asks} is asked for")

@@ -3,24 +3,61 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from typing import Any
 
-from roslings.ros2.words import add, seconds
+from roslings.ros2.words import add, not_negative, seconds
+
+DEFAULT_LENGTH = 128
 
 
-def node_options(parser: argparse.ArgumentParser) -> None:
-    """Options of the real tool on how it looks; ours always looks afresh, until it is done."""
-    quiet = argparse.SUPPRESS
-    parser.add_argument("--no-daemon", action="store_true", help=quiet)
-    parser.add_argument("--spin-time", type=seconds, help=quiet)
-    parser.add_argument("-s", "--use-sim-time", action="store_true", help=quiet)
-
-
-def hidden_topics(parser: argparse.ArgumentParser) -> None:
-    """`--include-hidden-topics`."""
+def node_options(parser: argparse.ArgumentParser, daemon: bool = True) -> None:
+    """How to look: ours looks afresh each time, until it is done."""
     parser.add_argument(
-        "--include-hidden-topics", "-a", action="store_true", help="Consider hidden topics as well"
+        "--spin-time", type=seconds, default=0.0, metavar="S",
+        help="Look for S seconds at least (needed only where nodes of other computers start late)",
+    )  # fmt: skip
+    parser.add_argument(
+        "-s", "--use-sim-time", action="store_true", help="Take the time from the topic /clock"
     )
+    if daemon:
+        parser.add_argument(
+            "--no-daemon", action="store_true", help="Use no daemon (here there is none anyway)"
+        )
+
+
+def hidden_topics(command: argparse.ArgumentParser) -> None:
+    """`--include-hidden-topics` before the verb, as the full tool has it."""
+    _hidden(command, "topics")
+
+
+def hidden_services(command: argparse.ArgumentParser) -> None:
+    """`--include-hidden-services` before the verb."""
+    _hidden(command, "services")
+
+
+def also_hidden(verb: argparse.ArgumentParser, what: str, *short: str) -> None:
+    """The same option once more, after the verb."""
+    verb.add_argument(
+        f"--include-hidden-{what}", *short, action="store_true", default=argparse.SUPPRESS,
+        help=f"Consider hidden {what} as well",
+    )  # fmt: skip
+
+
+def _hidden(command: argparse.ArgumentParser, what: str) -> None:
+    command.add_argument(
+        f"--include-hidden-{what}", action="store_true", help=f"Consider hidden {what} as well"
+    )
+
+
+def stdin_option(parser: argparse._ActionsContainer, what: str) -> None:
+    """`--stdin`: the values come from another program, or from a file."""
+    parser.add_argument("--stdin", action="store_true", help=f"Read {what} from standard input")
+
+
+def values_in(options: argparse.Namespace, typed: str) -> str:
+    """The YAML that was typed, or what comes on standard input."""
+    return sys.stdin.read() if options.stdin else typed
 
 
 def count_only(parser: argparse.ArgumentParser, what: str) -> None:
@@ -54,28 +91,47 @@ def in_node(parser: argparse.ArgumentParser, **how: Any) -> None:
     )
 
 
-def complete_topics(**_: Any) -> list[str]:
+def shape_options(parser: argparse.ArgumentParser) -> None:
+    """How much of a message is printed, and in which form."""
+    parser.add_argument(
+        "--csv", action="store_true", help="One line a message, its values parted by commas"
+    )
+    parser.add_argument(
+        "-f", "--full-length", action="store_true", help="Do not cut long arrays and texts"
+    )
+    parser.add_argument(
+        "-l", "--truncate-length", type=not_negative, default=DEFAULT_LENGTH, metavar="N",
+        help=f"Cut arrays, bytes and texts after N (default: {DEFAULT_LENGTH})",
+    )  # fmt: skip
+    parser.add_argument("--no-arr", action="store_true", help="Don't print array fields")
+    parser.add_argument("--no-str", action="store_true", help="Don't print string fields")
+    parser.add_argument(
+        "--flow-style", action="store_true", help="Print each list in one line (not with --csv)"
+    )
+
+
+def complete_topics(parsed_args: argparse.Namespace, **_: Any) -> list[str]:
     """Every topic, for the Tab key."""
     from roslings.ros2.eye import Eye
 
     with Eye() as eye:
-        return list(eye.settle().topics(hidden=False))
+        return list(eye.settle().topics(getattr(parsed_args, "include_hidden_topics", False)))
 
 
-def complete_nodes(**_: Any) -> list[str]:
+def complete_nodes(parsed_args: argparse.Namespace, **_: Any) -> list[str]:
     """Every node, for the Tab key."""
     from roslings.ros2.eye import Eye
 
     with Eye() as eye:
-        return eye.settle().nodes()
+        return eye.settle().nodes(getattr(parsed_args, "include_hidden_nodes", False))
 
 
-def complete_services(**_: Any) -> list[str]:
+def complete_services(parsed_args: argparse.Namespace, **_: Any) -> list[str]:
     """Every service, for the Tab key."""
     from roslings.ros2.eye import Eye
 
     with Eye() as eye:
-        return list(eye.settle().services(hidden=False))
+        return list(eye.settle().services(getattr(parsed_args, "include_hidden_services", False)))
 
 
 def complete_interfaces(kind: str) -> Any:
@@ -85,6 +141,37 @@ def complete_interfaces(kind: str) -> Any:
         from roslings.ros2.interfaces import installed
 
         return [name for name in installed() if f"/{kind}/" in name]
+
+    return complete
+
+
+def complete_type_of(what: str, kind: str, look: Any = None) -> Any:
+    """For the Tab key: the type of the topic, service or action just typed; else every one.
+
+    `look` finds all of them and their types; by default the method of Eye that is called so.
+    """
+
+    def complete(parsed_args: argparse.Namespace, **how: Any) -> list[str]:
+        from roslings.ros2.eye import Eye
+        from roslings.ros2.names import absolute
+
+        with Eye() as eye:
+            eye.settle()
+            found = look(eye) if look else getattr(eye, f"{what}s")()
+        types: list[str] = found.get(absolute(getattr(parsed_args, f"{what}_name")), [])
+        return types or list(complete_interfaces(kind)(**how))
+
+    return complete
+
+
+def complete_values(type_of: str) -> Any:
+    """For the Tab key: the fields of the type just typed, with their defaults."""
+
+    def complete(parsed_args: argparse.Namespace, **_: Any) -> list[str]:
+        from roslings.ros2.interfaces import empty_message
+        from roslings.ros2.yaml_out import Shape, as_yaml
+
+        return [as_yaml(empty_message(getattr(parsed_args, type_of)), Shape(longest=None))]
 
     return complete
 

@@ -13,6 +13,7 @@ HOMES = {"ros2": "roslings.ros2.cli", "rqt_graph": "roslings.ros2.rqt_graph"}
 if __name__ == "__main__":
     sys.path[0] = str(Path(__file__).resolve().parents[2])
     try:
-        sys.exit(import_module(HOMES[sys.argv[1]]).main(sys.argv[2:]))
+        status = import_module(HOMES[sys.argv[1]]).main(sys.argv[2:])
+        import_module("roslings.leaving").leave(status)
     except KeyboardInterrupt:  # Ctrl-C while we were still starting
         sys.exit(2)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any, NoReturn
 
 Run = Callable[[argparse.Namespace], int]
@@ -40,7 +40,7 @@ def _with_near_miss(message: str) -> str:
 class Verbs:
     """Adds the verbs of one command."""
 
-    def __init__(self, parser: argparse.ArgumentParser, absent: dict[str, str]) -> None:
+    def __init__(self, parser: argparse.ArgumentParser, absent: Iterable[str] = ()) -> None:
         """`absent` names the verbs that only the full `ros2` has."""
         self._words = parser.add_subparsers(title="Commands", metavar="VERB", required=False)
         parser.set_defaults(run=lambda _: _show_help(parser))

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import array
 import sys
+from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 from roslings.ros2.field_types import read_type
@@ -25,22 +27,44 @@ class Shape:
 
 def as_yaml(value: Any, shape: Shape) -> str:
     """The YAML of a message, or of one field of it, ending with a newline."""
+    return dumped(plain_of(value, shape), shape.flow)
+
+
+def dumped(plain: Any, flow: bool = False) -> str:
+    """The YAML of dicts, lists, numbers and texts; with `flow`, a field and its list in a line."""
     import yaml
 
-    plain = plain_of(value, shape)
-    text = yaml.safe_dump(
-        plain,
-        width=sys.maxsize,
-        default_flow_style=shape.flow,
-        sort_keys=False,
+    text = yaml.dump(
+        plain, Dumper=_dumper(), width=sys.maxsize, default_flow_style=flow, sort_keys=False,
         allow_unicode=True,
-    )
-    return text.removesuffix("...\n")  # PyYAML ends a lone value so
+    )  # fmt: skip
+    lone = text.endswith("\n...\n")  # PyYAML ends a lone value so
+    return str(text).removesuffix("...\n") if lone else str(text)
+
+
+@cache
+def _dumper() -> Any:
+    """The real tool's flow style is one of lists only: each field has its line."""
+    import yaml
+
+    class Dumper(yaml.SafeDumper):
+        """Writes each mapping as a block."""
+
+    def block(dumper: yaml.SafeDumper, values: dict[str, Any]) -> yaml.Node:
+        return dumper.represent_mapping("tag:yaml.org,2002:map", values.items(), flow_style=False)
+
+    Dumper.add_representer(dict, block)
+    return Dumper
+
+
+def is_message(value: Any) -> bool:
+    """It has fields."""
+    return hasattr(value, "get_fields_and_field_types")
 
 
 def plain_of(value: Any, shape: Shape) -> Any:
     """A message, or a part of one, as dicts, lists, numbers and texts."""
-    if hasattr(value, "get_fields_and_field_types"):
+    if is_message(value):
         return _message(value, shape)
     if isinstance(value, bytes):
         return _text(value.decode("latin-1"), shape)
@@ -91,24 +115,36 @@ def _list(values: list[Any], shape: Shape) -> list[Any]:
     return shown if len(shown) == len(values) else [*shown, MORE]
 
 
-def as_csv(value: Any, shape: Shape) -> str:
-    """All values of a message in one line, parted by commas."""
-    return ",".join(_csv_cells(value, shape))
+def as_csv(value: Any, shape: Shape, kind: str = "") -> str:
+    """All values of a message in one line, parted by commas; an empty list is an empty column.
+
+    `kind` is the type of the field that `value` is, as the message names it.
+    """
+    if is_message(value):
+        fields = value.get_fields_and_field_types().items()
+        return _joined(as_csv(getattr(value, name), shape, kind) for name, kind in fields)
+    if _is_list(value):
+        return _listed(value, shape, kind)
+    if isinstance(value, str):
+        return _text(value, shape)
+    if isinstance(value, bytes) and shape.longest is not None and len(value) > shape.longest:
+        return str(value[: shape.longest] + MORE.encode())
+    return str(value)
 
 
-def _csv_cells(value: Any, shape: Shape) -> list[str]:
-    if isinstance(value, bytes):
-        return [str(value)]
-    if hasattr(value, "get_fields_and_field_types"):
-        parts: list[Any] = [getattr(value, name) for name in value.get_fields_and_field_types()]
-        return [cell for part in parts for cell in _csv_cells(part, shape)]
-    plain = plain_of(value, shape)
-    if isinstance(plain, list):
-        many = len(plain) > 0 and plain[-1] == MORE
-        own = list(value)[: shape.longest]
-        cells = [cell for part in own for cell in _csv_cells(part, shape)]
-        return [*cells, MORE] if many else cells
-    return [str(plain)]
+def _listed(value: Any, shape: Shape, kind: str) -> str:
+    if shape.no_arrays and kind:
+        return _counted(value, kind)
+    cells = [as_csv(one, shape) for one in value[: shape.longest]]
+    return _joined([*cells, MORE] if len(cells) < len(value) else cells)
+
+
+def _joined(cells: Iterable[str]) -> str:
+    """Before the first value that is not empty the real tool puts no comma."""
+    line = ""
+    for cell in cells:
+        line = f"{line},{cell}" if line else cell
+    return line
 
 
 def as_indented(value: Any) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import shlex
 import shutil
 import sys
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -12,7 +13,6 @@ from roslings.arena import Installed, Launch, Place, Process, Sandbox, base_envi
 from roslings.evidence import BuildSeen, ProcessSeen
 from roslings.workspace.foreign import read_foreign
 
-BUILD_BOUND_S = 180.0
 LAST_LINES = 40
 
 
@@ -63,20 +63,30 @@ class BuildRoom:
         return replace(place.sandbox.writing(self.lies, self.folder), home=place.home)
 
 
-def build(room: BuildRoom, place: Place) -> tuple[BuildSeen, Installed | None]:
-    """Build the package in `room` and source the result; None where nothing was installed."""
+def build(
+    room: BuildRoom, place: Place, within_s: float, meanwhile: Callable[[], object] = lambda: None
+) -> tuple[BuildSeen, Installed | None]:
+    """Build the package in `room` and source the result; None where nothing was installed.
+
+    `meanwhile` is called while colcon works.
+    """
     environment = base_environment(place.home, hidden_package=room.package)
     shell = ["bash", "--noprofile", "--norc", "-c", _script(room)]
     namespaces, around = place.wall == "namespace", room.around(place)
-    launch = Launch(shell, environment, room.folder, namespaces, sandbox=around)
+    if place.user:
+        place.user.own(room.folder)
+    launch = Launch(
+        shell, environment, room.folder, namespaces, sandbox=around, user=place.user
+    )  # fmt: skip
     with Process("colcon", launch) as process:
-        process.wait_ended(BUILD_BOUND_S)
+        meanwhile()
+        process.wait_ended(within_s)
     sourced = read_foreign(room.sourced) if process.seen.status == 0 else None
     seen = BuildSeen(
         succeeded=sourced is not None,
         recognised_as=_recognised(room),
         seconds=_seconds(process.seen),
-        output=_last_words(room, process),
+        output=_last_words(room, process, within_s),
         executables=executables(room),
     )
     if sourced is None:
@@ -88,7 +98,7 @@ def _seconds(seen: ProcessSeen) -> float:
     return round(((seen.ended_ns or seen.started_ns) - seen.started_ns) / 1e9, 3)
 
 
-def _last_words(room: BuildRoom, process: Process) -> list[str]:
+def _last_words(room: BuildRoom, process: Process, within_s: float) -> list[str]:
     """What tells most about a failure: Python's own words on setup.py, else colcon's."""
     lines = [line.text for line in process.seen.lines]
     if complaint := read_foreign(room.complaint):
@@ -96,7 +106,7 @@ def _last_words(room: BuildRoom, process: Process) -> list[str]:
     if met := process.seen.bounds_met:
         lines.append(f"The build was ended: it took more than it may ({', '.join(met)}).")
     elif not process.seen.ended_by_itself:
-        lines.append(f"The build did not end within {BUILD_BOUND_S:g} s.")
+        lines.append(f"The build did not end within {within_s:g} s.")
     return lines[-LAST_LINES:]
 
 

@@ -20,7 +20,11 @@ def read_foreign(path: Path, most_bytes: int = MOST_BYTES) -> bytes | None:
     except OSError:
         return None
     with os.fdopen(descriptor, "rb") as file:
-        return file.read(most_bytes) if stat.S_ISREG(os.fstat(descriptor).st_mode) else None
+        found = os.fstat(descriptor)
+        is_its_own = (
+            stat.S_ISREG(found.st_mode) and found.st_nlink == 1
+        )  # no name of another's file
+        return file.read(most_bytes) if is_its_own else None
 
 
 def copy_foreign(folder: Path, to: Path) -> None:

@@ -13,21 +13,28 @@ from pathlib import Path
 from roslings.workspace.sources import BUILT, MADE
 from roslings.workspace.trouble import (
     Archive,
+    EmptyFolder,
+    IgnoredByColcon,
     NamedOtherwise,
     NoPackage,
     NoPackageXml,
     NoSetupPy,
     NoSuchPath,
     NotAFolder,
+    OnlyPacked,
+    OtherwiseForColcon,
     TooManyFolders,
     TwoPackages,
+    WorkspaceError,
     reading,
 )
 
 MOST_FOLDERS = 5_000
 DEEPEST = 8
 LEVELS_UP = 3
-IGNORE_MARKERS = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE", "pyvenv.cfg")
+COLCON_MARKERS = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
+IGNORE_MARKERS = (*COLCON_MARKERS, "pyvenv.cfg")
+PACKED = (".zip", ".tar", ".gz", ".tgz", ".xz", ".txz", ".bz2", ".tbz2", ".7z", ".rar")
 LARGEST_XML_BYTES = 1_000_000
 _NAME = re.compile(r"<name>\s*([^<>\s]+)\s*</name>")
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
@@ -48,7 +55,35 @@ def find_package(path: Path, name: str) -> Path:
     package = _choose(folder, name, found)
     if not (package / "setup.py").is_file():
         raise NoSetupPy(package, has_cmake=(package / "CMakeLists.txt").is_file())
+    _insist_that_colcon_takes(package, name)
     return package
+
+
+def _insist_that_colcon_takes(package: Path, name: str) -> None:
+    """No file of its own keeps colcon from it. Raises IgnoredByColcon, OtherwiseForColcon."""
+    if marker := _marker_in(package):
+        raise IgnoredByColcon(package, marker)
+    settings = package / "colcon.pkg"
+    if settings.exists() and (problem := _problem_in(settings, name)):
+        raise OtherwiseForColcon(package, problem)
+
+
+def _problem_in(settings: Path, name: str) -> str:
+    """What colcon.pkg says against package.xml; empty where both say the same."""
+    import yaml  # few packages have such a file
+
+    try:
+        with reading(settings), settings.open("rb") as file:
+            said = yaml.safe_load(file.read(LARGEST_XML_BYTES)) or {}
+    except (OSError, yaml.YAMLError, RecursionError):
+        return "colcon cannot read it"
+    if not isinstance(said, dict):
+        return "colcon cannot read it"
+    wanted = {"type": "ros.ament_python", "name": name}
+    own = {key: said.get(key) for key in wanted}
+    if own in ({"type": None, "name": None}, wanted):
+        return ""
+    return f"it says type {own['type']!r} and name {own['name']!r}"
 
 
 def packages_in(folder: Path) -> list[Path]:
@@ -56,22 +91,25 @@ def packages_in(folder: Path) -> list[Path]:
 
     Raises TooManyFolders, and CannotRead where `folder` itself is closed to this user.
     """
-    seen: set[Path] = set()
-    found: list[Path] = []
+    return sorted(here for here, is_package in _searched(folder).items() if is_package)
+
+
+def _searched(folder: Path) -> dict[Path, bool]:
+    """Every folder that colcon would look at, those that it ignores too: is it a package?"""
+    seen: dict[Path, bool] = {}
     waiting = [(folder.resolve(), 0)]
     while waiting:
         here, depth = waiting.pop()
         if here in seen:
             continue
-        seen.add(here)
+        seen[here] = False
         if len(seen) > MOST_FOLDERS:
             raise TooManyFolders(folder, MOST_FOLDERS)
         with reading(here) if depth == 0 else suppress(PermissionError):
-            if _is_package(here):
-                found.append(here)
-            elif depth < DEEPEST:
+            seen[here] = _is_package(here)
+            if depth < DEEPEST and not seen[here]:
                 waiting += [(child, depth + 1) for child in _subfolders(here)]
-    return sorted(found)
+    return seen
 
 
 def _is_package(folder: Path) -> bool:
@@ -130,6 +168,11 @@ def _is_ignored(folder: Path) -> bool:
     return any((folder / marker).exists() for marker in IGNORE_MARKERS)
 
 
+def _marker_in(folder: Path) -> str | None:
+    """The file that keeps colcon out of a folder; None where there is none."""
+    return next((marker for marker in COLCON_MARKERS if (folder / marker).exists()), None)
+
+
 def _is_made(folder: Path) -> bool:
     return folder.name.startswith(".") or folder.name in BUILT or folder.name in MADE
 
@@ -151,8 +194,31 @@ def _choose(folder: Path, name: str, found: list[tuple[str, Path]]) -> Path:
     raise _no_package(folder, name)
 
 
-def _no_package(folder: Path, name: str) -> NoPackage | NoPackageXml:
+def _no_package(folder: Path, name: str) -> WorkspaceError:
     for place in (folder, folder / name, folder / "src" / name):
-        if (place / "setup.py").is_file():
+        if (place / "setup.py").is_file() and not (place / "package.xml").is_file():
             return NoPackageXml(place)
-    return NoPackage(folder, name)
+    return nothing_in(folder, name)
+
+
+def nothing_in(folder: Path, name: str) -> WorkspaceError:
+    """Why there is no package in a folder: it is empty, ignored, packed; or there is just none."""
+    places = sorted(_searched(folder))
+    for place in places:
+        if (marker := _marker_in(place)) and _holds_a_package(place):
+            return IgnoredByColcon(place, marker)
+    entries = [entry for place in places for entry in _files_in(place)]
+    if not entries:
+        return EmptyFolder(folder, name)
+    packed = [entry.name for entry in entries if entry.name.lower().endswith(PACKED)]
+    return OnlyPacked(folder, packed) if packed else NoPackage(folder, name)
+
+
+def _holds_a_package(folder: Path) -> bool:
+    return any(next(folder.glob(f"{way}package.xml"), None) for way in ("", "*/", "*/*/"))
+
+
+def _files_in(folder: Path) -> list[Path]:
+    with suppress(PermissionError):
+        return [entry for entry in sorted(folder.iterdir()) if not entry.is_dir()]
+    return []

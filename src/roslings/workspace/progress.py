@@ -11,43 +11,15 @@ from dataclasses import dataclass
 from datetime import datetime, timezone
 from enum import Enum
 from pathlib import Path
-from typing import Literal
-
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from typing import TYPE_CHECKING
 
 from roslings.course import Lab, all_labs
-from roslings.verdict import Verdict
+from roslings.workspace.progress_file import Damaged, LabProgress, Progress, as_json, progress_in
 from roslings.workspace.student import started_package, workspace_root
 from roslings.workspace.trouble import WorkspaceError, reading, writing
 
-FULL_SCORE = 100.0
-
-
-class LabProgress(BaseModel):
-    """How far one lab is."""
-
-    model_config = ConfigDict(extra="ignore")  # a newer roslings may have written more
-
-    best: float = Field(default=0.0, ge=0, le=FULL_SCORE)
-    last: float = Field(default=0.0, ge=0, le=FULL_SCORE)
-    checks: int = Field(default=0, ge=0, description="Gradings that gave a score")
-    best_at: datetime | None = None
-    last_at: datetime | None = None
-    passed_at: datetime | None = Field(default=None, description="First time that all passed")
-
-    @property
-    def done(self) -> bool:
-        """Every check has passed once."""
-        return self.passed_at is not None
-
-
-class Progress(BaseModel):
-    """The file `.roslings/progress.json`."""
-
-    model_config = ConfigDict(extra="ignore")
-
-    schema_version: Literal[1] = Field(default=1, alias="schema")
-    labs: dict[str, LabProgress] = Field(default_factory=dict)
+if TYPE_CHECKING:
+    from roslings.verdict import Verdict
 
 
 class Step(Enum):
@@ -92,7 +64,7 @@ def days_done(labs: list[LabStatus]) -> dict[str, bool]:
     """Each day with a lab to whether all its labs are done, in order."""
     days: dict[str, bool] = {}
     for each in labs:
-        day = each.lab.card.day
+        day = each.lab.outline.day
         days[day] = days.get(day, True) and each.progress.done
     return days
 
@@ -133,8 +105,8 @@ def read_progress(workspace: Path) -> Progress:
             return Progress()
         content = path.read_bytes()
     try:
-        return Progress.model_validate_json(content)
-    except ValidationError:
+        return progress_in(content)
+    except Damaged:
         _set_aside(path)
         return Progress()
 
@@ -151,7 +123,7 @@ def _package(lab: Lab, root: Path) -> Path | None:
 
 
 def _is_ready(lab: Lab, done: set[str]) -> bool:
-    return set(lab.card.needs) <= done
+    return set(lab.outline.needs) <= done
 
 
 def _after(before: LabProgress, verdict: Verdict, score: float) -> LabProgress:
@@ -184,7 +156,7 @@ def _write(path: Path, progress: Progress) -> None:
     new = Path(name)
     try:
         with os.fdopen(descriptor, "w", encoding="utf-8") as file:
-            file.write(progress.model_dump_json(by_alias=True, indent=2) + "\n")
+            file.write(as_json(progress))
             file.flush()
             os.fsync(file.fileno())
         new.replace(path)

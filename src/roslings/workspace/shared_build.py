@@ -44,7 +44,7 @@ class Built(BaseModel):
 
 
 def shared_build(
-    builds: Path, source: Path, room: Path, place: Place
+    builds: Path, source: Path, room: Path, place: Place, within_s: float
 ) -> tuple[BuildSeen, Installed | None]:
     """Build the package at `source`, or take the build of the same content from `builds`.
 
@@ -59,23 +59,23 @@ def shared_build(
             built.seen.seconds = 0.0
             return built.seen, built.installed(place.home)
         with _turn(builds):
-            return _build_in(shared, source, room, place)
+            return _build_in(shared, source, room, place, within_s)
 
 
 def _build_in(
-    shared: Path, source: Path, room: Path, place: Place
+    shared: Path, source: Path, room: Path, place: Place, within_s: float
 ) -> tuple[BuildSeen, Installed | None]:
     own = BuildRoom(shared / source.name, source.name, lies_at=room if place.sandbox else None)
     shutil.rmtree(own.folder, ignore_errors=True)
     shutil.copytree(source, own.source, symlinks=True)
-    seen, installed = build(own, place)
+    seen, installed = build(own, place, within_s)
     if not installed:  # what failed may have failed by chance: it is not passed on
         return seen, installed
     try:
         if own.lies_at:
             copy_foreign(own.lies / "install", installed.folder)
     except (OSError, shutil.Error, RecursionError):
-        return _build_alone(source, room, place)
+        return _build_alone(source, room, place, within_s)
     built = Built(
         seen=seen, programs=installed.programs, environment=installed.environment,
         folder=installed.folder,
@@ -84,11 +84,13 @@ def _build_in(
     return seen, installed
 
 
-def _build_alone(source: Path, room: Path, place: Place) -> tuple[BuildSeen, Installed | None]:
+def _build_alone(
+    source: Path, room: Path, place: Place, within_s: float
+) -> tuple[BuildSeen, Installed | None]:
     """Build in `room` for one run only: what came of it cannot be kept (no rights, too deep)."""
     alone = BuildRoom(room / "alone", source.name)
     shutil.copytree(source, alone.source, symlinks=True)
-    return build(alone, place)
+    return build(alone, place, within_s)
 
 
 def content_of(package: Path) -> str:

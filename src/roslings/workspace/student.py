@@ -69,7 +69,7 @@ def package_of(lab: Lab, path: Path | None = None) -> Path:
     """
     if path is None and not workspace_root().exists():
         raise NoWorkspace(workspace_root())
-    return find_package(path or workspace_root(), lab.card.package)
+    return find_package(path or workspace_root(), lab.outline.package)
 
 
 def start(lab: Lab, workspace: Path | None = None) -> Started:
@@ -78,7 +78,7 @@ def start(lab: Lab, workspace: Path | None = None) -> Started:
     Raises AlreadyThere, DiskFull, CannotWrite.
     """
     root = workspace or workspace_root()
-    package = root / "src" / lab.card.package
+    package = root / "src" / lab.outline.package
     with reading(root):
         standing = package if os.path.lexists(package) else started_package(lab, root)
     if standing:
@@ -92,8 +92,8 @@ def started_package(lab: Lab, workspace: Path | None = None) -> Path | None:
     source = (workspace or workspace_root()) / "src"
     if not source.is_dir():
         return None
-    found = (package for package in packages_in(source))
-    return next((package for package in found if package_name(package) == lab.card.package), None)
+    found = packages_in(source)
+    return next((each for each in found if package_name(each) == lab.outline.package), None)
 
 
 def diff(lab: Lab, path: Path | None = None) -> list[str]:

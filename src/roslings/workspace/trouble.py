@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import errno
 import shlex
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -74,6 +74,49 @@ class NoPackage(WorkspaceError):
         super().__init__(
             f"There is no ROS package in {shown(path)}:\nno folder there has a package.xml.",
             f"Give the folder of the package {name!r},\nor get a starter: ./roslings start LAB",
+        )
+
+
+class EmptyFolder(WorkspaceError):
+    """Nothing at all is in the folder."""
+
+    def __init__(self, folder: Path, name: str) -> None:
+        super().__init__(
+            f"{shown(folder)} is empty.",
+            f"The folder of the package {name!r} belongs there, with package.xml in it.",
+        )
+
+
+class OnlyPacked(WorkspaceError):
+    """No package is in the folder, but packed files are."""
+
+    def __init__(self, folder: Path, names: Sequence[str]) -> None:
+        what = f"a packed file: {names[0]}" if len(names) == 1 else f"{len(names)} packed files"
+        super().__init__(
+            f"There is no ROS package in {shown(folder)}, but {what}.",
+            "Unpack it, and give the folder that comes out.\n"
+            "To hand in: ./roslings pack LAB makes one zip file with nothing packed inside.",
+        )
+
+
+class IgnoredByColcon(WorkspaceError):
+    """A file in the folder tells colcon to pass it by."""
+
+    def __init__(self, folder: Path, marker: str) -> None:
+        super().__init__(
+            f"{shown(folder)} has the file {marker}.\ncolcon builds nothing in such a folder.",
+            f"Delete that file: rm {quoted(folder / marker)}",
+        )
+
+
+class OtherwiseForColcon(WorkspaceError):
+    """The file colcon.pkg makes another package of it than package.xml does."""
+
+    def __init__(self, folder: Path, problem: str) -> None:
+        super().__init__(
+            f"{shown(folder)} has a file colcon.pkg, and {problem}.\n"
+            "colcon believes that file, not package.xml.",
+            f"A lab's package needs no such file. Delete it: rm {quoted(folder / 'colcon.pkg')}",
         )
 
 
@@ -236,6 +279,15 @@ def shown(path: Path) -> str:
     if path == home:
         return "~"
     return f"~/{path.relative_to(home)}" if path.is_relative_to(home) else str(path)
+
+
+def without_places(text: str, places: Iterable[Path]) -> str:
+    """A text for somebody else: these folders of this machine are `submission` in it."""
+    names = {name for place in places for path in (place, place.resolve())
+             for name in (str(path), shown(path))}  # fmt: skip
+    for name in sorted(names, key=len, reverse=True):
+        text = text.replace(name, "submission")
+    return text
 
 
 def quoted(path: Path) -> str:

@@ -8,6 +8,8 @@ import select
 import tty
 from pathlib import Path
 
+from roslings.devices.lent import lend
+
 MOST_AT_ONCE = 4096
 
 
@@ -37,6 +39,7 @@ class Port:
         self._ours, self._theirs = os.openpty()
         tty.setraw(self._theirs)  # bytes pass as they are, and nothing is echoed
         os.set_blocking(self._ours, False)
+        lend(Path(os.ttyname(self._theirs)), self.name.parent)
         self.name.unlink(missing_ok=True)
         self.name.symlink_to(os.ttyname(self._theirs))
 

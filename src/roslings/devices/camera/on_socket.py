@@ -17,6 +17,7 @@ from pathlib import Path
 from types import TracebackType
 
 from roslings.devices.camera.frame import Frame
+from roslings.devices.lent import lend
 
 Film = Callable[[int], Frame]
 """The n-th picture, from 0."""
@@ -66,6 +67,7 @@ class SocketCamera:
         ear.settimeout(LOOK_EVERY_S)
         self.path.unlink(missing_ok=True)
         ear.bind(str(self.path))
+        lend(self.path, self.path.parent)
         ear.listen()
         self._ear = ear
         self._answering = _started(self._answer, ear)

@@ -11,6 +11,8 @@ class Fault(Exception):
     """A failed check. Subclasses carry the numbers and write the sentences."""
 
     why: ClassVar[str] = ""
+    was_seen: ClassVar[bool] = False
+    """What is wrong was seen, not missed: it stands even where other evidence was dropped."""
     log: tuple[str, ...] = field(default=(), kw_only=True)
 
     @property

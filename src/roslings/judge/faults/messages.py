@@ -34,6 +34,7 @@ class WrongText(Fault):
 
     wanted: str
     found: str
+    was_seen = True
     why = "Who reads these messages expects exactly this text."
     hint = "Compare letter by letter: capitals, spaces, and the number at the end."
 
@@ -81,7 +82,11 @@ class CountSkips(WrongCount):
 class CountRepeats(WrongCount):
     """A number comes twice."""
 
+    was_seen = True
+
 
 @dataclass(eq=False)
 class CountRestarts(WrongCount):
     """The counting jumps back."""
+
+    was_seen = True

@@ -23,6 +23,7 @@ class DidNotComeUp(Fault):
     executable: str
     how: str
     when: str = field(default="", kw_only=True)
+    was_seen = True
     why = "A node that ends at once can neither send nor receive."
 
     @property
@@ -53,6 +54,7 @@ class EndedWithError(Fault):
     executable: str
     task: str
     status: str
+    was_seen = True
     why = "An error that nobody catches ends the program at once."
     hint = READ_THE_LINES
 
@@ -75,6 +77,7 @@ class StoppedByItself(Fault):
     after_s: float
     how: str
     when: str = field(default="", kw_only=True)
+    was_seen = True
     why = "A robot's node runs until somebody stops it."
     hint = READ_THE_LINES
 
@@ -96,6 +99,7 @@ class DoesNotEnd(Fault):
     executable: str
     within_s: float
     after_s: float | None
+    was_seen = True
     why = "Who cannot stop a robot's program with Ctrl-C cannot stop the robot."
     hint = "Does your code catch KeyboardInterrupt and go on, or wait in a loop that never ends?"
 
@@ -118,6 +122,7 @@ class UncleanExit(Fault):
 
     executable: str
     how: str
+    was_seen = True
     why = (
         "Much tutorial code ends like this. It is a small thing, but other programs take the "
         "error for a crash."
@@ -144,6 +149,7 @@ class LeavesProcesses(Fault):
 
     executable: str
     count: int
+    was_seen = True
     why = "A forgotten process still sends messages, and the next start meets it."
     hint = "End what your node starts (subprocess, multiprocessing) before the node itself ends."
 

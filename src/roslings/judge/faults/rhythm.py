@@ -33,6 +33,7 @@ class WrongRate(Fault):
     wanted_hz: float
     within: float
     rate: Rate
+    was_seen = True
     why = "Other nodes rely on the rate: a slow sensor is like a robot with closed eyes."
 
     @property

@@ -5,20 +5,27 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING, Any
 
+from roslings.ros2.habits import full_topic
 from roslings.ros2.names import absolute
-from roslings.ros2.shared_options import complete_interfaces, count_only, node_options, show_types
-from roslings.ros2.words import OK, Verbs, add
+from roslings.ros2.shared_options import (
+    complete_type_of,
+    complete_values,
+    count_only,
+    node_options,
+    show_types,
+    stdin_option,
+)
+from roslings.ros2.words import FAILED, OK, Verbs, add
 
 if TYPE_CHECKING:
     from roslings.ros2.eye import Eye
 
-ABSENT = {"type": "the type of an action", "find": "actions of a type", "echo": "action events"}
 Party = tuple[str, list[str]]
 
 
 def declare(command: argparse.ArgumentParser) -> None:
     """The verbs."""
-    verbs = Verbs(command, ABSENT)
+    verbs = Verbs(command)
     listing = verbs("list", "Output a list of action names", list_actions)
     show_types(listing, "action")
     count_only(listing, "actions")
@@ -29,15 +36,22 @@ def declare(command: argparse.ArgumentParser) -> None:
         "-c", "--count", action="store_true",
         help="Only display the number of action clients and action servers",
     )  # fmt: skip
-    for verb in (listing, info):
+    kind = verbs("type", "Print an action's type", show_type)
+    _action_name(kind)
+    for verb in (listing, info, kind):
         node_options(verb)
     send = verbs("send_goal", "Send an action goal", send_goal)
     _action_name(send)
     add(
-        send, "action_type", complete=complete_interfaces("action"),
+        send, "action_type", complete=complete_type_of("action", "action", actions),
         help="Type of the ROS action (e.g. 'test_msgs/action/Fibonacci')",
     )  # fmt: skip
-    send.add_argument("goal", help="Goal request values in YAML format (e.g. '{order: 10}')")
+    goal = send.add_mutually_exclusive_group()
+    add(
+        goal, "goal", nargs="?", default="{}", complete=complete_values("action_type"),
+        help="Goal request values in YAML format (e.g. '{order: 10}')",
+    )  # fmt: skip
+    stdin_option(goal, "the goal")
     send.add_argument(
         "-f", "--feedback", action="store_true", help="Echo feedback messages for the goal"
     )
@@ -82,7 +96,7 @@ def list_actions(options: argparse.Namespace) -> int:
     """`ros2 action list`."""
     from roslings.ros2.eye import Eye
 
-    with Eye() as eye:
+    with Eye.asked_by(options) as eye:
         found = actions(eye.settle())
     if options.count:
         print(len(found))
@@ -92,12 +106,24 @@ def list_actions(options: argparse.Namespace) -> int:
     return OK
 
 
+def show_type(options: argparse.Namespace) -> int:
+    """`ros2 action type ACTION`."""
+    from roslings.ros2.eye import Eye
+
+    name = full_topic(options.action_name)
+    with Eye.asked_by(options) as eye:
+        types = actions(eye.settle()).get(name, [])
+        _say_near(eye, name)
+    print("".join(f"{kind}\n" for kind in types), end="")
+    return OK if types else FAILED
+
+
 def show_info(options: argparse.Namespace) -> int:
     """`ros2 action info ACTION`."""
     from roslings.ros2.eye import Eye
 
     name = absolute(options.action_name)
-    with Eye() as eye:
+    with Eye.asked_by(options) as eye:
         eye.settle()
         _say_near(eye, name)
         clients = dict(by_action(eye, "client")).get(name, [])

@@ -11,7 +11,7 @@ from roslings.ros2.qos import DEFAULT_DEPTH, add_qos_options
 from roslings.ros2.shared_options import complete_topics
 from roslings.ros2.words import Verbs, add, rate, seconds
 
-ABSENT = {"burst": "", "convert": "", "list": "", "reindex": ""}
+ABSENT = ("burst", "convert", "list", "reindex")
 
 
 class NoRosbags(Problem):

@@ -6,6 +6,7 @@ import argparse
 from typing import Any
 
 from roslings.ros2.interfaces import KINDS
+from roslings.ros2.shared_options import complete_packages
 from roslings.ros2.words import OK, Verbs, add
 
 TITLES = {"msg": "Messages:", "srv": "Services:", "action": "Actions:"}
@@ -13,13 +14,9 @@ TITLES = {"msg": "Messages:", "srv": "Services:", "action": "Actions:"}
 
 def declare(command: argparse.ArgumentParser) -> None:
     """The verbs."""
-    verbs = Verbs(command, absent={})
+    verbs = Verbs(command)
     listing = verbs("list", "List all interface types available", list_all)
-    for flag, kind in (("-m", "msg"), ("-s", "srv"), ("-a", "action")):
-        listing.add_argument(
-            flag, f"--only-{kind}s" if kind != "action" else "--only-actions", dest="only",
-            action="append_const", const=kind, help=f"Print out only the {KINDS[kind]} types",
-        )  # fmt: skip
+    _only_options(listing, "Print out only the {} types")
     show = verbs("show", "Output the interface definition", show_text)
     _type_name(show)
     comments = show.add_mutually_exclusive_group()
@@ -32,8 +29,19 @@ def declare(command: argparse.ArgumentParser) -> None:
     )
     package = verbs("package", "Output a list of available interface types within one package",
                     list_package)  # fmt: skip
-    package.add_argument("package_name", help="Name of the ROS package")
-    verbs("packages", "Output a list of packages that provide interfaces", list_packages)
+    add(package, "package_name", complete=complete_packages, help="Name of the ROS package")
+    _only_options(package, "Print out only the {} types")
+    packages = verbs("packages", "Output a list of packages that provide interfaces", list_packages)
+    _only_options(packages, "Print out only packages with {} types")
+
+
+def _only_options(parser: argparse.ArgumentParser, about: str) -> None:
+    """`--only-msgs` and its kin."""
+    for kind, what in KINDS.items():
+        parser.add_argument(
+            f"-{kind[0]}", f"--only-{kind}s", dest="only", action="append_const", const=kind,
+            help=about.format(what),
+        )  # fmt: skip
 
 
 def _type_name(parser: argparse.ArgumentParser) -> None:
@@ -50,11 +58,17 @@ def complete_all(**_: Any) -> list[str]:
     return installed()
 
 
-def list_all(options: argparse.Namespace) -> int:
-    """`ros2 interface list`."""
+def _chosen(options: argparse.Namespace) -> list[str]:
+    """Every installed type of the kinds in `options`."""
     from roslings.ros2.interfaces import installed
 
-    names = installed()
+    kinds = options.only or KINDS
+    return [name for name in installed() if name.split("/")[1] in kinds]
+
+
+def list_all(options: argparse.Namespace) -> int:
+    """`ros2 interface list`."""
+    names = _chosen(options)
     for kind in options.only or TITLES:
         print(TITLES[kind])
         print("".join(f"    {name}\n" for name in names if f"/{kind}/" in name), end="")
@@ -63,21 +77,18 @@ def list_all(options: argparse.Namespace) -> int:
 
 def list_package(options: argparse.Namespace) -> int:
     """`ros2 interface package PACKAGE`."""
-    from roslings.ros2.interfaces import installed
     from roslings.ros2.packages import prefix_of
 
     prefix_of(options.package_name)
-    for name in installed():
+    for name in _chosen(options):
         if name.startswith(f"{options.package_name}/"):
             print(name)
     return OK
 
 
-def list_packages(_: argparse.Namespace) -> int:
+def list_packages(options: argparse.Namespace) -> int:
     """`ros2 interface packages`."""
-    from roslings.ros2.interfaces import installed
-
-    print("\n".join(sorted({name.partition("/")[0] for name in installed()})))
+    print("\n".join(sorted({name.partition("/")[0] for name in _chosen(options)})))
     return OK
 
 
@@ -90,7 +101,7 @@ def show_text(options: argparse.Namespace) -> int:
         comments = Comments.ALL
     elif options.no_comments:
         comments = Comments.NONE
-    print("\n".join(shown_lines(options.type, comments)))
+    print("\n".join(shown_lines(_whole(options.type), comments)))
     return OK
 
 
@@ -99,6 +110,14 @@ def show_prototype(options: argparse.Namespace) -> int:
     from roslings.ros2.interfaces import empty_message
     from roslings.ros2.yaml_out import Shape, as_yaml
 
-    text = as_yaml(empty_message(options.type), Shape(longest=None))
+    text = as_yaml(empty_message(_whole(options.type)), Shape(longest=None))
     print(text if options.no_quotes else f'"{text}"')
     return OK
+
+
+def _whole(typed: str) -> str:
+    """The type's whole name; a word is said where a part was left out. Raises UnknownInterface."""
+    from roslings.ros2.habits import full_type
+    from roslings.ros2.interfaces import file_of, full_name
+
+    return full_type(typed, full_name(typed, file_of(typed).parent.name))

@@ -40,7 +40,7 @@ class UnknownTransition(Problem):
 
 def declare(command: argparse.ArgumentParser) -> None:
     """The verbs."""
-    verbs = Verbs(command, absent={})
+    verbs = Verbs(command)
     nodes = verbs("nodes", "Output a list of nodes with lifecycle", list_nodes)
     nodes.add_argument("-a", "--all", action="store_true", help="Display all nodes even hidden")
     nodes.add_argument(
@@ -86,7 +86,7 @@ def _seen(options: argparse.Namespace) -> Iterator[tuple[Eye, str]]:
     from roslings.ros2.eye import Eye
 
     node = absolute(options.node_name)
-    with Eye() as eye:
+    with Eye.asked_by(options) as eye:
         running = eye.settle().nodes(hidden=options.include_hidden_nodes)
         if node not in running:
             raise NodeNotFound(options.node_name, running, "Node not found:")
@@ -100,7 +100,7 @@ def list_nodes(options: argparse.Namespace) -> int:
     """`ros2 lifecycle nodes`."""
     from roslings.ros2.eye import Eye
 
-    with Eye() as eye:
+    with Eye.asked_by(options) as eye:
         nodes = lifecycle_nodes(eye.settle(), options.all)
     if options.count_nodes:
         print(len(nodes))
@@ -117,7 +117,7 @@ def show_states(options: argparse.Namespace) -> int:
         return OK
     from roslings.ros2.eye import Eye
 
-    with Eye() as eye:
+    with Eye.asked_by(options) as eye:
         for node in lifecycle_nodes(eye.settle(), options.include_hidden_nodes):
             print(f"{node}: {_state(eye, node)}")
     return OK

@@ -31,7 +31,7 @@ class NodeNotFound(Problem):
 
 def declare(command: argparse.ArgumentParser) -> None:
     """The verbs."""
-    verbs = Verbs(command, absent={})
+    verbs = Verbs(command)
     listing = verbs("list", "Output a list of available nodes", list_nodes)
     listing.add_argument("-a", "--all", action="store_true", help="Display hidden nodes as well")
     count_only(listing, "nodes")
@@ -49,8 +49,8 @@ def list_nodes(options: argparse.Namespace) -> int:
     """`ros2 node list`."""
     from roslings.ros2.eye import Eye
 
-    with Eye() as eye:
-        names = eye.settle().nodes(hidden=options.all)
+    with Eye.asked_by(options) as eye:
+        names = eye.settle(only_nodes=True).nodes(hidden=options.all)
     if options.count:
         print(len(names))
         return OK
@@ -64,7 +64,7 @@ def show_info(options: argparse.Namespace) -> int:
     """`ros2 node info NODE`."""
     from roslings.ros2.eye import Eye
 
-    with Eye() as eye:
+    with Eye.asked_by(options) as eye:
         name = absolute(options.node_name)
         running = eye.settle().nodes(hidden=options.include_hidden)
         if name not in running:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -18,7 +19,14 @@ from roslings.ros2.words import FAILED, OK, Verbs, add, seconds
 if TYPE_CHECKING:
     from roslings.ros2.eye import Eye
 
-ABSENT = {"delete": "remove a parameter"}
+
+class BadPattern(Problem):
+    """`--filter` is no regular expression."""
+
+    def __init__(self, text: str, fault: Exception) -> None:
+        super().__init__(
+            f"--filter '{text}' is no regular expression: {fault}. A plain name is one too."
+        )
 
 
 class NoSuchParameter(Problem):
@@ -33,7 +41,7 @@ class NoSuchParameter(Problem):
 
 def declare(command: argparse.ArgumentParser) -> None:
     """The verbs."""
-    verbs = Verbs(command, ABSENT)
+    verbs = Verbs(command)
     listing = verbs("list", "Output a list of available parameters", list_parameters)
     in_node(listing, nargs="?")
     listing.add_argument(
@@ -42,6 +50,10 @@ def declare(command: argparse.ArgumentParser) -> None:
     listing.add_argument(
         "--param-type", action="store_true", help="Print parameter types with parameter names"
     )
+    listing.add_argument(
+        "--filter", metavar="REGEX",
+        help="Only list parameters whose names begin with what the regular expression matches",
+    )  # fmt: skip
     get = verbs("get", "Get parameter", show_value)
     in_node(get)
     _parameter_name(get)
@@ -61,8 +73,19 @@ def declare(command: argparse.ArgumentParser) -> None:
     load = verbs("load", "Load parameter file for a node", load_file)
     in_node(load)
     load.add_argument("parameter_file", type=Path, help="Parameter file")
-    for verb in (listing, get, setting, describe, dump, load):
-        verb.add_argument("--timeout", type=seconds, help=argparse.SUPPRESS)
+    load.add_argument(
+        "--no-use-wildcard", action="store_true",
+        help="Do not load what stands below a pattern such as /**, which is for many nodes",
+    )  # fmt: skip
+    delete = verbs("delete", "Delete parameter", delete_parameter)
+    in_node(delete)
+    _parameter_name(delete)
+    for verb in (get, setting, describe, dump, load, delete):
+        verb.add_argument(
+            "--timeout", type=seconds, metavar="N", default=0.0,
+            help="Wait for N seconds until node becomes available",
+        )  # fmt: skip
+    for verb in (listing, get, setting, describe, dump, load, delete):
         node_options(verb)
 
 
@@ -84,23 +107,29 @@ def _seen(options: argparse.Namespace) -> Iterator[tuple[Eye, str]]:
     from roslings.ros2.eye import Eye
 
     node = absolute(options.node_name)
-    with Eye() as eye:
-        running = eye.settle().nodes(hidden=options.include_hidden_nodes)
-        if node not in running:
-            raise NodeNotFound(options.node_name, running, "Node not found:")
+    with Eye.asked_by(options) as eye:
+
+        def running() -> list[str]:
+            return eye.nodes(hidden=options.include_hidden_nodes)
+
+        eye.settle()
+        if not eye.until(lambda: node in running(), getattr(options, "timeout", 0.0)):
+            raise NodeNotFound(options.node_name, running(), "Node not found:")
         yield eye, node
 
 
 def list_parameters(options: argparse.Namespace) -> int:
     """`ros2 param list [NODE]`."""
+    if options.filter is not None:
+        checked_pattern(options.filter)
     if options.node_name:
         with _seen(options) as (eye, node):
-            _print_names(eye, node, options)
+            print("".join(_name_lines(eye, node, options)), end="")
         return OK
     from roslings.ros2.eye import Eye
     from roslings.ros2.parameters import SERVICE
 
-    with Eye() as eye:
+    with Eye.asked_by(options) as eye:
         services = eye.settle().services()
         nodes = sorted(set(eye.nodes(hidden=options.include_hidden_nodes)))
         for node in nodes:
@@ -109,45 +138,52 @@ def list_parameters(options: argparse.Namespace) -> int:
     return OK
 
 
+def checked_pattern(text: str) -> None:
+    """Raises BadPattern."""
+    try:
+        re.compile(text)
+    except re.error as fault:
+        raise BadPattern(text, fault) from None
+
+
 def _print_block(eye: Eye, node: str, options: argparse.Namespace) -> None:
     """One node of many: that it does not answer is said, and the next one comes."""
-    print(f"{node}:")
     try:
-        _print_names(eye, node, options)
+        lines = _name_lines(eye, node, options)
     except Problem as problem:
         print(problem, file=sys.stderr)
+        return
+    if lines:
+        print("".join([f"{node}:\n", *lines]), end="")
 
 
-def _print_names(eye: Eye, node: str, options: argparse.Namespace) -> None:
+def _name_lines(eye: Eye, node: str, options: argparse.Namespace) -> list[str]:
     from roslings.ros2.parameters import descriptors_of, names_of, word_of
 
-    names = names_of(eye, node, options.param_prefixes)
+    pattern = options.filter or ""
+    names = [n for n in names_of(eye, node, options.param_prefixes) if re.match(pattern, n)]
     types = (
         {d.name: f" (type: {word_of(d.type)})" for d in descriptors_of(eye, node, names)}
         if options.param_type
         else {}
     )
-    print("".join(f"  {name}{types.get(name, '')}\n" for name in names), end="")
+    return [f"  {name}{types.get(name, '')}\n" for name in names]
 
 
 def show_value(options: argparse.Namespace) -> int:
     """`ros2 param get NODE NAME`."""
-    from roslings.ros2.parameters import WORDS, plain, values_of
+    from roslings.ros2.parameters import WORDS, names_of, plain, values_of
 
     with _seen(options) as (eye, node):
         found = values_of(eye, node, [options.parameter_name])
-        if not found or found[0].type not in WORDS:
+        if found and found[0].type in WORDS:
+            label = "" if options.hide_type else f"{WORDS[found[0].type][1]} "
+            print(f"{label}{plain(found[0])}")
+        elif options.parameter_name in names_of(eye, node):
+            print("None" if options.hide_type else "Parameter not set.")
+        else:
             raise _unknown(eye, node, options.parameter_name)
-    value, label = plain(found[0]), WORDS[found[0].type][1]
-    print(value if options.hide_type else f"{label} {_as_shown(found[0], value)}")
     return OK
-
-
-def _as_shown(message: Any, value: Any) -> Any:
-    """Lists are printed as rclpy holds them: array('d', [...])."""
-    from roslings.ros2.parameters import WORDS
-
-    return getattr(message, WORDS[message.type][2]) if isinstance(value, list) else value
 
 
 def _unknown(eye: Eye, node: str, name: str) -> NoSuchParameter:
@@ -241,7 +277,8 @@ def load_file(options: argparse.Namespace) -> int:
     from roslings.ros2.parameter_file import values_for
     from roslings.ros2.parameters import set_on
 
-    values = values_for(options.parameter_file, absolute(options.node_name))
+    node = absolute(options.node_name)
+    values = values_for(options.parameter_file, node, wildcards=not options.no_use_wildcard)
     with _seen(options) as (eye, node):
         results = set_on(eye, node, values)
     for name, result in zip(values, results, strict=True):
@@ -251,3 +288,17 @@ def load_file(options: argparse.Namespace) -> int:
         where = sys.stdout if result.successful else sys.stderr
         print(f"{done} parameter {name} {outcome}{reason}", file=where)
     return OK if all(result.successful for result in results) else FAILED
+
+
+def delete_parameter(options: argparse.Namespace) -> int:
+    """`ros2 param delete NODE NAME`."""
+    from roslings.ros2.parameters import delete_on, names_of
+
+    with _seen(options) as (eye, node):
+        if options.parameter_name not in names_of(eye, node):
+            raise _unknown(eye, node, options.parameter_name)
+        result = delete_on(eye, node, options.parameter_name)
+    reason = f": {result.reason}" if result.reason else ""
+    done = "Deleted parameter successfully" if result.successful else "Deleting parameter failed"
+    print(f"{done}{reason}", file=sys.stdout if result.successful else sys.stderr)
+    return OK if result.successful else FAILED

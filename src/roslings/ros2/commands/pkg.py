@@ -5,16 +5,37 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
+from roslings.ros2.problem import Problem, did_you_mean
 from roslings.ros2.shared_options import complete_packages
 from roslings.ros2.words import OK, Verbs, add
 
-ABSENT = {"xml": "the package.xml of a package", "depends": "what a package needs"}
 BUILD_TYPES = ("ament_python", "ament_cmake", "cmake")
+
+
+class NoTag(Problem):
+    """The package.xml does not say that."""
+
+    def __init__(self, package: str, tag: str, there: list[str]) -> None:
+        names = sorted(set(there))
+        super().__init__(
+            f"The package.xml of '{package}' has no <{tag}>.{did_you_mean(tag, names)}"
+            f" It has: {', '.join(names)}"
+        )
+
+
+class NoManifest(Problem):
+    """The package was installed without its package.xml, or it comes with roslings."""
+
+    def __init__(self, package: str) -> None:
+        super().__init__(
+            f"'{package}' has no package.xml here. If it is yours, add it to data_files in"
+            " setup.py and build again: colcon build"
+        )
 
 
 def declare(command: argparse.ArgumentParser) -> None:
     """The verbs."""
-    verbs = Verbs(command, ABSENT)
+    verbs = Verbs(command)
     _declare_create(verbs("create", "Create a new ROS 2 package", create))
     verbs("list", "Output a list of available packages", list_packages)
     programs = verbs("executables", "Output a list of package specific executables", executables)
@@ -25,6 +46,9 @@ def declare(command: argparse.ArgumentParser) -> None:
     prefix = verbs("prefix", "Output the prefix path of a package", show_prefix)
     add(prefix, "package_name", complete=complete_packages, help="The package name")
     prefix.add_argument("--share", action="store_true", help="Show share directory for the package")
+    xml = verbs("xml", "Output the XML of the package manifest or a specific tag", show_xml)
+    add(xml, "package_name", complete=complete_packages, help="The package name")
+    xml.add_argument("-t", "--tag", help="The XML tag to output, e.g. version")
 
 
 def _declare_create(parser: argparse.ArgumentParser) -> None:
@@ -91,4 +115,25 @@ def show_prefix(options: argparse.Namespace) -> int:
 
     where: Any = share_of if options.share else prefix_of
     print(where(options.package_name))
+    return OK
+
+
+def show_xml(options: argparse.Namespace) -> int:
+    """`ros2 pkg xml PACKAGE`."""
+    from xml.etree import ElementTree
+
+    from roslings.ros2.packages import share_of
+
+    manifest = share_of(options.package_name) / "package.xml"
+    if not manifest.is_file():
+        raise NoManifest(options.package_name)
+    root = ElementTree.parse(manifest).getroot()
+    if options.tag is None:
+        print(ElementTree.tostring(root, encoding="unicode"))
+        return OK
+    found = root.findall(options.tag)
+    if not found:
+        raise NoTag(options.package_name, options.tag, [element.tag for element in root])
+    for element in found:
+        print(element.text)
     return OK

@@ -7,14 +7,22 @@ import sys
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
-from roslings.ros2.names import absolute
+from roslings.ros2.habits import full_topic, full_type
 from roslings.ros2.problem import Problem, did_you_mean
+from roslings.ros2.qos import add_qos_options
 from roslings.ros2.shared_options import (
+    also_hidden,
     complete_interfaces,
     complete_services,
+    complete_type_of,
+    complete_values,
     count_only,
+    hidden_services,
     node_options,
+    shape_options,
     show_types,
+    stdin_option,
+    values_in,
 )
 from roslings.ros2.words import FAILED, OK, Verbs, add, rate
 
@@ -22,7 +30,16 @@ if TYPE_CHECKING:
     from roslings.ros2.eye import Eye
 
 MATCHED_WITHIN_S = 1.0
-ABSENT = {"echo": "service events", "info": "clients and servers of a service"}
+
+
+class ServiceNotThere(Problem):
+    """No node offers the service."""
+
+    def __init__(self, service: str, there: Iterable[str]) -> None:
+        super().__init__(
+            f"Unknown service '{service}'.{did_you_mean(service, there)}\n"
+            "To see what there is: ros2 service list"
+        )
 
 
 class OtherType(Problem):
@@ -37,7 +54,8 @@ class OtherType(Problem):
 
 def declare(command: argparse.ArgumentParser) -> None:
     """The verbs."""
-    verbs = Verbs(command, ABSENT)
+    hidden_services(command)
+    verbs = Verbs(command)
     listing = verbs("list", "Output a list of available services", list_services)
     show_types(listing, "service")
     count_only(listing, "services")
@@ -49,30 +67,45 @@ def declare(command: argparse.ArgumentParser) -> None:
         help="Name of the ROS service type to filter for (e.g. 'std_srvs/srv/SetBool')",
     )  # fmt: skip
     count_only(find, "services")
+    info = verbs("info", "Print information about a service", show_info)
+    _service_name(info)
     for verb in (listing, find):
-        verb.add_argument(
-            "--include-hidden-services", "-a", action="store_true",
-            help="Consider hidden services as well",
-        )  # fmt: skip
-    for verb in (listing, kind, find):
+        also_hidden(verb, "services", "-a")
+    for verb in (listing, kind, find, info):
         node_options(verb)
     _declare_call(verbs)
+    _declare_echo(verbs)
 
 
 def _declare_call(verbs: Verbs) -> None:
     word = verbs("call", "Call a service", call)
     _service_name(word)
     add(
-        word, "service_type", complete=complete_interfaces("srv"),
+        word, "service_type", complete=complete_type_of("service", "srv"),
         help="Type of the ROS service (e.g. 'std_srvs/srv/SetBool')",
     )  # fmt: skip
-    word.add_argument(
-        "values", nargs="?", default="{}",
+    values = word.add_mutually_exclusive_group()
+    add(
+        values, "values", nargs="?", default="{}", complete=complete_values("service_type"),
         help="Values to fill the service request with in YAML format (e.g. '{data: true}')",
     )  # fmt: skip
+    stdin_option(values, "the values")
     word.add_argument(
         "-r", "--rate", metavar="N", type=rate, help="Repeat the call at a specific rate in Hz"
     )
+    node_options(word, daemon=False)
+
+
+def _declare_echo(verbs: Verbs) -> None:
+    word = verbs("echo", "Echo a service", echo)
+    _service_name(word)
+    add(
+        word, "service_type", nargs="?", complete=complete_type_of("service", "srv"),
+        help="Type of the ROS service (e.g. 'std_srvs/srv/SetBool')",
+    )  # fmt: skip
+    shape_options(word)
+    add_qos_options(word, "listen")
+    node_options(word)
 
 
 def _service_name(parser: argparse.ArgumentParser) -> None:
@@ -86,7 +119,7 @@ def list_services(options: argparse.Namespace) -> int:
     """`ros2 service list`."""
     from roslings.ros2.eye import Eye
 
-    with Eye() as eye:
+    with Eye.asked_by(options) as eye:
         services = eye.settle().services(hidden=options.include_hidden_services)
     if options.count:
         print(len(services))
@@ -100,9 +133,9 @@ def show_type(options: argparse.Namespace) -> int:
     """`ros2 service type SERVICE`."""
     from roslings.ros2.eye import Eye
 
-    with Eye() as eye:
+    with Eye.asked_by(options) as eye:
         services = eye.settle().services()
-    types = services.get(absolute(options.service_name))
+    types = services.get(full_topic(options.service_name))
     if not types:
         near = did_you_mean(options.service_name, services)
         print(f"No node offers the service '{options.service_name}'.{near}", file=sys.stderr)
@@ -116,13 +149,36 @@ def find_services(options: argparse.Namespace) -> int:
     from roslings.ros2.eye import Eye
     from roslings.ros2.interfaces import full_name
 
-    wanted = full_name(options.service_type, "srv")
-    with Eye() as eye:
+    wanted = full_type(options.service_type, full_name(options.service_type, "srv"))
+    with Eye.asked_by(options) as eye:
         services = eye.settle().services(hidden=options.include_hidden_services)
     names = [name for name, types in services.items() if wanted in types]
     if options.count or names:
         print(len(names) if options.count else "\n".join(names))
     return OK
+
+
+def show_info(options: argparse.Namespace) -> int:
+    """`ros2 service info SERVICE`."""
+    from roslings.ros2.eye import Eye
+
+    name = full_topic(options.service_name)
+    with Eye.asked_by(options) as eye:
+        services = eye.settle().services()
+        if name not in services:
+            raise ServiceNotThere(name, services)
+        clients, servers = eye.node.count_clients(name), eye.node.count_services(name)
+    types = services[name]
+    print(f"Type: {types[0] if len(types) == 1 else types}")
+    print(f"Clients count: {clients}\nServices count: {servers}")
+    return OK
+
+
+def echo(options: argparse.Namespace) -> int:
+    """`ros2 service echo SERVICE [TYPE]`."""
+    from roslings.ros2.service_events import echo as echo_events
+
+    return echo_events(options)
 
 
 def call(options: argparse.Namespace) -> int:
@@ -136,8 +192,8 @@ def call(options: argparse.Namespace) -> int:
     type_name = full_name(options.service_type, "srv")
     cls = class_of(type_name, "srv")
     request = cls.Request()
-    filled(request, options.values)
-    with Eye() as eye:
+    filled(request, values_in(options, options.values))
+    with Eye.asked_by(options) as eye:
         services = eye.settle().services()  # before our own client puts its type there
         if type_name not in services.get(service, [type_name]):
             raise OtherType(service, type_name, services[service][0])

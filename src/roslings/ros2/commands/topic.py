@@ -5,21 +5,30 @@ from __future__ import annotations
 import argparse
 import sys
 
-from roslings.ros2.names import absolute
+from roslings.ros2.habits import full_topic, full_type
 from roslings.ros2.problem import Problem, did_you_mean
 from roslings.ros2.qos import add_qos_options
 from roslings.ros2.shared_options import (
+    also_hidden,
     complete_interfaces,
+    complete_type_of,
+    complete_values,
     count_only,
     hidden_topics,
     node_options,
+    shape_options,
     show_types,
+    stdin_option,
     topic_name,
 )
 from roslings.ros2.words import FAILED, OK, Run, Verbs, add, not_negative, positive, rate, seconds
 
-ABSENT = {"delay": "the age of stamped messages"}
-DEFAULT_LENGTH, HZ_WINDOW, BW_WINDOW = 128, 10_000, 100
+HZ_WINDOW, BW_WINDOW, DELAY_WINDOW = 10_000, 100, 10_000
+OF_EVERY_NODE = {
+    "/parameter_events": ["rcl_interfaces/msg/ParameterEvent"],
+    "/rosout": ["rcl_interfaces/msg/Log"],
+}
+"""The full tool lists them always, for its own node has them too."""
 
 
 class TopicNotFound(Problem):
@@ -34,7 +43,8 @@ class TopicNotFound(Problem):
 
 def declare(command: argparse.ArgumentParser) -> None:
     """The verbs."""
-    verbs = Verbs(command, ABSENT)
+    hidden_topics(command)
+    verbs = Verbs(command)
     _declare_looking(verbs)
     _declare_echo(verbs)
     _declare_measuring(verbs)
@@ -48,7 +58,7 @@ def _declare_looking(verbs: Verbs) -> None:
     listing.add_argument(
         "-v", "--verbose", action="store_true", help="List full details about each topic"
     )
-    hidden_topics(listing)
+    also_hidden(listing, "topics", "-a")
     info = verbs("info", "Print information about a topic", show_info)
     topic_name(info)
     info.add_argument(
@@ -63,7 +73,7 @@ def _declare_looking(verbs: Verbs) -> None:
         help="Name of the ROS topic type to filter for (e.g. 'std_msgs/msg/String')",
     )  # fmt: skip
     count_only(find, "topics")
-    hidden_topics(find)
+    also_hidden(find, "topics", "-a")
     for verb in (listing, info, kind, find):
         node_options(verb)
 
@@ -73,7 +83,7 @@ def _declare_echo(verbs: Verbs) -> None:
     echo = verbs("echo", "Output messages from a topic", _later(from_home, "echo"))
     topic_name(echo)
     add(
-        echo, "message_type", nargs="?", complete=complete_interfaces("msg"),
+        echo, "message_type", nargs="?", complete=complete_type_of("topic", "msg"),
         help="Type of the ROS message (e.g. 'std_msgs/msg/String')",
     )  # fmt: skip
     echo.add_argument("--once", action="store_true", help="Print the first message and exit")
@@ -81,17 +91,19 @@ def _declare_echo(verbs: Verbs) -> None:
     echo.add_argument(
         "--field", action="append", help="Echo a selected field of a message, e.g. linear.x"
     )
-    echo.add_argument("--csv", action="store_true", help="One line a message, parted by commas")
-    echo.add_argument("--flow-style", action="store_true", help="YAML in one line")
-    echo.add_argument("--no-arr", action="store_true", help="Don't print array fields")
-    echo.add_argument("--no-str", action="store_true", help="Don't print string fields")
     echo.add_argument(
-        "-f", "--full-length", action="store_true", help="Do not cut long arrays and texts"
-    )
-    echo.add_argument(
-        "-l", "--truncate-length", type=not_negative, default=DEFAULT_LENGTH, metavar="N",
-        help=f"Cut arrays, bytes and texts after N (default: {DEFAULT_LENGTH})",
+        "--filter", metavar="EXPR", help="Print only messages for which this Python expression"
+        " holds; m is the message, or the selected field: 'm.linear.x > 0'",
     )  # fmt: skip
+    echo.add_argument(
+        "-i", "--include-message-info", action="store_true",
+        help="Print before each message when it was sent and received, and its number",
+    )  # fmt: skip
+    echo.add_argument("--raw", action="store_true", help="Print the bytes as they came")
+    echo.add_argument(
+        "--no-lost-messages", action="store_true", help="Don't report when a message is lost"
+    )
+    shape_options(echo)
     _listening_options(echo)
 
 
@@ -99,20 +111,28 @@ def _declare_measuring(verbs: Verbs) -> None:
     home = "roslings.ros2.measuring"
     hz = verbs("hz", "Print the average publishing rate to screen", _later(home, "hz"))
     bw = verbs("bw", "Display bandwidth used by topic", _later(home, "bw"))
-    for verb, window in ((hz, HZ_WINDOW), (bw, BW_WINDOW)):
+    delay = verbs("delay", "Display delay of topic from timestamp in header", _later(home, "delay"))
+    for verb, window in ((hz, HZ_WINDOW), (bw, BW_WINDOW), (delay, DELAY_WINDOW)):
         topic_name(verb)
         verb.add_argument(
             "-w", "--window", type=positive, default=window, metavar="N",
             help=f"window size, in # of messages (default: {window})",
         )  # fmt: skip
         _listening_options(verb)
-    hz.add_argument("--wall-time", action="store_true", help=argparse.SUPPRESS)
+    hz.add_argument(
+        "--filter", metavar="EXPR",
+        help="Count only messages for which this Python expression holds; m is the message",
+    )  # fmt: skip
+    hz.add_argument(
+        "--wall-time", action="store_true",
+        help="Take the time of this computer, also with --use-sim-time",
+    )  # fmt: skip
 
 
 def _listening_options(verb: argparse.ArgumentParser) -> None:
     add_qos_options(verb, "subscribe")
     node_options(verb)
-    verb.add_argument("--include-hidden-topics", action="store_true", help=argparse.SUPPRESS)
+    also_hidden(verb, "topics")
 
 
 def _declare_pub(verbs: Verbs) -> None:
@@ -121,13 +141,15 @@ def _declare_pub(verbs: Verbs) -> None:
     )
     topic_name(pub)
     add(
-        pub, "message_type", complete=complete_interfaces("msg"),
+        pub, "message_type", complete=complete_type_of("topic", "msg"),
         help="Type of the ROS message (e.g. 'std_msgs/msg/String')",
     )  # fmt: skip
-    pub.add_argument(
-        "values", nargs="?", default="{}",
+    values = pub.add_mutually_exclusive_group()
+    add(
+        values, "values", nargs="?", default="{}", complete=complete_values("message_type"),
         help="Values to fill the message with in YAML format (e.g. '{data: Hello World}')",
     )  # fmt: skip
+    stdin_option(values, "the values")
     pub.add_argument(
         "-r", "--rate", metavar="N", type=rate, default=1.0,
         help="Publishing rate in Hz (default: 1)",
@@ -154,7 +176,7 @@ def _declare_pub(verbs: Verbs) -> None:
     )  # fmt: skip
     pub.add_argument("-n", "--node-name", help="Name of the created publishing node")
     add_qos_options(pub, "publish")
-    pub.add_argument("--spin-time", type=seconds, help=argparse.SUPPRESS)
+    node_options(pub, daemon=False)
 
 
 def _later(home: str, function: str) -> Run:
@@ -172,8 +194,9 @@ def list_topics(options: argparse.Namespace) -> int:
     """`ros2 topic list`."""
     from roslings.ros2.eye import Eye
 
-    with Eye() as eye:
-        topics = eye.settle().topics(hidden=options.include_hidden_topics)
+    with Eye.asked_by(options) as eye:
+        found = eye.settle().topics(hidden=options.include_hidden_topics)
+        topics = dict(sorted({**OF_EVERY_NODE, **found}.items()))
         if options.count:
             print(len(topics))
         elif options.verbose:
@@ -201,8 +224,8 @@ def show_info(options: argparse.Namespace) -> int:
     """`ros2 topic info TOPIC`."""
     from roslings.ros2.eye import Eye
 
-    topic = absolute(options.topic_name)
-    with Eye() as eye:
+    topic = full_topic(options.topic_name)
+    with Eye.asked_by(options) as eye:
         types = eye.settle().topics().get(topic)
         if types is None:
             raise TopicNotFound(options.topic_name, list(eye.topics(hidden=False)))
@@ -220,9 +243,9 @@ def show_type(options: argparse.Namespace) -> int:
     """`ros2 topic type TOPIC`."""
     from roslings.ros2.eye import Eye
 
-    with Eye() as eye:
+    with Eye.asked_by(options) as eye:
         topics = eye.settle().topics()
-    types = topics.get(absolute(options.topic_name))
+    types = topics.get(full_topic(options.topic_name))
     if not types:
         near = did_you_mean(options.topic_name, topics)
         print(f"No node has the topic '{options.topic_name}'.{near}", file=sys.stderr)
@@ -236,8 +259,8 @@ def find_topics(options: argparse.Namespace) -> int:
     from roslings.ros2.eye import Eye
     from roslings.ros2.interfaces import full_name
 
-    wanted = full_name(options.topic_type, "msg")
-    with Eye() as eye:
+    wanted = full_type(options.topic_type, full_name(options.topic_type, "msg"))
+    with Eye.asked_by(options) as eye:
         topics = eye.settle().topics(hidden=options.include_hidden_topics)
     names = [name for name, types in topics.items() if wanted in types]
     print("\n".join(names) if not options.count else len(names), end="\n" if names else "")

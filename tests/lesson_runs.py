@@ -1,18 +1,23 @@
-"""Run lessons in kernels of their own: by nbval as the course's rules say, or cell by cell."""
+"""Run lessons in kernels of their own, cell by cell; each lesson once for all tests of a run."""
 
 from __future__ import annotations
 
 import os
 import shutil
-import subprocess
 import sys
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import nbformat
+from jupyter_cache import get_cache
+from jupyter_cache.base import CacheBundleIn
 from nbclient import NotebookClient
+from once import once
+from pydantic import BaseModel
 
 from roslings.arena.lease import leased_domain
 from roslings.course import root
@@ -21,6 +26,7 @@ from roslings.lessons.document import read
 from roslings.lessons.path import Day
 from roslings.lessons.path import Path as DayPath
 from roslings.lessons.rules import Lesson, read_lesson
+from roslings.notebook.quiz import ON_THE_SITE
 
 CELL_S = 60
 IN_LESSONS = (87, 88)
@@ -77,21 +83,6 @@ def write_kernel_into(share: Path) -> None:
     note.write_text(json.dumps({"argv": words, "display_name": KERNEL, "language": "python"}))
 
 
-def run_by_nbval(lesson: Path, folder: Path, course: Path) -> subprocess.CompletedProcess[str]:
-    """Run a copy of a lesson as the suite does: lax, with a bound for each cell."""
-    copy = folder / "lesson"
-    shutil.copytree(lesson.parent, copy)
-    command = [
-        sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "-p", "no:xdist", "-c",
-        os.devnull, f"--rootdir={copy}", "--nbval-lax", f"--nbval-cell-timeout={CELL_S}",
-        "--tb=short", "-q", lesson.name,
-    ]  # fmt: skip
-    return subprocess.run(
-        command, cwd=copy, env=surroundings(folder, course), capture_output=True, text=True,
-        check=False,
-    )  # fmt: skip
-
-
 @dataclass(frozen=True)
 class Step:
     """A cell to run, and what is expected of it."""
@@ -100,6 +91,8 @@ class Step:
     code: str
     wanted: str
     """`ends`, `raises`, or `assert`."""
+    is_edited: bool = False
+    """A change cell after the right edit."""
 
 
 def steps_of(lesson: Lesson) -> list[Step]:
@@ -108,27 +101,99 @@ def steps_of(lesson: Lesson) -> list[Step]:
     for cell in (cell for cell in lesson.cells if cell.is_code):
         if "change" in cell.tags:
             found.append(Step(cell.id, cell.text, "assert"))
-            found.append(Step(f"{cell.id}, edited", cell.answered(), "ends"))
+            found.append(Step(f"{cell.id}, edited", cell.answered(), "ends", is_edited=True))
         else:
             raises = "raises-exception" in cell.tags
             found.append(Step(cell.id, cell.text, "raises" if raises else "ends"))
     return found
 
 
-def run_steps(steps: Sequence[Step], folder: Path, course: Path, cwd: Path) -> list[str]:
-    """Run the steps in one kernel; what went otherwise than expected, a line each."""
-    book = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(step.code) for step in steps])
-    variables = surroundings(folder, course)
+@contextmanager
+def running(book: Any, folder: Path, course: Path, cwd: Path) -> Iterator[NotebookClient]:
+    """A kernel of its own for the cells of a notebook, which are told that they are on the site."""
+    variables = {**surroundings(folder, course), ON_THE_SITE: "1"}
     before = dict(os.environ)
     os.environ.update(variables)  # Jupyter itself looks for kernels by them
     try:
         client = NotebookClient(book, timeout=CELL_S, kernel_name=KERNEL, allow_errors=True)
-        client.execute(cwd=str(cwd), env=variables)
+        with client.setup_kernel(env=variables, cwd=str(cwd)):
+            yield client
     finally:
         os.environ.clear()
         os.environ.update(before)
-    pairs = zip(steps, book.cells, strict=True)
-    return [f"{step.cell}: {wrong}" for step, cell in pairs if (wrong := _wrong(step, cell))]
+
+
+def run_steps(client: NotebookClient, steps: Sequence[Step]) -> list[str]:
+    """Run the steps, one after the other; what went otherwise than expected, a line each."""
+    wrong = []
+    for step in steps:
+        cell = nbformat.v4.new_code_cell(step.code)
+        client.nb.cells.append(cell)
+        client.execute_cell(cell, len(client.nb.cells) - 1)
+        if told := _wrong(step, cell):
+            wrong.append(f"{step.cell}: {told}")
+    return wrong
+
+
+class Walk(BaseModel):
+    """One execution of a lesson: down as it is, for the site too; then up, with its changes made.
+
+    The cells of the way down know that they are on the site; those of the way up are a student's.
+    """
+
+    executed: str
+    """The notebook after the way down, as JSON."""
+    down: list[str]
+    """What went otherwise than the lesson announces, a line each."""
+    up: list[str]
+
+
+LEAVE_THE_SITE = Step("(leaves the site)", f"import os\nos.environ.pop({ON_THE_SITE!r})", "ends")
+
+
+def walk(lesson: Lesson, folder: Path, course: Path) -> Walk:
+    """Execute a lesson in one kernel, beside a copy of its pictures and pages."""
+    copy = folder / "lesson"
+    shutil.copytree(lesson.path.parent, copy)
+    book = nbformat.read(lesson.path, as_version=4)
+    as_is = [step for step in steps_of(lesson) if not step.is_edited]
+    again = [step for step in steps_of(lesson)[::-1] if step.wanted != "assert"]
+    with running(book, folder, course, copy) as client:
+        down = list(_execute(client, as_is))
+        executed = nbformat.writes(book)
+        up = run_steps(client, [LEAVE_THE_SITE, *again])
+    return Walk(executed=executed, down=down, up=up)
+
+
+def _execute(client: NotebookClient, steps: Sequence[Step]) -> Iterator[str]:
+    """Run the notebook's own code cells; `steps` say what is expected of each."""
+    places = [place for place, cell in enumerate(client.nb.cells) if cell.cell_type == "code"]
+    for place, step in zip(places, steps, strict=True):
+        cell = client.nb.cells[place]
+        client.execute_cell(cell, place)
+        if told := _wrong(step, cell):
+            yield f"{step.cell}: {told}"
+
+
+def walked(shared: Path, lesson: Lesson) -> Walk:
+    """The one execution of a lesson that all tests of a run share."""
+
+    def make() -> str:
+        with TemporaryDirectory() as folder:
+            return walk(lesson, Path(folder), root()).model_dump_json()
+
+    return Walk.model_validate_json(once(shared / f"{lesson.day.id}.json", make))
+
+
+def kept_for_the_site(walk: Walk, cache: Path) -> None:
+    """Let the site find the executed notebook, as if its builder had executed it.
+
+    The builder asks for it under the name of the kernel that it would take itself.
+    """
+    book = nbformat.reads(walk.executed, as_version=4)
+    book.metadata.kernelspec.name = "python3"
+    bundle = CacheBundleIn(book, uri="lesson.ipynb", data={"execution_seconds": 0.0})
+    get_cache(cache).cache_notebook_bundle(bundle)
 
 
 def _wrong(step: Step, cell: Any) -> str:

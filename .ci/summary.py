@@ -1,0 +1,125 @@
+"""What `.ci/run` says at its end: time of each stage, the slowest tests, and what was graded.
+
+    python .ci/summary.py STAGES COSTS
+
+STAGES has a line `SECONDS CPU_SECONDS STATUS NAME` for each stage, COSTS a line of JSON for each
+test (`tests/costs.py`). Ends with 1 where a stage failed, or where a mutant or a rogue that lies in
+this clone was not graded.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(ROOT / "tests/rogues"), str(ROOT / "src")]
+SLOWEST = 20
+MUTANT = re.compile(r"test_verdicts\.py::test_a_mutant_fails_where_it_says\[(.+)\]$")
+ROGUE = re.compile(r"test_rogues\.py::test_a_(?:wild_)?rogue_is_contained\[(.+)\]$")
+USERS = ("ordinary", "root")
+
+
+@dataclass(frozen=True)
+class Test:
+    """One line of COSTS."""
+
+    test: str
+    outcome: str
+    wall_s: float
+    cpu_s: float
+
+
+@dataclass(frozen=True)
+class Count:
+    """Things of one kind: what lies in this clone, and the outcome of each that was looked at."""
+
+    kind: str
+    there: frozenset[str]
+    outcomes: dict[str, str]
+
+    @property
+    def missing(self) -> list[str]:
+        """Those that nothing looked at."""
+        return sorted(self.there - set(self.outcomes))
+
+    def lines(self) -> Iterator[str]:
+        """How many were graded, and what became of the others."""
+        passed, wrong, skipped = (
+            sum(found == word for found in self.outcomes.values())
+            for word in ("passed", "failed", "skipped")
+        )
+        yield f"{self.kind}: {passed + wrong} of {len(self.there)} graded, {wrong} wrong"
+        if skipped:
+            yield f"  {skipped} skipped: this machine cannot hold them, and the tests say why."
+        if self.missing:
+            yield f"  MISSING {len(self.missing)}: {', '.join(self.missing)}"
+
+
+def mutants() -> frozenset[str]:
+    """LAB-MUTANT of each file."""
+    files = (ROOT / "labs").glob("*/mutants/*.yaml")
+    return frozenset(f"{file.parents[1].name}-{file.stem}" for file in files)
+
+
+def rogues(user: str) -> frozenset[str]:
+    """Each place of each file, and each parcel; as root those for which that makes a difference."""
+    from parcels import PARCELS
+    from rogue import attempts
+
+    if user == "root":
+        return frozenset(each.name for each in attempts() if each.rogue.as_root)
+    return frozenset(each.name for each in (*attempts(), *PARCELS))
+
+
+def outcomes(tests: list[Test], name: re.Pattern[str]) -> dict[str, str]:
+    """What the name in brackets is, to the outcome of its test."""
+    return {found[1]: each.outcome for each in tests if (found := name.search(each.test))}
+
+
+def counts(tests: list[Test]) -> Iterator[Count]:
+    """Of mutants, and of rogues by user."""
+    yield Count("Mutants", mutants(), outcomes(tests, MUTANT))
+    of_users = outcomes(tests, ROGUE)
+    for user in USERS:
+        own = {
+            rogue: of_users[name]
+            for rogue in rogues(user)
+            if (name := f"{user}-{rogue}") in of_users
+        }
+        yield Count(f"Rogues as {user}", rogues(user), own)
+
+
+def stages(file: Path) -> list[tuple[float, float, int, str]]:
+    """Seconds, CPU seconds, status and name."""
+    rows = (line.split(maxsplit=3) for line in file.read_text("utf-8").splitlines())
+    return [(float(wall), float(cpu), int(status), name) for wall, cpu, status, name in rows]
+
+
+def main(stages_file: Path, costs_file: Path) -> int:
+    """Print all of it; whether all is well."""
+    lines = costs_file.read_text("utf-8").splitlines() if costs_file.exists() else []
+    tests = [Test(**json.loads(line)) for line in lines]
+    print(f"== The {SLOWEST} slowest tests ==\n   wall s   CPU s")
+    for each in sorted(tests, key=lambda each: -each.wall_s)[:SLOWEST]:
+        print(f"{each.wall_s:9.1f} {each.cpu_s:7.1f}  {each.test}")
+    print("== The stages ==\n   wall s   CPU s")
+    run = stages(stages_file)
+    for wall_s, cpu_s, status, name in run:
+        print(f"{wall_s:9.0f} {cpu_s:7.0f}  {name}{'' if status == 0 else '  FAILED'}")
+    print(f"{sum(r[0] for r in run):9.0f} {sum(r[1] for r in run):7.0f}  all")
+    print("== What was graded ==")
+    found = list(counts(tests))
+    for count in found:
+        print("\n".join(count.lines()))
+    failed = any(status for _, _, status, _ in run) or any(count.missing for count in found)
+    print("FAILED" if failed else "All is well.")
+    return int(failed)
+
+
+if __name__ == "__main__":
+    sys.exit(main(Path(sys.argv[1]), Path(sys.argv[2])))

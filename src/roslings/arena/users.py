@@ -1,0 +1,276 @@
+"""An unprivileged user of its own for each grading: the wall where root may make no namespaces.
+
+The user has no name, no home and no group. It can read what everybody can, and write only into the
+folders that it is given. All its processes are ended, and all its files removed, before its number
+is leased again. Its network is the machine's: that this wall does not stop.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import pwd
+import shutil
+import stat
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+from typing import IO
+
+from roslings.arena import cgroup
+from roslings.arena.bounds import Bounds
+from roslings.arena.environment import HERE, base_environment
+
+USERS = range(64200, 64456)
+"""Below 65536, for containers have no more; and of nobody: 60000 to 64999 are given on demand
+(Debian Policy 9.2.2)."""
+LEASES = Path("/run/roslings-users")
+PREFIX = "roslings-user-"
+OPEN_TO_ALL = ("/tmp", "/var/tmp", "/dev/shm", "/dev/mqueue", "/run/lock")
+"""Where every user may leave files."""
+TRIED_WITHIN_S = 60
+GONE_WITHIN_S = 10.0
+BARE = (sys.executable, "-I", "-S")
+END_ALL = "import os; os.kill(-1, 9)"
+KEYS = {"shm": "-m", "msg": "-q", "sem": "-s"}
+"""System V's shared memory, queues and semaphores: proc(5), and what ipcrm(1) calls them."""
+
+
+@dataclass(frozen=True)
+class Lack:
+    """Why strangers' code cannot be held here, and what to do."""
+
+    reason: str
+    next_step: str
+
+
+class NoFreeUser(Exception):
+    """Every user of the range is taken."""
+
+    def __init__(self) -> None:
+        super().__init__("Too many gradings run on this machine at once. Wait for one to end.")
+
+
+@dataclass(frozen=True)
+class User:
+    """Who runs a stranger's code in one grading, where it may write, and what it may take."""
+
+    uid: int
+    folder: Path
+    """Root's own; in it lie the user's folders."""
+    trees: tuple[cgroup.Tree, ...] = ()
+    bounds: Bounds = field(default_factory=Bounds)
+
+    @property
+    def watch(self) -> dict[str, int]:
+        """What the guardian watches; files it cannot count, for the disk is everybody's."""
+        return {"memory": self.bounds.memory_bytes, "pids": self.bounds.tasks}
+
+    @property
+    def limits(self) -> dict[str, int]:
+        """The kernel counts the processes of a user who is not root, and this one has no others."""
+        return {**self.bounds.limits(), "RLIMIT_NPROC": self.bounds.tasks}
+
+    @contextmanager
+    def around(self, inner: Sequence[str]) -> Iterator[tuple[list[str], cgroup.Group]]:
+        """The command that runs `inner`, and the group that counts what it takes."""
+        with cgroup.group(self.trees, self.bounds) as group:
+            yield group.command(inner), group
+
+    def own(self, folder: Path) -> None:
+        """Give a folder, and all that we put into it, to the user."""
+        for at, folders, files in os.walk(folder):
+            for name in (at, *(str(Path(at, each)) for each in (*folders, *files))):
+                os.chown(name, self.uid, self.uid, follow_symlinks=False)
+        folder.chmod(0o700)
+
+    def show(self, folder: Path) -> None:
+        """Let the user enter a folder of ours, whose devices its group may use."""
+        os.chown(folder, -1, self.uid)
+        folder.chmod(0o710)
+
+
+@contextmanager
+def leased_user() -> Iterator[User]:
+    """A user whom nobody else is, until the block ends. Raises NoFreeUser, OSError."""
+    with _lease() as uid:
+        _leave_nothing(uid)
+        folder = Path(tempfile.mkdtemp(prefix=f"{PREFIX}{uid}-"))
+        try:
+            folder.chmod(0o711)
+            yield User(uid, folder, cgroup.trees())
+        finally:
+            _leave_nothing(uid)
+
+
+@contextmanager
+def _lease() -> Iterator[int]:
+    """The lock is the kernel's: it ends with those who hold it, however they end."""
+    LEASES.mkdir(mode=0o700, exist_ok=True)
+    for uid in USERS:
+        if _is_somebody(uid):
+            continue
+        with (LEASES / str(uid)).open("w") as lock:
+            if _taken(lock) and _ended(uid):  # a grading that was killed could not end it
+                yield uid
+                return
+    raise NoFreeUser
+
+
+def _taken(lock: IO[str]) -> bool:
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    return True
+
+
+def _is_somebody(uid: int) -> bool:
+    try:
+        pwd.getpwuid(uid)
+    except KeyError:
+        return False
+    return True
+
+
+# --- nothing stays -----------------------------------------------------------------------------
+
+
+def _leave_nothing(uid: int) -> None:
+    """End all that the user runs, and remove all that it left where everybody may."""
+    _ended(uid)
+    for place in OPEN_TO_ALL:
+        with suppress(OSError):
+            for entry in os.scandir(place):
+                if entry.stat(follow_symlinks=False).st_uid == uid:
+                    _remove(Path(entry.path))
+    for folder in Path(tempfile.gettempdir()).glob(f"{PREFIX}{uid}-*"):
+        _remove(folder)
+    for kind, option in KEYS.items():
+        for number in _keys_of(kind, uid):
+            subprocess.run(["ipcrm", option, number], check=False, capture_output=True)
+
+
+def _ended(uid: int) -> bool:
+    """End all that the user runs; whether nothing of it is left."""
+    until_s = time.monotonic() + GONE_WITHIN_S
+    while _runs(uid) and time.monotonic() < until_s:
+        _run_as(uid, [*BARE, "-c", END_ALL])
+    return not _runs(uid)
+
+
+def _remove(path: Path) -> None:
+    if path.is_dir() and not path.is_symlink():
+        shutil.rmtree(path, ignore_errors=True)
+    else:
+        path.unlink(missing_ok=True)
+
+
+def _runs(uid: int) -> bool:
+    """Whether a process of the user's is there, one that only waits to be collected excepted."""
+    for name in filter(str.isdigit, os.listdir("/proc")):  # noqa: PTH208
+        with suppress(OSError):
+            words = Path("/proc", name, "status").read_text("utf-8", "replace")
+            values = dict(line.split(":\t", 1) for line in words.splitlines() if ":\t" in line)
+            if str(uid) in values["Uid"].split() and not values["State"].startswith("Z"):
+                return True
+    return False
+
+
+def _keys_of(kind: str, uid: int) -> list[str]:
+    """Numbers of what the user owns of one kind: sysvipc(7), proc_sysvipc(5)."""
+    try:
+        lines = Path("/proc/sysvipc", kind).read_text("ascii").splitlines()
+    except OSError:
+        return []
+    head, *rows = ([*map(str.strip, line.split())] for line in lines)
+    tables = (dict(zip(head, row, strict=False)) for row in rows)
+    return [table[f"{kind}id"] for table in tables if str(uid) in (table["uid"], table["cuid"])]
+
+
+# --- can it be had? ----------------------------------------------------------------------------
+
+
+def _run_as(uid: int, command: Sequence[str]) -> subprocess.CompletedProcess[str]:
+    """Raises OSError, subprocess.SubprocessError."""
+    return subprocess.run(
+        command, user=uid, group=uid, extra_groups=(), cwd="/", check=False, capture_output=True,
+        text=True, env=base_environment(Path("/nonexistent")), timeout=TRIED_WITHIN_S,
+    )  # fmt: skip
+
+
+@cache
+def lack_of_users() -> Lack | None:
+    """Why strangers' code cannot be held by a user of its own here; None where it can."""
+    if sys.platform != "linux" or os.geteuid() != 0:
+        return Lack("only root can make one", "Run the command as root, in the platform's image.")
+    places = [HERE, Path(sys.prefix), Path(sys.base_prefix), _python().parent]
+    for place in dict.fromkeys(places):
+        if lack := _lack_above(place) or _lack_within(place):
+            return lack
+    return _tried()
+
+
+def _python() -> Path:
+    return Path(os.path.realpath(sys.executable))
+
+
+def _lack_above(place: Path) -> Lack | None:
+    """On the way there: closed to others, or others may put something else in its place."""
+    for folder in (place, *place.parents):
+        mode = folder.stat().st_mode
+        if not mode & stat.S_IXOTH:
+            return _closed(folder)
+        if mode & stat.S_IWOTH and not mode & stat.S_ISVTX:
+            return _writable(folder)
+    return None
+
+
+def _lack_within(place: Path) -> Lack | None:
+    """Python's own files, ROS's and ours."""
+    if place == Path("/usr"):  # the system's own: its distribution sees to that
+        return None
+    for at, folders, files in os.walk(place):
+        for name in (*folders, *files):
+            path = os.path.join(at, name)  # noqa: PTH118
+            mode = os.lstat(path).st_mode
+            if stat.S_ISLNK(mode):
+                continue
+            if mode & stat.S_IWOTH:
+                return _writable(Path(path))
+            if not mode & stat.S_IROTH:
+                return _closed(Path(path))
+    return None
+
+
+def _closed(path: Path) -> Lack:
+    return Lack(
+        f"another user cannot read {path}, and Python or ROS lies there",
+        "Put roslings and its Python where every user can read them, for example below /opt,\n"
+        f"or open it: chmod o+rX {path}",
+    )
+
+
+def _writable(path: Path) -> Lack:
+    return Lack(f"everybody can write {path}, and Python runs from there", f"chmod o-w {path}")
+
+
+def _tried() -> Lack | None:
+    """Prove that the kernel lets root be somebody else, and that Python starts for that user."""
+    try:
+        tried = _run_as(USERS[-1], [sys.executable, "-c", "pass"])
+    except (OSError, subprocess.SubprocessError, ValueError) as error:
+        return Lack(f"root cannot be another user here ({error})", NOT_HERE)
+    if tried.returncode == 0:
+        return None
+    words = tried.stderr.strip().splitlines() or ["Python does not start for another user"]
+    return Lack(words[-1], NOT_HERE)
+
+
+NOT_HERE = "Grade on a machine, or in a container, with the usual rights of root."

@@ -1,0 +1,44 @@
+"""Time as the student's processes had it: without what they waited for a processor."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+
+from roslings.arena import LONGEST_WAIT_S, Arena, Process
+from roslings.experiment.on_the_wall import longest_wait_s
+
+PATIENCE_S = LONGEST_WAIT_S
+"""Who waits longer than this for a processor is not waited for, and not judged."""
+
+
+class OwnTime:
+    """Time since a moment, of all processes of an arena."""
+
+    def __init__(self, arena: Arena) -> None:
+        """From now on."""
+        self._arena = arena
+        self._began_s = time.monotonic()
+        self._before = {process: process.waits_ns() for process in arena.processes}
+
+    def is_past(self, limit_s: float) -> bool:
+        """So much of it has passed. The kernel is asked where it matters."""
+        beyond_s = time.monotonic() - self._began_s - limit_s
+        return beyond_s > 0 and beyond_s > min(self.waited_s(), PATIENCE_S)
+
+    def waited_s(self) -> float:
+        """The longest time that one of their threads was ready, and no processor was free."""
+        return waited_s(self._arena.processes, self._before)
+
+
+def waited_s(processes: Sequence[Process], before: dict[Process, dict[str, int]]) -> float:
+    """The longest that one thread of these waited for a processor, since `before`.
+
+    What has ended meanwhile counts as it was when it ended, where that is known.
+    """
+    return max((_waited_s(each, before.get(each, {})) for each in processes), default=0.0)
+
+
+def _waited_s(process: Process, before_ns: dict[str, int]) -> float:
+    now_ns = process.waits_ns() if process.alive else process.last_waits_ns
+    return longest_wait_s(before_ns, now_ns) if now_ns else 0.0

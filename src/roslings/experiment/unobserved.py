@@ -1,0 +1,99 @@
+"""An experiment without a probe: nothing of ours joins the domain, so nobody can behave for it.
+
+What the nodes did there is read from what the student's own listener writes, and from the packets
+between the two, where the kernel shows them. It is made only where the result is for others: a
+student's own check needs no such proof.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+
+from roslings.arena import LONGEST_WAIT_S, Arena, Process
+from roslings.course import NodeContract, RateContract, TopicContract
+from roslings.evidence import ExperimentSeen, LogLine
+from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S, LONGEST_PERIODS
+from roslings.experiment.packets import Tap
+from roslings.experiment.start import PLAIN
+
+FEWEST_LINES, MOST_LINES = 5, 10
+"""With so few nothing is known of their pace; after so many that are too slow it is."""
+NEARLY = 0.75
+"""The part of the slowest right rate that is enough: lines come less evenly than messages."""
+INTERRUPT_SLACK_S = 1.0
+
+
+class Unobserved:
+    """Nodes that run among themselves."""
+
+    def __init__(
+        self, arena: Arena, seen: ExperimentSeen, ends_within_s: float, tap: Tap | None = None
+    ) -> None:
+        self.seen = seen
+        self._arena, self._tap = arena, tap
+        self._ends_within_s = ends_within_s
+
+    @contextmanager
+    def run(self, node: NodeContract, remaps: Sequence[str] = ()) -> Iterator[Process]:
+        """Start a node; press Ctrl-C when the block ends."""
+        with self._arena.run(node.executable, PLAIN.arguments(remaps)) as process:
+            self.seen.processes[node.executable] = process.seen
+            yield process
+            process.interrupt(self._ends_within_s + INTERRUPT_SLACK_S)
+
+    def read_along(self, process: Process, node: NodeContract, contract: TopicContract) -> None:
+        """Wait until the listener `node` has written as often as the card's rate, or could have."""
+        rate = contract.rate
+        assert rate, f"the card gives {contract.topic} no rate"
+
+        def told_ns() -> list[list[int]]:
+            sent = [self._tap.sent_ns(contract.topic)] if self._tap else []
+            return [written_ns(process.lines(), node), *sent]
+
+        def enough(told: list[list[int]]) -> bool:
+            return all(is_often(hz_of(each_ns), rate) for each_ns in told)
+
+        def settled() -> bool:
+            return enough(told_ns())
+
+        def known() -> bool:
+            told = told_ns()
+            return enough(told) or any(len(each_ns) >= MOST_LINES for each_ns in told)
+
+        within_s = FIRST_MESSAGE_WITHIN_S + LONGEST_PERIODS / rate.hz
+        process.wait_until(known, within_s)
+        waited_s = min(self._arena.waited_s(), LONGEST_WAIT_S)
+        if not settled() and waited_s * rate.hz > 1 and not process.wait_until(settled, waited_s):
+            self.seen.machine_fault = (
+                f"your nodes were ready to run and waited {waited_s:.1f} s for a free processor"
+            )
+        if self._tap:
+            self.seen.sent_ns[contract.topic] = self._tap.sent_ns(contract.topic)
+            if (lost := self._tap.lost()) and not settled():
+                self.seen.machine_fault = f"{lost} packets of your nodes could not be read in time"
+
+
+def is_often(hz: float | None, rate: RateContract) -> bool:
+    """Whether it is nearly as often as the card asks."""
+    return hz is not None and hz >= NEARLY * rate.low_hz
+
+
+def hz_of(at_ns: Sequence[int]) -> float | None:
+    """How often it was; None where it was too seldom to tell."""
+    if len(at_ns) < FEWEST_LINES or at_ns[-1] == at_ns[0]:
+        return None
+    return (len(at_ns) - 1) * 1e9 / (at_ns[-1] - at_ns[0])
+
+
+def written_hz(lines: Sequence[LogLine], node: NodeContract) -> float | None:
+    """How often a node writes its line of the card; None where it wrote too few."""
+    return hz_of(written_ns(lines, node))
+
+
+def written_ns(lines: Sequence[LogLine], node: NodeContract) -> list[int]:
+    """When a node wrote its line of the card, each time."""
+    before, _, after = (node.log or "").partition("{text}")
+    pattern = re.compile(re.escape(before) + ".*" + re.escape(after))
+    return [line.arrival_ns for line in lines if pattern.search(line.text)]

@@ -1,0 +1,150 @@
+"""What found no room in the evidence, and which checks look for it there.
+
+A check that looks at something of which a part was dropped does not pass: that would rest on what
+nobody saw. It fails where the fault was found in what was kept, else it is inconclusive.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from copy import copy
+from dataclasses import dataclass, field
+from types import new_class
+from typing import Any, TypeVar
+
+from roslings.evidence import Evidence, ExperimentSeen, Kind, ProcessSeen, TopicSeen
+from roslings.judge.faults import Fault, Inconclusive, NothingToJudge
+
+R = TypeVar("R")
+WHERE: dict[Kind, tuple[str, ...]] = {
+    "rosout": ("rosout",),
+    "graph": ("graph",),
+    "requests": ("served", "orders", "drive", "board"),
+}
+"""A kind to the fields of an experiment that hold it; messages and topics are looked at one by one.
+"""
+JUDGED = (type(None), Fault, AssertionError, NothingToJudge)
+NAMES: dict[Kind, str] = {
+    "rosout": "lines in /rosout",
+    "graph": "names and endpoints in the graph",
+    "requests": "requests to the grader",
+}
+
+
+@dataclass(frozen=True)
+class Missing:
+    """Something of which a part was dropped."""
+
+    what: str
+    """In words, with how much."""
+    are_lines: bool = False
+    """Of what a node writes, a check asks whether something is there: found is found."""
+
+
+@dataclass
+class Looks:
+    """What the check that runs now has looked at, as far as it is not whole."""
+
+    missing: dict[Missing, None] = field(default_factory=dict)
+
+    def begin(self) -> None:
+        """The next check begins."""
+        self.missing.clear()
+
+    def outcome(self, error: BaseException | None) -> BaseException | None:
+        """What came of the check, once it is known what was missing."""
+        rests_on = [m for m in self.missing if error is not None or not m.are_lines]
+        stands = isinstance(error, Fault) and error.was_seen
+        if not rests_on or stands or not isinstance(error, JUDGED):
+            return error
+        what = " and ".join(missing.what for missing in rests_on)
+        return Inconclusive(
+            f"too much to keep: {what} had no room in the evidence, so this cannot be told;"
+            " let your package send and write less, then check again"
+        )
+
+
+def watched(evidence: Evidence, looks: Looks) -> Evidence:
+    """The same evidence; what is not whole in it tells `looks` when it is looked at."""
+    experiments = {
+        name: watched_experiment(seen, looks) for name, seen in evidence.experiments.items()
+    }
+    return evidence.model_copy(update={"experiments": experiments})
+
+
+def watched_experiment(seen: ExperimentSeen, looks: Looks) -> ExperimentSeen:
+    """The same of one experiment alone."""
+    dropped = {each.kind: each.count for each in seen.dropped}
+    missing = {
+        name: Missing(f"{dropped[kind]} {NAMES[kind]} of {seen.name!r}", kind == "rosout")
+        for kind, names in WHERE.items() if kind in dropped
+        for name in names
+    }  # fmt: skip
+    parts = {
+        "topics": Topics(
+            {name: _watched_topic(each, looks) for name, each in seen.topics.items()},
+            _unheard(dropped.get("topics", 0), seen.name), looks,
+        ),
+        "processes": {name: _watched_process(each, looks) for name, each in seen.processes.items()},
+    }  # fmt: skip
+    return _telling(seen.model_copy(update=parts), missing, looks)
+
+
+class Topics(dict[str, TopicSeen]):
+    """What was heard, topic by topic; a topic that is not in it may be one of the unheard ones."""
+
+    def __init__(
+        self, topics: Mapping[str, TopicSeen], unheard: Missing | None, looks: Looks
+    ) -> None:
+        super().__init__(topics)
+        self._unheard, self._looks = unheard, looks
+
+    def get(self, name: str, default: Any = None) -> Any:
+        """As `dict.get`."""
+        return super().get(name, default) if name in self else default
+
+    def __contains__(self, name: object) -> bool:
+        there = super().__contains__(name)
+        if not there and self._unheard:
+            self._looks.missing[self._unheard] = None
+        return there
+
+
+def _unheard(count: int, experiment: str) -> Missing | None:
+    return Missing(f"{count} topics of {experiment!r}") if count else None
+
+
+def _watched_topic(seen: TopicSeen, looks: Looks) -> TopicSeen:
+    missing = {}
+    if seen.not_kept or seen.cut_short:
+        count = f"{seen.not_kept} messages" if seen.not_kept else "some messages"
+        missing["messages"] = Missing(f"{count} on {seen.name}")
+    if seen.not_read:
+        content = {"content": Missing(f"what {seen.not_read} messages on {seen.name} hold")}
+        messages = [_telling(m, content, looks) if m.content is None else m for m in seen.messages]
+        seen = seen.model_copy(update={"messages": messages})
+    return _telling(seen, missing, looks)
+
+
+def _watched_process(seen: ProcessSeen, looks: Looks) -> ProcessSeen:
+    if not seen.output_dropped_bytes:
+        return seen
+    what = f"{seen.output_dropped_bytes} bytes that {seen.executable} wrote"
+    return _telling(seen, {"lines": Missing(what, are_lines=True)}, looks)
+
+
+def _telling(record: R, missing: Mapping[str, Missing], looks: Looks) -> R:
+    """The record; who reads one of these fields of it is told of."""
+    if not missing:
+        return record
+    kind: Any = type(record)
+
+    def look(self: Any, name: str) -> Any:
+        if name in missing:
+            looks.missing[missing[name]] = None
+        return kind.__getattribute__(self, name)
+
+    told = copy(record)
+    body = {"__getattribute__": look, "__slots__": (), "__module__": __name__}
+    told.__class__ = new_class(kind.__name__, (kind,), exec_body=lambda names: names.update(body))
+    return told

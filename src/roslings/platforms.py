@@ -1,0 +1,68 @@
+"""Results for platforms that grade others' work: every grading leaves one, a refused one too."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from roslings.cli import SHAPES
+from roslings.verdict import Verdict
+from roslings.workspace.trouble import MachineTrouble, WorkspaceError, without_places
+
+if TYPE_CHECKING:
+    from roslings.report import Refusal
+
+NOT_HERE = "It could not be graded on this machine."
+TELL = "Why, stands in the output of the autograder, which your instructor can read."
+
+
+def shapes_asked(options: argparse.Namespace) -> dict[str, Path]:
+    """The platforms' files that the command line asks for, by the option's name."""
+    asked = ((name, getattr(options, name, None)) for name in SHAPES)
+    return {name: path for name, path in asked if path}
+
+
+def for_others(options: argparse.Namespace) -> bool:
+    """Whether the result is for a platform that grades others' work: CI's own file counts there."""
+    asked = shapes_asked(options).keys()
+    in_ci = os.environ.get("CI", "").lower() in ("true", "1")
+    return bool(asked - {"junit"}) or (in_ci and bool(asked))
+
+
+def write_shapes(told: Verdict | Refusal, options: argparse.Namespace) -> None:
+    """Write the verdict, or why there is none, for each platform. Raises CannotWrite."""
+    from roslings.report import write_check50, write_gradescope, write_junit
+
+    writers = {"junit": write_junit, "gradescope": write_gradescope, "check50": write_check50}
+    for name, path in shapes_asked(options).items():
+        writers[name](told, path)
+
+
+@contextmanager
+def refusal_written(
+    lab: str, options: argparse.Namespace, places: Iterable[Path]
+) -> Iterator[None]:
+    """A block whose end without a verdict is told in the platforms' files as well.
+
+    The paths of `places` are not named there. Raises what the block raises.
+    """
+    try:
+        yield
+    except Exception as error:
+        write_shapes(refusal_of(lab, error, places), options)
+        raise
+
+
+def refusal_of(lab: str, error: Exception, places: Iterable[Path]) -> Refusal:
+    """What the student reads of an error: what is the machine's trouble is told the instructor."""
+    from roslings.report import Refusal
+
+    if not isinstance(error, WorkspaceError) or isinstance(error, MachineTrouble):
+        return Refusal(lab, NOT_HERE, TELL, is_students=False)
+    known = [*places]
+    reason, step = (without_places(text, known) for text in (error.problem, error.next_step))
+    return Refusal(lab, reason, step, is_students=True)

@@ -1,0 +1,90 @@
+"""The file `.roslings/progress.json`, read and written with the standard library alone.
+
+`./roslings` and `./roslings status` read it at each use: to load pydantic for these few numbers
+would take longer than the rest of the command.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass, field
+from datetime import datetime
+from typing import Any
+
+SCHEMA = 1
+FULL_SCORE = 100.0
+
+
+class Damaged(Exception):
+    """The content is no progress of this schema."""
+
+
+@dataclass(frozen=True)
+class LabProgress:
+    """How far one lab is."""
+
+    best: float = 0.0
+    """0 to 100, as `last` is."""
+    last: float = 0.0
+    checks: int = 0
+    """Gradings that gave a score."""
+    best_at: datetime | None = None
+    last_at: datetime | None = None
+    passed_at: datetime | None = None
+    """First time that all passed."""
+
+    @property
+    def done(self) -> bool:
+        """Every check has passed once."""
+        return self.passed_at is not None
+
+
+@dataclass(frozen=True)
+class Progress:
+    """The whole file: the lab's name to how far it is."""
+
+    labs: dict[str, LabProgress] = field(default_factory=dict)
+
+
+def progress_in(content: bytes) -> Progress:
+    """The progress that `content` holds; words of a newer roslings are passed over.
+
+    Raises Damaged.
+    """
+    try:
+        tree = json.loads(content)
+        if tree.get("schema", SCHEMA) != SCHEMA:
+            raise Damaged
+        return Progress({name: _lab_in(entry) for name, entry in tree.get("labs", {}).items()})
+    except (AttributeError, RecursionError, TypeError, ValueError) as error:
+        raise Damaged from error
+
+
+def as_json(progress: Progress) -> str:
+    """The content of the file."""
+    tree = {"schema": SCHEMA, **asdict(progress)}
+    return json.dumps(tree, indent=2, default=datetime.isoformat) + "\n"
+
+
+def _lab_in(entry: dict[str, Any]) -> LabProgress:
+    """Raises ValueError, TypeError or AttributeError where it is none."""
+    return LabProgress(
+        best=_between(entry.get("best", 0.0), FULL_SCORE),
+        last=_between(entry.get("last", 0.0), FULL_SCORE),
+        checks=int(_between(entry.get("checks", 0), float("inf"))),
+        best_at=_time_in(entry.get("best_at")),
+        last_at=_time_in(entry.get("last_at")),
+        passed_at=_time_in(entry.get("passed_at")),
+    )
+
+
+def _between(number: float, most: float) -> float:
+    """A number from 0 to `most`; not-a-number is none."""
+    if isinstance(number, bool) or not 0 <= number <= most:
+        raise ValueError(number)
+    return number
+
+
+def _time_in(text: str | None) -> datetime | None:
+    """Python 3.10 does not know the Z that stands for UTC."""
+    return None if text is None else datetime.fromisoformat(text.replace("Z", "+00:00"))

@@ -1,0 +1,72 @@
+"""What each test cost, and what came of it: seconds by the clock, and seconds of a processor.
+
+`--costs FILE` adds one line of JSON a test to FILE. `.ci/tell` reads it.
+"""
+
+from __future__ import annotations
+
+import json
+import resource
+from collections.abc import Generator
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+
+@dataclass
+class Cost:
+    """Of one test, its fixtures too."""
+
+    test: str
+    outcome: str = "passed"
+    wall_s: float = 0.0
+    cpu_s: float = 0.0
+    """Of the process that ran it, and of every child that it has waited for."""
+
+
+def cpu_s() -> float:
+    """Of this process so far, and of its children."""
+    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    return sum(each.ru_utime + each.ru_stime for each in used)
+
+
+class Costs:
+    """Adds up what the phases of each test cost."""
+
+    def __init__(self, file: Path) -> None:
+        self._file = file
+        self._costs: dict[str, Cost] = {}
+        self._before_s = 0.0
+
+    @pytest.hookimpl(wrapper=True)
+    def pytest_runtest_protocol(self) -> Generator[None, object, object]:
+        """In the process that runs the test."""
+        self._before_s = cpu_s()
+        return (yield)
+
+    @pytest.hookimpl(wrapper=True)
+    def pytest_runtest_makereport(self) -> Generator[None, pytest.TestReport, pytest.TestReport]:
+        """There too, after each phase."""
+        report = yield
+        now_s = cpu_s()
+        report.cpu_s = now_s - self._before_s  # type: ignore[attr-defined]
+        self._before_s = now_s
+        return report
+
+    def pytest_runtest_logreport(self, report: Any) -> None:
+        """In the process that prints. A test that is grouped has `@GROUP` behind its name."""
+        name = report.nodeid.rpartition("]@")[0] + "]" if "]@" in report.nodeid else report.nodeid
+        cost = self._costs.setdefault(name, Cost(name))
+        cost.wall_s += report.duration
+        cost.cpu_s += getattr(report, "cpu_s", 0.0)
+        if report.outcome != "passed":
+            cost.outcome = report.outcome
+
+    def pytest_sessionfinish(self, session: pytest.Session) -> None:
+        """Write all down."""
+        if not hasattr(session.config, "workerinput"):
+            with self._file.open("a", encoding="utf-8") as out:
+                for cost in self._costs.values():
+                    print(json.dumps(asdict(cost)), file=out)

@@ -1,0 +1,50 @@
+"""Which wall holds a submission: what another user could copy from must be closed first."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from roslings.arena import Isolation
+from roslings.course import Lab, lab
+from roslings.experiment import NoWall, insist_on_wall, walls
+
+SHOWN = 0o755
+CLOSED = 0o700
+
+
+@pytest.fixture
+def open_folder() -> Iterator[Path]:
+    """One that everybody can enter; pytest's own are closed."""
+    with tempfile.TemporaryDirectory() as name:
+        Path(name).chmod(SHOWN)
+        yield Path(name).resolve()
+
+
+@pytest.fixture
+def task(monkeypatch: pytest.MonkeyPatch) -> Lab:
+    """A lab behind the second wall, in a course without answers, as students have it."""
+    monkeypatch.setattr(walls, "isolation_for_strangers", lambda: Isolation("user"))
+    monkeypatch.setattr(walls, "_answers", lambda lab: iter(()))
+    return lab("topics")
+
+
+def test_others_work_that_everybody_can_read_is_no_wall(task: Lab, open_folder: Path) -> None:
+    """The refusal names it, and the command that closes it."""
+    work = open_folder / "submissions"
+    work.mkdir()
+    work.chmod(SHOWN)
+    with pytest.raises(NoWall) as told:
+        insist_on_wall(task, work)
+    assert str(work) in told.value.problem
+    assert told.value.next_step.startswith(f"Close it to others: chmod o-rwx {work}")
+    work.chmod(CLOSED)
+    assert insist_on_wall(task, work).wall == "user"
+
+
+def test_a_folder_that_is_not_there_yet_is_closed(task: Lab, tmp_path: Path) -> None:
+    """The gradebook's, before the first grading."""
+    assert insist_on_wall(task, tmp_path / "grades").wall == "user"

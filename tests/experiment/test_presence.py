@@ -1,0 +1,139 @@
+"""What a complete node does not have is waited for once; what comes late is still found."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, cast
+
+import pytest
+from watching import watched
+
+from roslings.arena import Arena
+from roslings.arena.lease import leased_domain
+from roslings.evidence import ExperimentSeen, ProcessSeen
+from roslings.experiment.presence import GRACE_S, Absences, Presence
+from roslings.probe import Probe
+
+pytest.importorskip("rclpy")
+WITHIN_S = 30.0
+LATE = Path(__file__).parent / "late"
+
+
+class Program:
+    """What an arena tells of a process: this one never waits for a processor."""
+
+    alive = True
+    seen = ProcessSeen(executable="it", started_ns=0)
+
+    def waits_ns(self) -> dict[str, int]:
+        """By thread."""
+        return {"1": 0}
+
+
+class Programs:
+    """An arena with one process."""
+
+    processes = (Program(),)
+
+    def all_alive(self) -> bool:
+        """It lives."""
+        return True
+
+
+ARENA = cast(Arena, Programs())
+
+
+@pytest.fixture
+def domain(monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
+    """A domain where nothing runs."""
+    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+    with leased_domain() as leased:
+        yield leased
+
+
+@contextmanager
+def probing(domain: int) -> Iterator[Probe]:
+    """A probe of it."""
+    seen = ExperimentSeen(name="x", clock="wall")
+    with Probe(domain, seen, record=False) as probe:
+        yield probe
+
+
+@contextmanager
+def node(domain: int, name: str = "it") -> Iterator[Any]:
+    """A node, and the function that lets it spin."""
+    import rclpy
+    from rclpy.executors import SingleThreadedExecutor
+
+    context = rclpy.Context()
+    rclpy.init(context=context, domain_id=domain, signal_handler_options=None)
+    made = rclpy.create_node(name, context=context)
+    executor, over = SingleThreadedExecutor(context=context), threading.Event()
+    executor.add_node(made)
+
+    def live() -> None:
+        while not over.is_set():
+            executor.spin_once(timeout_sec=0.05)
+
+    thread = threading.Thread(target=live)
+    try:
+        yield made, thread.start
+    finally:
+        over.set()
+        if thread.is_alive():
+            thread.join()
+        executor.shutdown()
+        made.destroy_node()
+        context.try_shutdown()
+
+
+def test_waiting_is_in_vain_only_for_a_complete_node(domain: int) -> None:
+    """One that does not spin yet may still be in its constructor."""
+    absences = Absences()
+    with probing(domain) as probe, node(domain) as (_, begin):
+        presence = Presence(probe, ARENA, absences)
+        assert probe.until(lambda: bool(probe.seen.graph.nodes), WITHIN_S)
+        assert not probe.until(lambda: presence.in_vain("a lamp"), GRACE_S * 1.5)
+        begin()
+        assert probe.until(lambda: presence.in_vain("a lamp"), WITHIN_S)
+        assert not absences.holds(["it"], "a lamp")
+        presence.note("a lamp")
+    assert absences.holds(["it"], "a lamp")
+
+
+def test_what_one_experiment_missed_no_other_waits_for(domain: int) -> None:
+    """When its node is complete; for other things it has the whole time."""
+    absences = Absences()
+    absences.add(["it"], "a lamp")
+    with probing(domain) as probe, node(domain) as (_, begin):
+        presence = Presence(probe, ARENA, absences)
+        assert probe.until(lambda: bool(probe.seen.graph.nodes), WITHIN_S)
+        assert not presence.in_vain("a lamp")
+        begin()
+        long_s = 3600.0
+        assert probe.until(lambda: presence.in_vain("a lamp", long_s), WITHIN_S)
+        assert not presence.in_vain("a bell", long_s)
+
+
+def test_a_node_that_still_grows_is_not_complete(domain: int) -> None:
+    """Its time begins again with each new thing."""
+    from std_msgs.msg import Empty
+
+    with probing(domain) as probe, node(domain) as (made, begin):
+        presence = Presence(probe, ARENA, Absences())
+        begin()
+        assert probe.until(lambda: presence.in_vain("a bell"), WITHIN_S)
+        made.create_publisher(Empty, "/lamp", 1)
+        ends = len(probe.seen.graph.endpoints)
+        assert probe.until(lambda: len(probe.seen.graph.endpoints) > ends, WITHIN_S)
+        assert not presence.in_vain("a bell")
+
+
+@pytest.mark.parametrize("script", ["slow_to_begin", "publisher_after_a_second"])
+def test_a_node_that_is_late_is_heard(script: str) -> None:
+    """Its constructor takes its time, or a timer makes what it publishes with."""
+    last = watched(LATE / f"{script}.py", clock="wall")[-1]
+    assert len(last.topics["/chatter"].messages) > 5

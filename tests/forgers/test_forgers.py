@@ -1,0 +1,100 @@
+"""The forgers' gallery: a talker of 1 Hz that earns 86 points, and tries to have more.
+
+Behind every wall: none has more, none changes the course, the results or the environment, and
+honest packages beside them have what they earn.
+
+    ./roslings test tests/forgers -m slow                            all, behind all walls
+    ./roslings test tests/forgers -m slow -k "user and rewrites"     one of them
+"""
+
+from __future__ import annotations
+
+import ast
+import functools
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from behind import HONEST, SLOW, WALLS, Graded, Wall, grade, why_not
+from forger import HONEST_SCORE, Forger, forgers
+from once import once
+
+ENTRIES = {each.name: each for each in forgers()}
+JOBS = 2
+
+
+def _marks(wall: Wall) -> list[pytest.MarkDecorator]:
+    """One worker asks for all that were graded behind one wall: no other waits for it.
+
+    The namespaces are the same ones for root; what root's rights change, the rogues show.
+    """
+    again = [pytest.mark.twice] if wall == "namespaces_as_root" else []
+    return [pytest.mark.xdist_group(f"forgers_{wall}"), *again]
+
+
+BEHIND_EACH = pytest.mark.parametrize(
+    "wall", [pytest.param(wall, marks=_marks(wall)) for wall in WALLS]
+)
+
+
+@pytest.mark.parametrize("entry", ENTRIES.values(), ids=ENTRIES.keys())
+def test_a_forger_is_a_package(entry: Forger, tmp_path: Path) -> None:
+    """Its files are Python, and it attacks somewhere: it has 86 by its talker alone."""
+    known = {"mark": "forger", "token": "forger"}
+    entry.make(tmp_path / "chatter", known)
+    for file in (tmp_path / "chatter").rglob("*.py"):
+        ast.parse(file.read_text("utf-8"))
+    if entry.file.suffix == ".yaml" and entry.name != "behaves_for_the_camera":
+        assert [*(tmp_path / "chatter/chatter").glob("attack_*.py")]
+
+
+@pytest.fixture(scope="session")
+def graded_behind(shared_folder: Path) -> Callable[[Wall], Graded]:
+    """Wall to what came of all forgers, graded in one go by the first process that asks."""
+
+    @functools.cache
+    def graded(wall: Wall) -> Graded:
+        if reason := why_not(wall):
+            pytest.skip(reason)
+        file = shared_folder / f"forgers-{wall}.json"
+        found = once(file, lambda: grade([*ENTRIES.values()], wall, JOBS).model_dump_json())
+        return Graded.model_validate_json(found)
+
+    return graded
+
+
+@pytest.mark.slow
+@BEHIND_EACH
+@pytest.mark.parametrize("name", list(ENTRIES))
+def test_nobody_forges_a_grade(
+    name: str, wall: Wall, graded_behind: Callable[[Wall], Graded]
+) -> None:
+    """None has more than it earns."""
+    insist_on(name, graded_behind(wall))
+
+
+@pytest.mark.slow
+@BEHIND_EACH
+def test_all_else_is_as_it_was(wall: Wall, graded_behind: Callable[[Wall], Graded]) -> None:
+    """Honest packages have their points, nothing is changed, and nothing still runs."""
+    insist_on_the_rest(graded_behind(wall), wall)
+
+
+def insist_on(name: str, graded: Graded) -> None:
+    """What must hold of each forger."""
+    seen = graded.seen[name]
+    assert seen.reached == []
+    assert seen.score is None or seen.score <= HONEST_SCORE
+    assert seen.word in ("fail", "inconclusive")
+
+
+def insist_on_the_rest(graded: Graded, wall: Wall) -> None:
+    """What must hold of all together."""
+    honest = {name: (graded.seen[name].score, graded.seen[name].failed) for name in HONEST}
+    assert honest == dict.fromkeys(HONEST, (100, []))
+    slow = graded.seen[SLOW]
+    assert (slow.score, slow.failed) == (HONEST_SCORE, ["rate"])
+    assert slow.wall == ("user" if wall == "user" else "namespaces")
+    assert graded.changed == []
+    assert graded.running == {}
+    assert "Traceback" not in graded.words

@@ -1,0 +1,21 @@
+"""The evidence of a real run of a lab's solution.
+
+It is measured by the command, in a process of its own: what is measured in a fork of a process that
+has used ROS before, as tests have, does not live.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+from roslings.evidence import Evidence
+
+
+def evidence_of_solution(lab: str, folder: Path) -> Evidence:
+    """All that was seen of the solution; `folder` is for what is kept of it."""
+    kept = folder / "kept"
+    words = ["check", lab, "--solution", "--seed", "1", "--evidence", str(kept)]
+    subprocess.run([sys.executable, "-m", "roslings", *words], capture_output=True, check=True)
+    return Evidence.model_validate_json((kept / "evidence.json").read_bytes())
