@@ -1,28 +1,20 @@
-"""Checks that students do not have, and builds that equal packages share."""
+"""Checks that students do not have."""
 
 from __future__ import annotations
 
-import os
-import shutil
-import threading
-from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
 
-from roslings.arena import Place, choose_isolation
 from roslings.cli import SHAPES, main
 from roslings.course import lab
 from roslings.course.files import BadCourseFile
 from roslings.evidence import BuildSeen, Evidence, MachineSeen
 from roslings.judge import judge
 from roslings.report.evidence_file import evidence_bytes
-from roslings.workspace import shared_build as building
 from roslings.workspace.inspect import inspect_package
-from roslings.workspace.shared_build import shared_build
 
 TOPICS = lab("topics")
-LONGEST_BUILD_S = 180.0
 HIDDEN = '''
 from roslings.judge import PackageView, check
 
@@ -98,48 +90,3 @@ def test_regrade_writes_the_other_shapes_too(tmp_path: Path) -> None:
     assert main([*words, *options]) == 1
     told = {name: b"has_picture" in path.read_bytes() for name, path in places.items()}
     assert told == {name: name == "gradescope" for name in SHAPES}
-
-
-def test_one_build_a_processor(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The next one waits for its turn, but not for ever: those before it may be endless."""
-    entered = threading.Event()
-
-    def enter() -> None:
-        with building._turn(tmp_path):
-            entered.set()
-
-    with ExitStack() as others:
-        for _ in os.sched_getaffinity(0):
-            others.enter_context(building._turn(tmp_path))
-        monkeypatch.setattr(building, "WAITS_FOR_ITS_TURN_S", 0.0)
-        enter()
-        assert entered.is_set()
-        entered.clear()
-        monkeypatch.setattr(building, "WAITS_FOR_ITS_TURN_S", 1e6)
-        waiting = threading.Thread(target=enter)
-        waiting.start()
-        assert not entered.wait(1.0)
-    waiting.join()
-    assert entered.is_set()
-
-
-def test_equal_packages_share_a_build(tmp_path: Path) -> None:
-    """The second is there at once, with a home of its own; another content is built anew."""
-    builds = tmp_path / "builds"
-    found = []
-    for name in ("anna", "ben", "cleo"):
-        source, home, room = (tmp_path / name / part for part in ("chatter", "home", "room"))
-        shutil.copytree(TOPICS.solution, source)
-        if name == "cleo":
-            (source / "setup.py").write_text("raise SystemExit('no')")
-        for folder in (home, room):
-            folder.mkdir()
-        place = Place("domain", home, tmp_path, choose_isolation().sandbox)
-        found.append(shared_build(builds, source, room, place, LONGEST_BUILD_S))
-    (anna, first), (ben, second), (cleo, third) = found
-    assert anna.succeeded and ben.succeeded and not cleo.succeeded
-    assert first and second and third is None
-    assert first.programs == second.programs
-    assert (ben.seconds, ben.executables) == (0.0, anna.executables)
-    assert second.environment["HOME"] == str(tmp_path / "ben" / "home")
-    assert first.environment["HOME"] == str(tmp_path / "anna" / "home")

@@ -225,7 +225,7 @@ class _ManyLabs(Wish):
     def order(self, submission: Submission, digest: str, attempt: int) -> Order:
         """The order for one try of a submission."""
         package = self.packages[submission.name]
-        own = {"lab": package.lab.name, "clock": package.clock}
+        own = {"lab": package.lab.name, "clock": package.clock, "builds_as_kin": True}
         return super().order(submission, digest, attempt).model_copy(update=own)
 
 

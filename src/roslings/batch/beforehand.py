@@ -6,6 +6,7 @@ import gc
 from functools import cache
 from pathlib import Path
 
+from roslings.batch.version import engine_version
 from roslings.experiment.beforehand import load_beforehand
 from roslings.judge.beforehand import load_judge
 
@@ -15,5 +16,6 @@ def load_all(name: str, hidden: Path | None = None) -> None:
     """Load what measuring and judging need, so that every fork has it."""
     load_beforehand(name, hidden)
     load_judge(name, hidden)
+    engine_version()
     gc.collect()
     gc.freeze()  # what is shared stays shared

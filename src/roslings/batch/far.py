@@ -19,9 +19,9 @@ import roslings
 from roslings import course
 from roslings.arena import choose_isolation
 from roslings.batch.crew import Ended, Limits, crew
-from roslings.batch.grading import version_of
 from roslings.batch.result import Order, Result, broken
 from roslings.batch.trouble import BatchError
+from roslings.batch.version import version_of
 from roslings.experiment.run_folder import LOCK, run_folder
 from roslings.workspace.sources import files
 from roslings.workspace.trouble import WorkspaceError

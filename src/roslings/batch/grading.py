@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import signal
 import time
 import zlib
@@ -11,13 +10,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import FrameType
 
-import roslings
 from roslings import course
 from roslings.arena import NoFreeDomain, NoFreeUser
 from roslings.batch.fingerprints import Fingerprint, fingerprint
 from roslings.batch.opening import package_in
 from roslings.batch.result import Order, Result, broken
 from roslings.batch.trouble import Refused
+from roslings.batch.version import version_of
 from roslings.course import Lab
 from roslings.evidence import Evidence, evidence_json
 from roslings.experiment import Choices, MeasuringFailed, measure
@@ -100,7 +99,7 @@ def _measured(order: Order, lab: Lab) -> Measured:
     files = inspect_package(package, lab.card)
     choices = Choices(
         order.seed, order.clock, hidden=order.hidden, builds=order.builds,
-        strangers=order.strangers, for_others=order.strangers,
+        builds_as_kin=order.builds_as_kin, strangers=order.strangers, for_others=order.strangers,
     )  # fmt: skip
     with judge_for(lab, order.strangers) as judge:
         evidence = measure(lab.name, package, files, choices, _silent)
@@ -138,11 +137,3 @@ def _refused(order: Order, refusal: Refused, seconds: float) -> Result:
         submission=order.submission, digest=order.digest, attempt=order.attempt, state="refused",
         reason=refusal.reason, next_step=refusal.next_step, seconds=seconds,
     )  # fmt: skip
-
-
-def version_of(lab: Lab) -> str:
-    """Changes when the card, the grader, the hidden checks or roslings itself change."""
-    content = hashlib.sha256(roslings.__version__.encode())
-    for file in (lab.folder / "card.yaml", *lab.graders):
-        content.update(file.read_bytes())
-    return content.hexdigest()[:16]

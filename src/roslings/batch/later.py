@@ -8,10 +8,11 @@ from pathlib import Path
 
 from roslings import course
 from roslings.batch.gradebook import Gradebook, gradebook, lab_of
-from roslings.batch.grading import rates_of, unpacked, version_of
+from roslings.batch.grading import rates_of, unpacked
 from roslings.batch.handout import hand_out, keep, settings_of
 from roslings.batch.result import Result
 from roslings.batch.trouble import BadGradebook, BatchError
+from roslings.batch.version import version_of
 from roslings.batch.words import summary_lines
 from roslings.course import Lab
 from roslings.judge import judge

@@ -29,6 +29,8 @@ class Order(BaseModel):
     clock: Literal["auto", "sim", "wall"] = "auto"
     hidden: Path | None = None
     builds: Path | None = None
+    builds_as_kin: bool = False
+    """One of a lab's own packages: those that differ in their modules alone share a build."""
     keeps_evidence: bool = True
     strangers: bool = False
     """Somebody else's, and not trusted: the wall for strangers' code is taken."""
@@ -64,7 +66,7 @@ class Result(BaseModel):
     next_step: str = ""
     seconds: float = 0.0
     lab_version: str = ""
-    """Of the card and the grader that judged it."""
+    """Of the engine, the card and the grader that judged it."""
     source: str = ""
     """Equal where two submissions have equal code."""
     marks: tuple[int, ...] = ()

@@ -35,6 +35,8 @@ class Assignment(BaseModel):
     """A grader's file that students do not have; its experiments are run as well."""
     builds: Path | None = None
     """Where builds are shared between packages of equal content."""
+    builds_as_kin: bool = False
+    """Whether packages that differ in their modules alone share the work, too."""
 
     def source_of(self, package: PackageSeen) -> Path:
         """Where the copy of the package lies that is built."""

@@ -46,6 +46,8 @@ class Choices:
     """A grader's file that students do not have."""
     builds: Path | None = None
     """A folder in which packages of equal content share one build."""
+    builds_as_kin: bool = False
+    """Whether those that differ in their modules alone do, too: for a lab's own packages."""
     strangers: bool = False
     """Whether somebody else's package is graded: then the wall for strangers' code is taken."""
     for_others: bool = False
@@ -102,7 +104,8 @@ def measuring_process(lab: str, choices: Choices) -> Iterator[Measuring]:
             lab=lab, seed=choices.seed, wall=walls.wall, sandbox=walls.sandbox,
             clock=choices.clock, folder=folder, keeps_bags=choices.bags is not None,
             port=choices.port, hidden=choices.hidden, user=user,
-            builds=None if user else choices.builds, for_others=choices.for_others,
+            builds=None if user else choices.builds, builds_as_kin=choices.builds_as_kin,
+            for_others=choices.for_others,
         )  # fmt: skip
         assignment.make_folders()
         with assignment.errors.open("wb") as errors:

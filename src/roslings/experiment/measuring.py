@@ -144,7 +144,8 @@ def _build(
     """Meanwhile, what the experiments need is loaded: colcon has a processor of its own."""
     source, place = assignment.source_of(package), assignment.place
     if assignment.builds:
-        return shared_build(assignment.builds, source, assignment.room, place, within_s)
+        kin = assignment.builds_as_kin
+        return shared_build(assignment.builds, source, assignment.room, place, within_s, kin)
     alone = BuildRoom(assignment.room, package.name)
     shutil.copytree(source, alone.source, symlinks=True)
     load = functools.partial(load_beforehand, assignment.lab, assignment.hidden)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import fcntl
-import hashlib
 import os
 import shutil
 import sys
@@ -20,7 +19,7 @@ from roslings.arena.kernel import cores
 from roslings.evidence import BuildSeen
 from roslings.workspace.build import BuildRoom, build
 from roslings.workspace.foreign import copy_foreign
-from roslings.workspace.sources import sources
+from roslings.workspace.kin import content_of, family_of, install_like
 
 OF_ONE_RUN = ("HOME", "TMPDIR", "ROS_LOG_DIR")
 """Variables that name a run's own folders; the rest of a build's environment can be shared."""
@@ -44,22 +43,55 @@ class Built(BaseModel):
 
 
 def shared_build(
-    builds: Path, source: Path, room: Path, place: Place, within_s: float
+    builds: Path, source: Path, room: Path, place: Place, within_s: float, kin: bool = False
 ) -> tuple[BuildSeen, Installed | None]:
     """Build the package at `source`, or take the build of the same content from `builds`.
 
     It is built in `room`, as if that were its place in `builds`: an installation must not be
-    moved, and what a stranger's build writes is bounded in `room` only.
+    moved, and what a stranger's build writes is bounded in `room` only. With `kin`, a package
+    that differs from a built one in its modules alone is installed without colcon.
     """
-    shared = builds / content_of(source)
+    shared = builds / content_of(source, _built_with())
     with _held(shared):
-        kept = shared / "built.json"
-        if kept.is_file():
-            built = Built.model_validate_json(kept.read_text("utf-8"))
-            built.seen.seconds = 0.0
-            return built.seen, built.installed(place.home)
-        with _turn(builds):
-            return _build_in(shared, source, room, place, within_s)
+        if kin and not _kept(shared).is_file():
+            return _build_as_kin(shared, source, room, place, within_s)
+        return _build_once(shared, source, room, place, within_s)
+
+
+def _build_once(
+    shared: Path, source: Path, room: Path, place: Place, within_s: float
+) -> tuple[BuildSeen, Installed | None]:
+    """Build it, if nobody has."""
+    if _kept(shared).is_file():
+        built = Built.model_validate_json(_kept(shared).read_text("utf-8"))
+        built.seen.seconds = 0.0
+        return built.seen, built.installed(place.home)
+    with _turn(shared.parent):
+        return _build_in(shared, source, room, place, within_s)
+
+
+def _build_as_kin(
+    shared: Path, source: Path, room: Path, place: Place, within_s: float
+) -> tuple[BuildSeen, Installed | None]:
+    """Install it like the eldest of its family; the eldest itself is built."""
+    with family_of(shared.parent, source, _built_with()) as family:
+        if eldest := family.eldest:
+            install_like(eldest / source.name, shared / source.name, source)
+            found = _kept(eldest).read_text("utf-8").replace(str(eldest), str(shared))
+            _kept(shared).write_text(found, "utf-8")
+        seen, installed = _build_once(shared, source, room, place, within_s)
+        if _kept(shared).is_file() and not eldest:
+            family.remember(shared)
+    return seen, installed
+
+
+def _kept(shared: Path) -> Path:
+    """Where is written what came of a build."""
+    return shared / "built.json"
+
+
+def _built_with() -> str:
+    return f"{sys.executable} {os.environ.get('AMENT_PREFIX_PATH')}"
 
 
 def _build_in(
@@ -80,7 +112,7 @@ def _build_in(
         seen=seen, programs=installed.programs, environment=installed.environment,
         folder=installed.folder,
     )  # fmt: skip
-    (shared / "built.json").write_text(built.model_dump_json(), "utf-8")
+    _kept(shared).write_text(built.model_dump_json(), "utf-8")
     return seen, installed
 
 
@@ -91,17 +123,6 @@ def _build_alone(
     alone = BuildRoom(room / "alone", source.name)
     shutil.copytree(source, alone.source, symlinks=True)
     return build(alone, place, within_s)
-
-
-def content_of(package: Path) -> str:
-    """A name for the content of a staged package, and for what it is built with."""
-    content = hashlib.sha256(f"{sys.executable} {os.environ.get('AMENT_PREFIX_PATH')}".encode())
-    for source in sources(package):
-        runs = source.path.is_file() and os.access(source.path, os.X_OK)
-        content.update(f"\0{source.name!r} {source.link_to!r} {runs}\0".encode())
-        if source.link_to is None and source.path.is_file():
-            content.update(source.path.read_bytes())
-    return content.hexdigest()[:32]
 
 
 @contextmanager

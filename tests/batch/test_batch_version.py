@@ -1,0 +1,71 @@
+"""A version changes with all that a verdict comes from, and with nothing else."""
+
+from __future__ import annotations
+
+import dataclasses
+import shutil
+from pathlib import Path
+
+import pytest
+
+from roslings.batch import version
+from roslings.batch.far import FIT, fitness
+from roslings.batch.version import ENGINE, engine_in, version_of
+from roslings.course import Lab, lab
+
+
+@pytest.fixture
+def copied(tmp_path: Path) -> Lab:
+    """The lab topics, in a folder of its own."""
+    one = lab("topics")
+    folder = shutil.copytree(one.folder, tmp_path / "topics")
+    grader = Path(shutil.copy(one.grader, tmp_path))
+    return dataclasses.replace(one, folder=folder, grader=grader)
+
+
+@pytest.fixture
+def engine(tmp_path: Path) -> Path:
+    """Another engine, of two files."""
+    folder = tmp_path / "engine"
+    (folder / "judge").mkdir(parents=True)
+    (folder / "judge" / "rates.py").write_text("LEAST = 3\n")
+    (folder / "cli.py").write_text("")
+    return folder
+
+
+@pytest.mark.parametrize("file", ["card.yaml", "hints.yaml", "../grade_topics.py"])
+def test_what_a_lab_is_judged_by_counts(file: str, copied: Lab) -> None:
+    """One byte more, another version."""
+    before = version_of(copied)
+    with (copied.folder / file).open("a") as end:
+        end.write("\n")
+    assert version_of(copied) != before
+
+
+def test_what_is_only_read_by_people_does_not(copied: Lab) -> None:
+    """The task can be made clearer without grading anew."""
+    before = version_of(copied)
+    copied.task.write_text("Do it.")
+    assert version_of(copied) == before
+
+
+def test_each_file_of_the_engine_counts(engine: Path) -> None:
+    """Its content and its name, in whichever room; not what Python makes of it."""
+    versions = [engine_in(engine)]
+    (engine / "judge" / "__pycache__").mkdir()
+    (engine / "judge" / "__pycache__" / "rates.pyc").write_bytes(b"0")
+    assert engine_in(engine) == versions[0]
+    (engine / "judge" / "rates.py").write_text("LEAST = 4\n")
+    versions.append(engine_in(engine))
+    (engine / "judge" / "rates.py").rename(engine / "judge" / "rate.py")
+    versions.append(engine_in(engine))
+    assert len(set(versions)) == 3
+    assert engine_in(ENGINE) == version.engine_version()
+
+
+def test_another_engine_does_not_grade(engine: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A worker whose clone has another engine says so, and grades nothing."""
+    wanted = version_of(lab("topics"))
+    assert fitness("topics", wanted, None, trust=True) == FIT
+    monkeypatch.setattr(version, "engine_version", lambda: engine_in(engine))
+    assert "another version" in fitness("topics", wanted, None, trust=True)
