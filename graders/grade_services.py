@@ -32,7 +32,7 @@ from roslings.judge.services import (
     end_by_itself,
     give_up,
     serve,
-    serve_its_type,
+    serve_their_types,
     show_each,
     tell_the_answer,
 )
@@ -129,7 +129,7 @@ def test_services(serving: ExperimentView) -> None:
 @check(needs=["server_runs"])
 def test_service_types(serving: ExperimentView) -> None:
     """Both services have the types of the card."""
-    serving.must(serve_its_type(SET_MAX_SPEED), serve_its_type(RESET))
+    serving.must(serve_their_types(SET_MAX_SPEED, RESET))
 
 
 @check(needs=["server_runs"])

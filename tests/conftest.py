@@ -14,6 +14,9 @@ __all__ = ["shared_folder"]
 LONGEST = ("forgers", "labs", "cli", "batch", "bootstrap", "devices")
 """Folders with long tests: what is begun last ought to be short."""
 
+DEAR = ("stage", "workshop", "site", "browser", "cells", "edition", "solution", "standing", "jazzy")
+"""Fixtures that are long in making, or keep a processor busy: one worker makes each, once."""
+
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     """Options of the tests."""
@@ -32,8 +35,12 @@ def pytest_configure(config: pytest.Config) -> None:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """The folders with long tests come first."""
+    """The folders with long tests come first; who shares something dear shares a worker."""
     items.sort(key=_turn)
+    for item in items:
+        names = getattr(item, "fixturenames", ())
+        if dear := next((name for name in DEAR if name in names), None):
+            item.add_marker(pytest.mark.xdist_group(dear))
 
 
 def _turn(item: pytest.Item) -> int:

@@ -10,7 +10,7 @@ import statistics
 from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
+from itertools import combinations, pairwise
 
 from roslings.evidence import ExperimentSeen, MessageSeen, Segment, Tick
 
@@ -225,6 +225,23 @@ def measure_simulated_rate(
         return None
     step_s = max(segment.step_ns for segment in segments) / NS_PER_S
     return replace(rate, uncertainty_hz=rate.hz * step_s / sum(rate.periods_s))
+
+
+def period_bounds_s(
+    times_s: Sequence[float], counts: Sequence[int], late_s: float
+) -> tuple[float, float]:
+    """The shortest and the longest period of a timer that explains all times.
+
+    Each may be late by up to `late_s`, so any two messages bound the period from both sides. Where
+    no timer explains them, the shortest is longer than the longest.
+    """
+    pairs = [
+        (times_s[j] - times_s[i], counts[j] - counts[i])
+        for i, j in combinations(range(len(times_s)), 2)
+        if counts[j] > counts[i]
+    ]
+    least_s = max(((between_s - late_s) / count for between_s, count in pairs), default=0.0)
+    return least_s, min(((between_s + late_s) / count for between_s, count in pairs), default=0.0)
 
 
 def place_on_ticks(messages: Sequence[MessageSeen], ticks: Sequence[Tick]) -> None:

@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from nothing import Nothing
 from once import once
 
 from roslings.authoring.prove import Package, Proof, Wrong, gradings_fit
@@ -93,12 +94,42 @@ def _is_timed(mutant: Mutant) -> bool:
     return any(check.startswith("talker_") or check in of_the_talker for check in mutant.fails)
 
 
-ALL = {package.name: package for package in (*mutants(), *in_real_time())}
+FILES = frozenset({"well_formed", "depends"})
+END = frozenset({"builds", "ends", "clean_exit"})
+NODES = {
+    "nodes": {"runs", "stays", "name"},
+    "topics": {"talker_runs", "talker_stays", "talker_name", "listener_runs", "listener_name"},
+    "distance-sensor": {
+        "sensor_runs", "sensor_name", "subscriber_runs", "subscriber_name", "launch",
+    },
+    "services": {"server_runs", "server_name"},
+    "actions": {"server_runs", "server_name"},
+    "serial-bridge": {"runs", "name"},
+    "pi-camera": {"camera_runs", "camera_name", "finder_runs", "finder_name"},
+}  # fmt: skip
+"""Lab to the checks that nodes pass which are there, and do nothing."""
+ALSO = {"topics": {"figure"}}
+"""Checks on files that no program makes."""
+
+
+def without_much() -> Iterator[Nothing]:
+    """An empty package, the starter, and nodes that do nothing."""
+    for name, nodes in reversed(NODES.items()):
+        files = FILES | ALSO.get(name, set())
+        yield Nothing(LABS[name], "empty", files)
+        yield Nothing(LABS[name], "starter", frozenset({"well_formed"}))
+        yield Nothing(LABS[name], "idle", files | END | nodes)
+
+
+ALL: dict[str, Wrong | Nothing] = {
+    package.name: package for package in (*mutants(), *in_real_time(), *without_much())
+}
 
 
 def packages(clock: str) -> pytest.MarkDecorator:
-    """One test each, named LAB-MUTANT."""
-    chosen = [package for package in ALL.values() if package.clock == clock]
+    """One test for each mutant, named LAB-MUTANT."""
+    wrong = (package for package in ALL.values() if isinstance(package, Wrong))
+    chosen = [package for package in wrong if package.clock == clock]
     names = [f"{each.lab.name}-{each.mutant.name}" for each in chosen]
     return pytest.mark.parametrize("package", [each.name for each in chosen], ids=names)
 
@@ -123,6 +154,11 @@ def proof_of(request: pytest.FixtureRequest, shared_folder: Path) -> Callable[[s
     return lambda package: proofs()[package]
 
 
+def test_each_lab_has_its_nodes_here() -> None:
+    """A new lab says which checks nodes pass that do nothing."""
+    assert set(NODES) == set(LABS)
+
+
 def insist_on(proof: Proof) -> None:
     """It holds; that it could never be told is no proof."""
     assert proof.holds, proof.line
@@ -143,4 +179,12 @@ def test_a_mutant_gets_the_same_verdict_in_real_time(
     package: str, proof_of: Callable[[str], Proof]
 ) -> None:
     """`--clock wall` and the simulated clock agree."""
+    insist_on(proof_of(package))
+
+
+@pytest.mark.slow
+@pytest.mark.xdist_group("mutants")
+@pytest.mark.parametrize("package", [each.name for each in without_much()])
+def test_no_point_for_what_is_not_there(package: str, proof_of: Callable[[str], Proof]) -> None:
+    """A check passes only on what it saw; what is missing is failed or skipped."""
     insist_on(proof_of(package))

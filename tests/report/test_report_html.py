@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections import Counter
+from collections.abc import Sequence
 from html.parser import HTMLParser
 
 import pytest
@@ -145,6 +147,39 @@ def test_in_simulated_time_the_ticks_count() -> None:
     text = page(evidence(seen)).text
     assert "simulated seconds" in text
     assert "/clock" not in text  # the grader's own
+
+
+def simulated(times_s: Sequence[float], step_s: float) -> ExperimentSeen:
+    """What is seen of messages that are sent at these times by a clock of such steps."""
+    at_ticks = [math.ceil(time_s / step_s - 1e-9) * step_s for time_s in times_s]
+    seen = talking(messages(at_ticks, simulated=True))
+    seen.clock = "sim"
+    seen.segments = [Segment(first=0, last=1, step_ns=round(step_s * 1e9), speed=50)]
+    seen.ticks = [Tick(sim_ns=n, wall_ns=n, at_ns=n, kept_up=True) for n in (-1, 10**11)]
+    return seen
+
+
+@pytest.mark.parametrize("period_s", [0.435, 0.5, 0.333])
+def test_the_steps_of_the_clock_are_no_jitter(period_s: float) -> None:
+    """A perfect timer has periods of 0.4 and 0.5 s then: that is the clock's doing."""
+    seen = simulated(steady(period_s, 25), 0.1)
+    (each,) = watched(evidence(seen), ASKED)
+    assert len({interval.period_s for interval in each.intervals}) == 1
+    assert each.intervals[0].period_s == pytest.approx(period_s, rel=0.01)
+    text = page(evidence(seen)).text
+    assert "less than one step of the simulated clock (100.0 ms)" in text
+    assert "400.0 ms" not in text
+
+
+def test_what_no_step_explains_is_shown() -> None:
+    """Two messages at once, then a pause: no timer does that."""
+    times_s = sorted([*steady(1.0, 12), *(0.2 + time_s for time_s in steady(1.0, 12))])
+    seen = simulated(times_s, 0.1)
+    (each,) = watched(evidence(seen), ASKED)
+    assert {round(interval.period_s, 3) for interval in each.intervals} == {0.2, 0.8}
+    assert (
+        "each time known to one step of the simulated clock (100.0 ms)" in page(evidence(seen)).text
+    )
 
 
 def test_losses_and_the_asked_band_are_drawn() -> None:

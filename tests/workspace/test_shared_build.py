@@ -121,7 +121,9 @@ def test_kin_is_installed_as_colcon_does(name: str, tmp_path: Path) -> None:
     assert str(as_kin.folder / package) in paths
 
 
-@pytest.mark.parametrize("file", ["setup.py", "chatter/__init__.py", "package.xml", "chatter/more.py"])
+@pytest.mark.parametrize(
+    "file", ["setup.py", "chatter/__init__.py", "package.xml", "chatter/more.py"]
+)
 def test_who_else_differs_is_no_kin(file: str, tmp_path: Path) -> None:
     """Whatever may change how a package is built has it built."""
     first = tmp_path / "first" / "chatter"

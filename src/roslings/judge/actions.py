@@ -75,11 +75,13 @@ def perform(action: ActionContract) -> Demand[ExperimentView]:
 
 
 def perform_its_type(action: ActionContract) -> Demand[ExperimentView]:
-    """The action has the card's type; one that is missing is another check's business."""
+    """The action has the card's type. Of one that is missing no type was seen."""
 
     def demand(experiment: ExperimentView) -> None:
         end = _server(experiment, action)
-        if end is not None and end.type != action.type:
+        if end is None:
+            raise NothingToJudge(f"nobody performs {action.action}, so it has no type")
+        if end.type != action.type:
             raise faults.WrongActionType(end.action, action.type, end.type)
 
     return demand

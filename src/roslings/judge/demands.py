@@ -154,12 +154,13 @@ def during(when: str, *demands: Demand[ProcessView]) -> Demand[ProcessView]:
 
 
 def stay_up(process: ProcessView) -> None:
-    """It runs until it is asked to end."""
-    seen = process.seen
-    if seen.ended_by_itself:
-        raise faults.StoppedByItself(
-            seen.executable, process.ran_s, describe_end(seen), log=process.last_lines()
-        )
+    """It runs until it is asked to end, in each run of the experiment."""
+    for run in process.runs:
+        if run.seen.ended_by_itself:
+            raise faults.StoppedByItself(
+                run.seen.executable, run.ran_s, describe_end(run.seen),
+                simulated=run.is_simulated, log=run.last_lines(),
+            )  # fmt: skip
 
 
 def end_within(limit_s: float) -> Demand[ProcessView]:

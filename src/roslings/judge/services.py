@@ -48,13 +48,17 @@ def serve(service: ServiceContract) -> Demand[ExperimentView]:
     return demand
 
 
-def serve_its_type(service: ServiceContract) -> Demand[ExperimentView]:
-    """The service has the card's type; one that is missing is another check's business."""
+def serve_their_types(*services: ServiceContract) -> Demand[ExperimentView]:
+    """Each service has the card's type. Of one that is missing no type was seen."""
 
     def demand(experiment: ExperimentView) -> None:
-        end = _server(experiment, service)
-        if end is not None and end.type != service.type:
-            raise faults.WrongServiceType(end.service, service.type, end.type)
+        found = [(service, _server(experiment, service)) for service in services]
+        for service, end in found:
+            if end is not None and end.type != service.type:
+                raise faults.WrongServiceType(end.service, service.type, end.type)
+        for service, end in found:
+            if end is None:
+                raise NothingToJudge(f"nobody serves {service.service}, so it has no type")
 
     return demand
 

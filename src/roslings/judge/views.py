@@ -76,6 +76,8 @@ class ProcessView(View):
     experiment: ExperimentSeen
     before: tuple[ProcessSeen, ...] = ()
     """As it ended in earlier runs of the experiment, which were made again for its end alone."""
+    doubted: tuple[tuple[ProcessSeen, ExperimentSeen], ...] = ()
+    """It in runs of the experiment whose times were not believed."""
 
     @property
     def texts(self) -> list[str]:
@@ -87,9 +89,24 @@ class ProcessView(View):
         return tuple(line.text for line in self.seen.lines[-count:])
 
     @property
+    def runs(self) -> Iterator[ProcessView]:
+        """It in each run of the experiment, whatever was thought of the run's clock."""
+        yield from (ProcessView(seen, experiment) for seen, experiment in self.doubted)
+        yield self
+
+    @property
+    def is_simulated(self) -> bool:
+        """Its time was the grader's."""
+        return self.experiment.clock == "sim"
+
+    @property
     def ran_s(self) -> float:
-        """Seconds from start to end."""
-        return ((self.seen.ended_ns or self.seen.started_ns) - self.seen.started_ns) / 1e9
+        """Seconds from start to end; of its own time where that is simulated."""
+        ended_ns = self.seen.ended_ns or self.seen.started_ns
+        if not self.is_simulated:
+            return (ended_ns - self.seen.started_ns) / 1e9
+        lived = [tick.sim_ns for tick in self.experiment.ticks if tick.at_ns <= ended_ns]
+        return (lived[-1] - lived[0]) / 1e9 if lived else 0.0
 
     @property
     def shown(self) -> bool:
@@ -193,6 +210,8 @@ class ExperimentView(View):
     seen: ExperimentSeen
     before: tuple[ExperimentSeen, ...] = ()
     """Earlier runs that were believed, and made again to see a second time how they end."""
+    doubted: tuple[ExperimentSeen, ...] = ()
+    """Earlier runs whose times were not believed: what a node did there, it did."""
 
     def process(self, node: NodeContract) -> ProcessView:
         """The process of a node. Raises NothingToJudge where it was never started."""
@@ -204,7 +223,10 @@ class ExperimentView(View):
         """The process that the experiment gave this name. Raises KeyError."""
         runs = [each.processes[label] for each in self.before if label in each.processes]
         before = tuple(process for process in runs if process.ending)
-        return ProcessView(self.seen.processes[label], self.seen, before)
+        doubted = tuple(
+            (each.processes[label], each) for each in self.doubted if label in each.processes
+        )
+        return ProcessView(self.seen.processes[label], self.seen, before, doubted)
 
     def node(self, node: NodeContract) -> NodeView:
         """The node, or the nearest to it. Raises NothingToJudge where there is none."""
@@ -290,11 +312,16 @@ def text_pattern(template: str) -> TextPattern:
 def views_of(evidence: Evidence) -> dict[str, View]:
     """What a check can ask for by name: `package`, and each experiment."""
     experiments = {
-        name: ExperimentView(seen, tuple(_runs_before(name, evidence)))
+        name: ExperimentView(seen, *_runs_before(name, evidence))
         for name, seen in evidence.experiments.items()
     }
     return {"package": PackageView(evidence.package, evidence.build), **experiments}
 
 
-def _runs_before(name: str, evidence: Evidence) -> Iterator[ExperimentSeen]:
-    return (seen for seen in evidence.attempts if seen.name == name and not seen.doubt)
+def _runs_before(
+    name: str, evidence: Evidence
+) -> tuple[tuple[ExperimentSeen, ...], tuple[ExperimentSeen, ...]]:
+    """The earlier runs that are believed, and those that are not."""
+    runs = [seen for seen in evidence.attempts if seen.name == name]
+    believed = tuple(seen for seen in runs if not seen.doubt)
+    return believed, tuple(seen for seen in runs if seen.doubt)

@@ -77,6 +77,8 @@ class StoppedByItself(Fault):
     after_s: float
     how: str
     when: str = field(default="", kw_only=True)
+    simulated: bool = field(default=False, kw_only=True)
+    """The seconds are of simulated time, which ran faster than ours."""
     was_seen = True
     why = "A robot's node runs until somebody stops it."
     hint = READ_THE_LINES
@@ -89,7 +91,8 @@ class StoppedByItself(Fault):
     @property
     def measured(self) -> str:
         """When it ended, and how."""
-        return f"it ended by itself after {self.after_s:.1f} s ({self.how})"
+        time = " of simulated time" if self.simulated else ""
+        return f"it ended by itself after {self.after_s:.1f} s{time} ({self.how})"
 
 
 @dataclass(eq=False)

@@ -3,12 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from roslings.evidence import Evidence, ExperimentSeen, MessageSeen, TopicSeen
 from roslings.near import nearest_endpoint, own_endpoints
-from roslings.rates import NS_PER_S, Rate, measure_rate, measure_simulated_rate
+from roslings.rates import (
+    NS_PER_S,
+    Rate,
+    measure_rate,
+    measure_simulated_rate,
+    period_bounds_s,
+)
+
+MOST_COMPARED = 1000
+"""Each message is compared with each other one."""
+ROUNDING_S = 1e-6
 
 
 @dataclass(frozen=True)
@@ -43,6 +53,10 @@ class Watched:
     rate: Rate | None
     """None where there were too few messages to tell."""
     intervals: tuple[Interval, ...]
+    step_s: float | None = None
+    """One step of the simulated clock: so late each time can be. None in real time."""
+    within_steps: bool = False
+    """One period explains all times; what they differ by are the clock's steps."""
 
 
 def watched(evidence: Evidence, asked: Sequence[Asked]) -> list[Watched]:
@@ -60,15 +74,38 @@ def _heard(experiment: ExperimentSeen) -> Iterator[TopicSeen]:
 
 
 def _watched(experiment: ExperimentSeen, topic: TopicSeen, asked: Sequence[Asked]) -> Watched:
-    of_it = (each for each in asked if _is_meant(experiment, topic, each))
+    meant = next((each for each in asked if _is_meant(experiment, topic, each)), None)
     if experiment.clock == "sim":
-        rate = measure_simulated_rate(topic.messages, experiment.ticks, experiment.segments)
-        intervals = intervals_of(_in_segments(experiment, topic), _sim_ns)
-    else:
-        rate = measure_rate(topic.messages)
-        stamped = rate is not None and rate.from_stamps
-        intervals = intervals_of(topic.messages, _source_ns if stamped else _arrival_ns)
-    return Watched(experiment, topic, next(of_it, None), rate, tuple(intervals) if rate else ())
+        return _simulated(experiment, topic, meant)
+    rate = measure_rate(topic.messages)
+    stamped = rate is not None and rate.from_stamps
+    intervals = intervals_of(topic.messages, _source_ns if stamped else _arrival_ns)
+    return Watched(experiment, topic, meant, rate, tuple(intervals) if rate else ())
+
+
+def _simulated(experiment: ExperimentSeen, topic: TopicSeen, asked: Asked | None) -> Watched:
+    """A message is sent at a tick: a perfect timer of 0.435 s has periods of 0.4 and 0.5 s then.
+
+    Where one period explains all times, that is what is shown; the rest is the clock's.
+    """
+    rate = measure_simulated_rate(topic.messages, experiment.ticks, experiment.segments)
+    messages = _in_segments(experiment, topic)
+    intervals = tuple(intervals_of(messages, _sim_ns)) if rate else ()
+    step_s = max((each.step_ns for each in experiment.segments), default=0) / NS_PER_S
+    period_s = _one_period_s(rate, messages, step_s) if rate else None
+    if rate and period_s:
+        intervals = tuple(replace(each, period_s=period_s) for each in intervals)
+        rate = replace(rate, periods_s=(period_s,) * len(rate.periods_s))
+    return Watched(experiment, topic, asked, rate, intervals, step_s, period_s is not None)
+
+
+def _one_period_s(rate: Rate, messages: Sequence[MessageSeen], step_s: float) -> float | None:
+    """The period that explains all times, as near as possible to the mean; None where none does."""
+    if len(messages) > MOST_COMPARED:
+        return None
+    times_s = [_sim_ns(message) / NS_PER_S for message in messages]
+    least_s, most_s = period_bounds_s(times_s, _counts(messages), step_s + ROUNDING_S)
+    return min(max(rate.period_s, least_s), most_s) if least_s <= most_s else None
 
 
 def _in_segments(experiment: ExperimentSeen, topic: TopicSeen) -> list[MessageSeen]:

@@ -86,9 +86,19 @@ def _figures(each: Watched) -> Iterator[tuple[str, str]]:
         yield "asked rate", f"{each.asked.hz:g} Hz ({low:g} to {high:g} Hz)"
     yield "half of the periods (p50)", f"at most {time_text(rate.median_s)}"
     yield "95 % of the periods (p95)", f"at most {time_text(rate.p95_s)}"
-    yield "jitter (standard deviation)", time_text(rate.jitter_s)
+    yield "jitter (standard deviation)", _jitter(each, rate)
     yield "lost messages", f"{rate.lost}"
     yield "times from", _clock(each, rate)
+
+
+def _jitter(each: Watched, rate: Rate) -> str:
+    """Nothing shorter than a step of the simulated clock was measured."""
+    if each.step_s is None:
+        return time_text(rate.jitter_s)
+    step = f"one step of the simulated clock ({time_text(each.step_s)})"
+    if each.within_steps:
+        return f"less than {step}"
+    return f"{time_text(rate.jitter_s)}, each time known to {step}"
 
 
 def _clock(each: Watched, rate: Rate) -> str:
