@@ -314,6 +314,9 @@ def prove_options(word: argparse.ArgumentParser) -> None:
     """What `prove` takes."""
     word.add_argument("labs", metavar="LAB", nargs="+", help="for example: topics")
     word.add_argument(
+        "--contract", action="store_true", help="show that each word of the card is judged"
+    )
+    word.add_argument(
         "--jobs", metavar="N", type=whole_number, help="how many at once (default: measured)"
     )
 

@@ -298,16 +298,21 @@ def new_lab(options: argparse.Namespace) -> int:
 
 def prove(options: argparse.Namespace) -> int:
     """Grade labs' solutions, starters and mutants, and say what is not as it must be."""
-    from roslings.authoring.prove import prove as proofs_of
+    from roslings.authoring.prove import Proof
     from roslings.batch.command import Teller
     from roslings.report import Progress
 
+    if options.contract:
+        from roslings.authoring.contract import prove_contract as proofs_of
+    else:
+        from roslings.authoring.prove import prove as proofs_of
+
     labs = [course.lab(name) for name in dict.fromkeys(options.labs)]
     with Progress() as progress:
-        proofs = list(proofs_of(labs, Teller(progress), options.jobs))
-    for proof in proofs:
-        print(proof.line)
-    wrong = [proof for proof in proofs if not proof.holds]
+        lines = list(proofs_of(labs, Teller(progress), options.jobs))
+    for line in lines:
+        print(line.line)
+    wrong = [line for line in lines if isinstance(line, Proof) and not line.holds]
     if not wrong:
         for lab in labs:
             print(f"The lab {lab.name!r} is proven.")

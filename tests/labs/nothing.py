@@ -39,6 +39,7 @@ class Nothing:
     kind: Kind
     passes: frozenset[str]
     clock: Clock = "auto"
+    course: None = None
 
     @property
     def name(self) -> str:

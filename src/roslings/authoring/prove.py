@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Protocol
 
 from roslings.batch.capacity import Capacity
+from roslings.batch.crew import GRADING
 from roslings.batch.gradebook import gradebook
 from roslings.batch.result import Order, Result
 from roslings.batch.shift import Shift, Watcher, Wish
@@ -63,6 +64,10 @@ class Package(Protocol):
         """By which its experiments run."""
 
     @property
+    def course(self) -> Path | None:
+        """Where the files lie by which it is graded; None: here."""
+
+    @property
     def name(self) -> str:
         """Of no other package of any lab."""
 
@@ -83,6 +88,7 @@ class Solution:
 
     lab: Lab
     clock: Clock = "auto"
+    course: None = None
 
     @property
     def name(self) -> str:
@@ -111,6 +117,7 @@ class Starter:
 
     lab: Lab
     clock: Clock = "auto"
+    course: None = None
 
     @property
     def name(self) -> str:
@@ -138,6 +145,7 @@ class Wrong:
     lab: Lab
     mutant: Mutant
     clock: Clock = "auto"
+    course: None = None
 
     @property
     def name(self) -> str:
@@ -211,7 +219,7 @@ def gradings_fit(
     They begin in their order, and what could not be told is tried twice more, alone.
     """
     with run_folder() as scratch:
-        results = _graded(packages, scratch, watcher, jobs)
+        results = graded(packages, scratch, watcher, jobs)
     for package in packages:
         yield proof_of(package, results[package.name])
 
@@ -225,25 +233,36 @@ class _ManyLabs(Wish):
     def order(self, submission: Submission, digest: str, attempt: int) -> Order:
         """The order for one try of a submission."""
         package = self.packages[submission.name]
-        own = {"lab": package.lab.name, "clock": package.clock, "builds_as_kin": True}
+        own = {
+            "lab": package.lab.name, "clock": package.clock, "course": package.course,
+            "builds_as_kin": True,
+        }  # fmt: skip
         return super().order(submission, digest, attempt).model_copy(update=own)
 
 
-def _graded(
-    packages: Collection[Package], scratch: Path, watcher: Watcher, jobs: int | None
+def graded(
+    packages: Collection[Package],
+    scratch: Path,
+    watcher: Watcher,
+    jobs: int | None,
+    *,
+    book: str = "book",
+    keeps_evidence: bool = False,
+    life: str = GRADING,
 ) -> dict[str, Result]:
-    """Package's name to what came of it."""
+    """Package's name to what came of it; the gradebook lies in `scratch`, a run's folder."""
     submissions = [Submission(each.name, each.make(scratch / "made")) for each in packages]
     wish = _ManyLabs(
-        "", scratch, scratch / LOCK, keeps_evidence=False,
+        "", scratch, scratch / LOCK, keeps_evidence=keeps_evidence, life=life,
         packages={each.name: each for each in packages},
     )  # fmt: skip
-    with gradebook(scratch, "labs") as book:
-        shift = Shift(wish, book, Capacity(fixed=jobs), watcher)
+    (scratch / book).mkdir()
+    with gradebook(scratch / book, "labs") as results:
+        shift = Shift(wish, results, Capacity(fixed=jobs), watcher)
         shift.run(submissions)
-        if not all(result.is_conclusive for result in book.latest().values()):
+        if not all(result.is_conclusive for result in results.latest().values()):
             shift.run(submissions)
-        return book.latest()
+        return results.latest()
 
 
 def proof_of(package: Package, result: Result) -> Proof:

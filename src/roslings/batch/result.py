@@ -28,6 +28,8 @@ class Order(BaseModel):
     seed: int
     clock: Literal["auto", "sim", "wall"] = "auto"
     hidden: Path | None = None
+    course: Path | None = None
+    """Where the lab's files lie, where not in this course."""
     builds: Path | None = None
     builds_as_kin: bool = False
     """One of a lab's own packages: those that differ in their modules alone share a build."""

@@ -11,6 +11,7 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, RootModel, field_validator, model_validator
 
+from roslings.course.kinds import Kind
 from roslings.course.outline import DAY, PACKAGE
 
 DEFAULT_WITHIN = 0.1
@@ -18,6 +19,9 @@ DEFAULT_WITHIN = 0.1
 
 
 Plain = bool | int | float | str
+Expected = Kind.EXPECTED
+Stimulus = Kind.STIMULUS
+Prose = Kind.PROSE
 GroupName = Annotated[str, Field(pattern=r"^[a-z][a-z0-9-]*$")]
 
 
@@ -30,8 +34,10 @@ class Contract(BaseModel):
 class RateContract(Contract):
     """How often messages come, and how far from it still counts."""
 
-    hz: float = Field(gt=0)
-    within: float = Field(gt=0, lt=1, description="Part of the rate, e.g. 0.05 for 5 %")
+    hz: Annotated[float, Expected] = Field(gt=0)
+    within: Annotated[float, Kind.TOLERANCE] = Field(
+        gt=0, lt=1, description="Part of the rate, e.g. 0.05 for 5 %"
+    )
 
     @property
     def low_hz(self) -> float:
@@ -47,21 +53,25 @@ class RateContract(Contract):
 class QosContract(Contract):
     """The quality of service that the other side of the topic uses: ours must match it."""
 
-    reliability: Literal["reliable", "best_effort"] = "reliable"
-    durability: Literal["volatile", "transient_local"] = "volatile"
-    exact: bool = Field(default=False, description="Ours must be just this, not only match it")
+    reliability: Annotated[Literal["reliable", "best_effort"], Expected] = "reliable"
+    durability: Annotated[Literal["volatile", "transient_local"], Expected] = "volatile"
+    exact: Annotated[bool, Expected] = Field(
+        default=False, description="Ours must be just this, not only match it"
+    )
 
 
 class TopicContract(Contract):
     """One topic that a node publishes or subscribes to."""
 
-    topic: str = Field(pattern=r"^/[A-Za-z_][A-Za-z0-9_/]*$")
-    type: str = Field(pattern=r"^[a-z][a-z0-9_]*/msg/[A-Z][A-Za-z0-9]*$")
+    topic: Annotated[str, Expected] = Field(pattern=r"^/[A-Za-z_][A-Za-z0-9_/]*$")
+    type: Annotated[str, Expected] = Field(pattern=r"^[a-z][a-z0-9_]*/msg/[A-Z][A-Za-z0-9]*$")
     qos: QosContract = QosContract()
     rate: RateContract | None = None
-    text: str | None = Field(default=None, description="The message's text; `{n}` is a counter")
-    about: str = Field(default="", description="What the message says, in words")
-    fields: dict[str, Plain] = Field(
+    text: Annotated[str | None, Expected] = Field(
+        default=None, description="The message's text; `{n}` is a counter"
+    )
+    about: Annotated[str, Prose] = Field(default="", description="What the message says, in words")
+    fields: Annotated[dict[str, Plain], Expected] = Field(
         default_factory=dict, description="What each message holds; a dot leads into a field"
     )
 
@@ -74,31 +84,41 @@ class TopicContract(Contract):
 class ParameterContract(Contract):
     """A setting of a node that is chosen when it starts; a live one also while it runs."""
 
-    name: str = Field(pattern=r"^[a-z][a-z0-9_]*$")
-    type: Literal["bool", "integer", "double", "string"]
-    about: str = Field(description="What it sets, with its unit, e.g. `seconds between messages`")
-    default: bool | int | float | str
-    tried: bool | int | float | str = Field(description="The other value that the check gives it")
-    least: float | None = Field(default=None, description="What is below is refused")
-    most: float | None = Field(default=None, description="What is above is refused")
-    live: bool = Field(default=False, description="A change acts at once, while the node runs")
+    name: Annotated[str, Kind.KEY] = Field(pattern=r"^[a-z][a-z0-9_]*$")
+    type: Annotated[Literal["bool", "integer", "double", "string"], Expected]
+    about: Annotated[str, Prose] = Field(
+        description="What it sets, with its unit, e.g. `seconds between messages`"
+    )
+    default: Annotated[Plain, Expected]
+    tried: Annotated[Plain, Stimulus] = Field(description="The other value that the check gives it")
+    least: Annotated[float | None, Kind.EDGE] = Field(
+        default=None, description="What is below is refused"
+    )
+    most: Annotated[float | None, Kind.EDGE] = Field(
+        default=None, description="What is above is refused"
+    )
+    live: Annotated[bool, Expected] = Field(
+        default=False, description="A change acts at once, while the node runs"
+    )
 
 
 class ConstantContract(Contract):
     """A number that the node reckons with."""
 
-    name: str
-    value: float
-    about: str = Field(description="Its unit, and what it is for")
+    name: Annotated[str, Prose]
+    value: Annotated[float, Expected]
+    about: Annotated[str, Prose] = Field(description="Its unit, and what it is for")
 
 
 class AnswerContract(Contract):
     """What a server answers to one request, and what is to be seen of it afterwards."""
 
-    when: str = Field(description="In what state it is asked, e.g. `the limit is on`")
-    request: dict[str, Plain] = Field(default_factory=dict)
-    response: dict[str, Plain]
-    state: Plain | None = Field(
+    when: Annotated[str, Prose] = Field(
+        description="In what state it is asked, e.g. `the limit is on`"
+    )
+    request: Annotated[dict[str, Plain], Stimulus] = Field(default_factory=dict)
+    response: Annotated[dict[str, Plain], Expected]
+    state: Annotated[Plain | None, Expected] = Field(
         default=None, description="What the node's first topic carries afterwards, in `data`"
     )
 
@@ -106,23 +126,27 @@ class AnswerContract(Contract):
 class ServiceContract(Contract):
     """One service that a node offers, or that it calls."""
 
-    service: str = Field(pattern=r"^/[A-Za-z_][A-Za-z0-9_/]*$")
-    type: str = Field(pattern=r"^[a-z][a-z0-9_]*/srv/[A-Z][A-Za-z0-9]*$")
-    within_s: float | None = Field(default=None, gt=0, description="The answer comes in this time")
+    service: Annotated[str, Expected] = Field(pattern=r"^/[A-Za-z_][A-Za-z0-9_/]*$")
+    type: Annotated[str, Expected] = Field(pattern=r"^[a-z][a-z0-9_]*/srv/[A-Z][A-Za-z0-9]*$")
+    within_s: Annotated[float | None, Kind.MOST] = Field(
+        default=None, gt=0, description="The answer comes in this time"
+    )
     answers: tuple[AnswerContract, ...] = ()
 
 
 class ActionContract(Contract):
     """One action that a node performs, or that it gives goals to."""
 
-    action: str = Field(pattern=r"^/[A-Za-z_][A-Za-z0-9_/]*$")
-    type: str = Field(pattern=r"^[a-z][a-z0-9_]*/action/[A-Z][A-Za-z0-9]*$")
-    goal: dict[str, float] = Field(default_factory=dict, description="One goal, as an example")
+    action: Annotated[str, Expected] = Field(pattern=r"^/[A-Za-z_][A-Za-z0-9_/]*$")
+    type: Annotated[str, Expected] = Field(pattern=r"^[a-z][a-z0-9_]*/action/[A-Z][A-Za-z0-9]*$")
+    goal: Annotated[dict[str, float], Prose] = Field(
+        default_factory=dict, description="One goal, as an example"
+    )
     feedback: RateContract | None = None
-    cancels_within_s: float | None = Field(
+    cancels_within_s: Annotated[float | None, Kind.MOST] = Field(
         default=None, gt=0, description="From the request to cancel until all stands still"
     )
-    rules: dict[str, str] = Field(
+    rules: Annotated[dict[str, str], Prose] = Field(
         default_factory=dict, description="What happens when: two columns of the task's table"
     )
 
@@ -130,25 +154,27 @@ class ActionContract(Contract):
 class OutcomeContract(Contract):
     """One way in which a program that has a single task can come to its end."""
 
-    when: str
-    log: str = Field(description="A line it writes; `{text}` is something of the answer")
-    log_about: str = Field(default="", description="What `{text}` stands for")
-    exit_code: int
+    when: Annotated[str, Prose]
+    log: Annotated[str, Expected] = Field(
+        description="A line it writes; `{text}` is something of the answer"
+    )
+    log_about: Annotated[str, Prose] = Field(default="", description="What `{text}` stands for")
+    exit_code: Annotated[int, Expected]
 
 
 class GiveUpContract(Contract):
     """What a client does that finds no server."""
 
-    within_s: float = Field(gt=0, description="From its start to its end")
-    log: str
-    exit_code: int
+    within_s: Annotated[float, Kind.MOST] = Field(gt=0, description="From its start to its end")
+    log: Annotated[str, Expected]
+    exit_code: Annotated[int, Expected]
 
 
 class NodeContract(Contract):
     """One node: its full name, the executable that starts it, and its topics."""
 
-    node: str = Field(pattern=r"^/[A-Za-z_][A-Za-z0-9_/]*$")
-    executable: str
+    node: Annotated[str, Expected] = Field(pattern=r"^/[A-Za-z_][A-Za-z0-9_/]*$")
+    executable: Annotated[str, Kind.KEY]
     publishes: tuple[TopicContract, ...] = ()
     subscribes: tuple[TopicContract, ...] = ()
     parameters: tuple[ParameterContract, ...] = ()
@@ -161,12 +187,16 @@ class NodeContract(Contract):
         default_factory=dict, description="By a word for the grader, e.g. `refused`"
     )
     gives_up: GiveUpContract | None = None
-    other_names: tuple[str, ...] = Field(
+    other_names: Annotated[tuple[str, ...], Stimulus] = Field(
         default=(), description="Full names that it takes when it is started with remaps"
     )
-    log: str | None = Field(default=None, description="A line it writes; `{text}` is the message")
-    log_about: str = Field(default="the message's text", description="What `{text}` stands for")
-    log_examples: tuple[str, ...] = Field(
+    log: Annotated[str | None, Expected] = Field(
+        default=None, description="A line it writes; `{text}` is the message"
+    )
+    log_about: Annotated[str, Prose] = Field(
+        default="the message's text", description="What `{text}` stands for"
+    )
+    log_examples: Annotated[tuple[str, ...], Prose] = Field(
         default=(), description="For `{text}` in the task, where no topic has a text"
     )
 
@@ -182,8 +212,8 @@ class NodeContract(Contract):
 class LaunchContract(Contract):
     """A launch file of the package, and the executables that it starts."""
 
-    file: str = Field(pattern=r"^launch/[a-z0-9_]+\.launch\.(xml|yaml|py)$")
-    starts: tuple[str, ...]
+    file: Annotated[str, Expected] = Field(pattern=r"^launch/[a-z0-9_]+\.launch\.(xml|yaml|py)$")
+    starts: Annotated[tuple[str, ...], Expected]
 
     @property
     def name(self) -> str:
@@ -194,10 +224,10 @@ class LaunchContract(Contract):
 class PictureContract(Contract):
     """An image that the package holds."""
 
-    path: str
-    format: Literal["PNG"] = "PNG"
-    min_width_px: int = Field(gt=0)
-    min_height_px: int = Field(gt=0)
+    path: Annotated[str, Expected]
+    format: Annotated[Literal["PNG"], Expected] = "PNG"
+    min_width_px: Annotated[int, Kind.LEAST] = Field(gt=0)
+    min_height_px: Annotated[int, Kind.LEAST] = Field(gt=0)
 
 
 class Hint(Contract):
@@ -216,23 +246,33 @@ class Hints(RootModel[dict[str, Hint]]):
 class Card(Contract):
     """All that a lab asks for. Points of all checks add up to 100."""
 
-    id: str = Field(pattern=r"^[a-z][a-z0-9-]*$")
-    title: str
-    day: str = Field(pattern=DAY)
-    needs: tuple[str, ...] = Field(default=(), description="Labs to do before this one")
-    package: str = Field(pattern=PACKAGE)
-    build_type: Literal["ament_python"] = "ament_python"
-    groups: tuple[GroupName, ...] = Field(
+    id: Annotated[str, Prose] = Field(pattern=r"^[a-z][a-z0-9-]*$")
+    title: Annotated[str, Prose]
+    day: Annotated[str, Prose] = Field(pattern=DAY)
+    needs: Annotated[tuple[str, ...], Prose] = Field(
+        default=(), description="Labs to do before this one"
+    )
+    package: Annotated[str, Expected] = Field(pattern=PACKAGE)
+    build_type: Annotated[Literal["ament_python"], Expected] = "ament_python"
+    groups: Annotated[tuple[GroupName, ...], Prose] = Field(
         default=(), description="Dependency groups that its check needs besides the usual ones"
     )
     nodes: tuple[NodeContract, ...]
     launch: LaunchContract | None = None
-    builds_within_s: float = Field(default=180.0, gt=0, description="The most that colcon may take")
-    ends_within_s: float = Field(default=2.0, gt=0, description="After Ctrl-C")
+    builds_within_s: Annotated[float, Kind.MOST] = Field(
+        default=180.0, gt=0, description="The most that colcon may take"
+    )
+    ends_within_s: Annotated[float, Kind.MOST] = Field(
+        default=2.0, gt=0, description="After Ctrl-C"
+    )
     pictures: tuple[PictureContract, ...] = ()
-    board: bool = Field(default=False, description="A node talks to a board on a serial port")
-    points: dict[str, float] = Field(description="Check's name to its points")
-    not_judged: tuple[str, ...] = Field(default=(), description="What the student is free in")
+    board: Annotated[bool, Prose] = Field(
+        default=False, description="A node talks to a board on a serial port"
+    )
+    points: Annotated[dict[str, float], Prose] = Field(description="Check's name to its points")
+    not_judged: Annotated[tuple[str, ...], Prose] = Field(
+        default=(), description="What the student is free in"
+    )
 
     @field_validator("points")
     @classmethod

@@ -55,8 +55,7 @@ def read_yaml(path: Path, model: type[Model]) -> Model:
     except ValidationError as error:
         first = error.errors()[0]
         problem = f"{'.'.join(map(str, first['loc']))}: {first['msg']}"
-        tree = yaml.compose(_text(path), Loader=LOADER)
-        raise BadCourseFile(path, _line_of(tree, first["loc"]), problem) from error
+        raise BadCourseFile(path, line_in(path, first["loc"]), problem) from error
 
 
 def read_tree(path: Path) -> Any:
@@ -65,6 +64,11 @@ def read_tree(path: Path) -> Any:
         return yaml.load(_text(path), Loader=LOADER)
     except yaml.YAMLError as error:
         raise _bad_yaml(path, error) from error
+
+
+def line_in(path: Path, location: Location) -> int:
+    """The line in which a value of a YAML file begins."""
+    return _line_of(yaml.compose(_text(path), Loader=LOADER), location)
 
 
 def _text(path: Path) -> str:

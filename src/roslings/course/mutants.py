@@ -29,6 +29,9 @@ class Mutant(Contract):
         default=(), description="Checks that have nothing to judge then, beside the dependants"
     )
     faults: dict[str, str] = Field(default_factory=dict, description="Check to kind of fault")
+    proves: tuple[str, ...] = Field(
+        default=(), description="Places of words of the card that it shows to be judged"
+    )
     edits: tuple[Edit, ...] = ()
     remove: tuple[str, ...] = ()
     write: dict[str, bytes] = Field(
