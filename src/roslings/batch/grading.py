@@ -59,8 +59,13 @@ def answer(order: Order) -> Result:
     result, evidence = grade(order)
     if evidence and order.keeps_evidence:
         order.evidence.write_bytes(packed(evidence))
-    write_whole(order.answer, result.model_dump_json(by_alias=True).encode())
+    put(result, order)
     return result
+
+
+def put(result: Result, order: Order) -> None:
+    """The result into the order's room, where the command looks for it."""
+    write_whole(order.answer, result.model_dump_json(by_alias=True).encode())
 
 
 def packed(evidence: Evidence) -> bytes:

@@ -14,7 +14,6 @@ from roslings import course
 from roslings.batch import grading
 from roslings.batch.result import Order, Result
 from roslings.judge import judge
-from roslings.report.whole_file import write_whole
 
 LIFE = f"{__name__}:main"
 NOTE = "wanted.json"
@@ -41,7 +40,7 @@ def main(order: Order) -> None:
     wanted = Wanted.model_validate_json((order.course / NOTE).read_text("utf-8"))
     result = judged(order, wanted)
     if wanted.is_met(result):
-        write_whole(order.answer, result.model_dump_json(by_alias=True).encode())
+        grading.put(result, order)
     else:
         grading.main(order)
 
