@@ -497,6 +497,11 @@ class ExperimentSeen(Record):
     held_up: dict[str, HeldUp] = Field(
         default_factory=dict, description="Timed stretch to what this computer took from it"
     )
+    devices_wait_s: float = Field(
+        default=0.0,
+        description="While a rate was watched beside stand-ins for devices: how long one of their"
+        " threads was ready to run and the processor was not free",
+    )
     machine_fault: str | None = Field(
         default=None, description="Why its times say nothing about the student"
     )

@@ -169,7 +169,16 @@ def own_rate(rate: Rate | None, seen: ExperimentSeen) -> Rate | None:
     """
     if rate is None:
         return None
-    return rate.held_up(max(seen.cpu_wait_s, canary_late_s(seen) * len(rate.periods_s)))
+    return rate.held_up(held_s(rate, seen))
+
+
+def held_s(rate: Rate, seen: ExperimentSeen) -> float:
+    """So long this computer can have held up the node whose rate this is, in seconds.
+
+    A node that reads from a device waits for the device's stand-in, too.
+    """
+    waited_s = seen.cpu_wait_s + seen.devices_wait_s
+    return max(waited_s, canary_late_s(seen) * len(rate.periods_s))
 
 
 def canary_late_s(seen: ExperimentSeen) -> float:

@@ -33,10 +33,12 @@ def test_no_computer_makes_a_node_twice_as_fast(hz: float) -> None:
     assert watched(hz, stall_s=3.0) is None
 
 
-def kept_waiting(rate: Rate | None, waited_s: float) -> str | None:
-    """A node that waited so long for a processor."""
+def kept_waiting(rate: Rate | None, waited_s: float, devices_s: float = 0.0) -> str | None:
+    """A node that waited so long for a processor, and its device, too."""
     node = ProcessSeen(executable="it", started_ns=0, cpu_wait_s=waited_s)
-    seen = ExperimentSeen(name="alone", clock="wall", processes={"it": node})
+    seen = ExperimentSeen(
+        name="alone", clock="wall", processes={"it": node}, devices_wait_s=devices_s
+    )
     return trouble(seen, rate, LIMIT)
 
 
@@ -53,6 +55,13 @@ def test_what_a_busy_computer_may_have_made_uneven_tells_nothing(
     """Twenty periods, all odd: fifteen too many. It takes half a period of waiting for two."""
     rate = Rate(LIMIT.hz, 0.001, (0.9, 0.1) * 10, 0, stamped)
     assert ("messages are even" in (kept_waiting(rate, waited_s) or "")) is told
+
+
+def test_a_node_waits_for_its_device_too() -> None:
+    """Two seconds in all are enough to make fifteen of twenty periods odd."""
+    rate = Rate(LIMIT.hz, 0.001, (0.9, 0.1) * 10, 0, True)
+    assert kept_waiting(rate, 0.5, devices_s=0.0) is None
+    assert "messages are even" in (kept_waiting(rate, 0.5, devices_s=1.5) or "")
 
 
 def test_the_silence_of_a_node_that_could_not_run_tells_nothing() -> None:

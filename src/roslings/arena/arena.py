@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
@@ -9,6 +10,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from roslings.arena.environment import Wall, ros_environment
+from roslings.arena.kernel import waits
 from roslings.arena.lease import leased_domain
 from roslings.arena.process import Launch, Process
 from roslings.arena.sandbox import Sandbox
@@ -94,6 +96,10 @@ class Arena:
         """The longest time that a thread of theirs was ready to run and no processor was free."""
         waits_ns = (ns for each in self.processes for ns in each.waits_ns().values())
         return max(waits_ns, default=0) / 1e9
+
+    def devices_waits_ns(self) -> dict[str, int]:
+        """As `waits_ns`, of this process, which plays the devices; empty without any."""
+        return waits([os.getpid()]) if any(self.devices.iterdir()) else {}
 
     def all_alive(self) -> bool:
         """Every process that was started still runs."""

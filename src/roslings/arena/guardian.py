@@ -223,9 +223,9 @@ class Guardian:
             return False
         for name in orders.decode().split():
             if name == "WAITS":
-                self.tell({"answer": waits(descendants()), "to": name})
+                self.tell({"answer": kernel.waits(descendants()), "to": name})
             elif name == "OWN_WAITS":
-                self.tell({"answer": waits([self.pid]), "to": name})
+                self.tell({"answer": kernel.waits([self.pid]), "to": name})
             elif name == "STATE":
                 self.tell({"answer": state(self.pid), "to": name})
             elif self.exited is None:
@@ -242,7 +242,7 @@ class Guardian:
                 return
             if ended is None:
                 return
-            waited = waited_ns(ended.si_pid, ended.si_pid)  # told until it is collected
+            waited = kernel.waited_ns(ended.si_pid, ended.si_pid)  # told until it is collected
             pid, status, usage = os.wait4(ended.si_pid, 0)
             if pid == self.pid:
                 self.exited = {
@@ -376,32 +376,6 @@ def descendants() -> list[int]:
     return found
 
 
-def waits(pids: list[int]) -> dict[str, int]:
-    """For each thread of these processes: nanoseconds for which it was ready and had no processor.
-
-    The second number of schedstat (Linux, Documentation/scheduler/sched-stats.rst). Empty where
-    the kernel keeps no such account.
-    """
-    found: dict[str, int] = {}
-    for pid in pids:
-        try:
-            threads = os.listdir(f"/proc/{pid}/task")  # noqa: PTH208
-        except OSError:
-            continue
-        for thread in threads:
-            if (waited := waited_ns(pid, int(thread))) is not None:
-                found[thread] = waited
-    return found
-
-
-def waited_ns(pid: int, thread: int) -> int | None:
-    """So long was a thread ready to run, and no processor was free; None where nobody knows."""
-    try:
-        return int(read(f"/proc/{pid}/task/{thread}/schedstat").split()[1])
-    except (OSError, IndexError, ValueError):
-        return None
-
-
 def state(pid: int) -> str:
     """What the main thread of a process does: R runs or could, S sleeps; empty where it is gone."""
     try:
@@ -429,19 +403,14 @@ def stat_of(pid: int) -> list[bytes]:
 
     Raises OSError where the process is gone.
     """
-    return read(f"/proc/{pid}/stat").rpartition(b")")[2].split()
-
-
-def read(path: str) -> bytes:
-    """The whole of a file of /proc. Raises OSError."""
-    with open(path, "rb") as file:  # noqa: PTH123
-        return file.read()
+    found: bytes = kernel.read(f"/proc/{pid}/stat")
+    return found.rpartition(b")")[2].split()
 
 
 def memory_of(pid: int) -> int:
     """Resident bytes of a process: proc_pid_statm(5)."""
     try:
-        pages = int(read(f"/proc/{pid}/statm").split()[1])
+        pages = int(kernel.read(f"/proc/{pid}/statm").split()[1])
     except (OSError, IndexError):
         return 0
     return pages * os.sysconf("SC_PAGE_SIZE")

@@ -1,4 +1,4 @@
-"""The Linux calls behind an arena that Python 3.10 does not offer by itself.
+"""The Linux calls behind an arena that Python 3.10 does not offer, and the kernel's own accounts.
 
 Standard library only: the guardian and the script beside this file run it in a bare interpreter.
 """
@@ -168,3 +168,35 @@ def adopt_orphans() -> None:
 def cores() -> int:
     """The processors that this process may use."""
     return len(os.sched_getaffinity(0))
+
+
+def waits(pids: list[int]) -> dict[str, int]:
+    """For each thread of these processes: nanoseconds for which it was ready and had no processor.
+
+    The second number of schedstat (Linux, Documentation/scheduler/sched-stats.rst). Empty where
+    the kernel keeps no such account.
+    """
+    found: dict[str, int] = {}
+    for pid in pids:
+        try:
+            threads = os.listdir(f"/proc/{pid}/task")  # noqa: PTH208
+        except OSError:
+            continue
+        for thread in threads:
+            if (waited := waited_ns(pid, int(thread))) is not None:
+                found[thread] = waited
+    return found
+
+
+def waited_ns(pid: int, thread: int) -> int | None:
+    """So long was a thread ready to run, and no processor was free; None where nobody knows."""
+    try:
+        return int(read(f"/proc/{pid}/task/{thread}/schedstat").split()[1])
+    except (OSError, IndexError, ValueError):
+        return None
+
+
+def read(path: str) -> bytes:
+    """The whole of a file of /proc. Raises OSError."""
+    with open(path, "rb") as file:  # noqa: PTH123
+        return file.read()

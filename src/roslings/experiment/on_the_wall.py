@@ -14,7 +14,15 @@ from roslings.course import RateContract
 from roslings.evidence import CanarySeen, Endpoint, ExperimentSeen
 from roslings.experiment.turns import Turns
 from roslings.probe import Probe, canary
-from roslings.rates import LONGEST_STALL_S, MOST_UNEVEN, NS_PER_S, Rate, measure_rate, own_rate
+from roslings.rates import (
+    LONGEST_STALL_S,
+    MOST_UNEVEN,
+    NS_PER_S,
+    Rate,
+    held_s,
+    measure_rate,
+    own_rate,
+)
 
 FIRST_MESSAGE_WITHIN_S = 10.0
 CANARY_WITHIN_S = 20.0
@@ -53,6 +61,7 @@ class WallWatch:
     """Waits for the first message, as long as that is not in vain."""
     turns: Turns = field(default_factory=Turns)
     _began: list[dict[str, int]] = field(default_factory=list)
+    _devices_began: dict[str, int] = field(default_factory=dict)
     _judged: int = -1
     _sure: bool = False
 
@@ -86,6 +95,7 @@ class WallWatch:
 
     def _watch_rate(self) -> None:
         self._began = [process.waits_ns() for process in self.arena.processes]
+        self._devices_began = self.arena.devices_waits_ns()
         period_s = 1 / self.limit.hz
         self.until(lambda: False, SHORTEST_PERIODS * period_s)
         self.until(self._is_sure, (LONGEST_PERIODS - SHORTEST_PERIODS) * period_s)
@@ -108,6 +118,8 @@ class WallWatch:
         for process, before_ns in zip(self.arena.processes, self._began, strict=True):
             if now_ns := process.waits_ns():
                 process.seen.cpu_wait_s = longest_wait_s(before_ns, now_ns)
+        if now_ns := self.arena.devices_waits_ns():
+            self.probe.seen.devices_wait_s = longest_wait_s(self._devices_began, now_ns)
 
     def _rate(self) -> Rate | None:
         return own_rate(measure_rate(self.probe.messages(self._topic())), self.probe.seen)
@@ -144,8 +156,9 @@ def trouble(seen: ExperimentSeen, rate: Rate | None, limit: RateContract) -> str
     waited = f"your node was ready to run and waited {seen.cpu_wait_s:.1f} s for a free processor"
     if rate is None and seen.cpu_wait_s * limit.hz > 1:
         return f"{waited}, so its silence tells nothing"
-    if rate and rate.made_uneven_by(seen.cpu_wait_s):
-        return f"{waited}, so nobody can tell whether its messages are even by themselves"
+    if rate and rate.made_uneven_by(wait_s := held_s(rate, seen)):
+        held = f"this computer held your node up for {wait_s:.1f} s"
+        return f"{held}, so nobody can tell whether its messages are even by themselves"
     return None
 
 
