@@ -6,8 +6,9 @@ What could not be told is graded again; what can never be told is not proven.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from operator import itemgetter
 from pathlib import Path
 from typing import Protocol
 
@@ -188,13 +189,10 @@ def packages_of(lab: Lab) -> list[Package]:
 
 
 def prove(labs: Sequence[Lab], watcher: Watcher, jobs: int | None = None) -> Iterator[Proof]:
-    """All that must hold: what the files tell first, then what the gradings tell.
-
-    Of several labs the last one is graded first: later labs take longer.
-    """
+    """All that must hold: what the files tell first, then what the gradings tell."""
     for lab in labs:
         yield from files_fit(lab)
-    packages = [package for lab in reversed(labs) for package in packages_of(lab)]
+    packages = [package for lab in labs for package in packages_of(lab)]
     yield from gradings_fit(packages, watcher, jobs)
 
 
@@ -216,12 +214,24 @@ def gradings_fit(
 ) -> Iterator[Proof]:
     """Grade packages of any labs at once, and hold the verdicts against what they must be.
 
-    They begin in their order, and what could not be told is tried twice more, alone.
+    What could not be told is tried twice more, alone.
     """
     with run_folder() as scratch:
-        results = graded(packages, scratch, watcher, jobs)
+        results = graded(mixed(packages), scratch, watcher, jobs)
     for package in packages:
         yield proof_of(package, results[package.name])
+
+
+def mixed(packages: Iterable[Package]) -> list[Package]:
+    """Each lab's packages spread over the whole: beside those that wait, others compute.
+
+    The robot of one lab drives in its own time, and the pictures of another fill a processor.
+    """
+    of_lab: dict[str, list[Package]] = {}
+    for package in packages:
+        of_lab.setdefault(package.lab.name, []).append(package)
+    placed = [(n / len(kin), each) for kin in of_lab.values() for n, each in enumerate(kin)]
+    return [each for _, each in sorted(placed, key=itemgetter(0))]
 
 
 @dataclass(frozen=True)
