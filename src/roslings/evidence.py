@@ -146,6 +146,7 @@ class ProcessSeen(Record):
         default=None, description="Exit code; minus the signal's number where a signal ended it"
     )
     ended_by_itself: bool = Field(default=False, description="Before the grader asked it to")
+    asked_to_end_ns: int | None = Field(default=None, description="When Ctrl-C was pressed")
     ending: Ending | None = None
     lines: list[LogLine] = Field(default_factory=list)
     output_bytes: int = 0
@@ -491,6 +492,11 @@ class ExperimentSeen(Record):
         default_factory=list, description="What found no room; of a process: see there"
     )
     watching_s: float = 0.0
+    rate_until_ns: int | None = Field(
+        default=None,
+        description="The end of the watch for a rate in real time: of what came later nobody"
+        " noted what this computer took from it",
+    )
     stall_s: float = Field(
         default=0.0, description="Longest time for which the observer itself was not run"
     )

@@ -217,6 +217,13 @@ def measure_rate(messages: Sequence[MessageSeen]) -> Rate | None:
     return _rate(times_s, _counts(messages), stamped)
 
 
+def in_the_watch(messages: Sequence[MessageSeen], seen: ExperimentSeen) -> Sequence[MessageSeen]:
+    """Those that came while a rate was watched in real time; all where none was."""
+    if (until_ns := seen.rate_until_ns) is None:
+        return messages
+    return [message for message in messages if message.arrival_ns <= until_ns]
+
+
 def measure_simulated_rate(
     messages: Sequence[MessageSeen], ticks: Sequence[Tick], segments: Sequence[Segment]
 ) -> Rate | None:

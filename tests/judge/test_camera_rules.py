@@ -90,6 +90,14 @@ def fault_of(view: Any, *demands: Any) -> type[Fault]:
 # --- the camera ----------------------------------------------------------------------------------
 
 
+def test_a_picture_from_after_ctrl_c_is_not_held_against_the_node() -> None:
+    """Ctrl-C may come in the middle of a read: what a node that goes on shows is half made."""
+    view = filmed(image(0, 1), image(500, 2, off=30.0))
+    assert fault_of(view.topic(FILMED), show_what_the_camera_saw) is camera_faults.WrongPicture
+    view.seen.processes["camera"].asked_to_end_ns = 400 * MS
+    view.topic(FILMED).must(show_what_the_camera_saw)
+
+
 def test_rows_and_bytes() -> None:
     """A step that is the width, and half of the bytes."""
     filmed(image(0, 1)).topic(FILMED).must(hold_whole_rows)

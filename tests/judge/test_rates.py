@@ -11,6 +11,7 @@ from judge_messages import EPOCH_NS, MS, messages
 from roslings.evidence import CanarySeen, ExperimentSeen, ProcessSeen, Segment, Tick
 from roslings.rates import (
     Rate,
+    in_the_watch,
     lateness_s,
     measure_rate,
     measure_simulated_rate,
@@ -201,3 +202,14 @@ def test_an_uncertain_rate_that_was_held_up_below_a_limit_is_blurred(
     periods_s = (0.1, 0.1, 0.1, 0.1, 0.23) * 6
     rate = Rate(1 / 0.126, 2.0, periods_s, 0, True)
     assert rate.held_up(held_s).blurred([8.0, 12.0]) is told
+
+
+def test_what_comes_after_the_watch_is_not_in_the_rate() -> None:
+    """Nobody noted what the computer took from it."""
+    heard = [*messages(grid(500, 21)), *messages([10_500, 14_000, 14_010, 14_020])]
+    seen = ExperimentSeen(name="alone", clock="wall")
+    assert in_the_watch(heard, seen) == heard
+    seen.rate_until_ns = heard[20].arrival_ns
+    rate = measure_rate(in_the_watch(heard, seen))
+    assert rate is not None
+    assert rate.hz == pytest.approx(2.0)

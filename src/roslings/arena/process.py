@@ -235,6 +235,7 @@ class Process:
             return True
         waiting = Waiting(self._own_waits_ns() or {})
         sent_ns = time.monotonic_ns()
+        self.seen.asked_to_end_ns = self.seen.asked_to_end_ns or sent_ns
         self._send(name)
         ended = self._wait_own_time(patience_s, waiting)
         if self.seen.ending is None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -102,6 +103,7 @@ class WallWatch:
         if not self._sure and self.arena.all_alive():
             self.probe.note_longest_watch(self._topic())
         self._note_waits()
+        self.probe.seen.rate_until_ns = time.monotonic_ns()
 
     def _is_sure(self) -> bool:
         """Asked at every look; the sum is done when a message came."""

@@ -97,7 +97,7 @@ def _steps(topic: TopicView, length: int) -> list[tuple[int, int]]:
 
 
 def _images(topic: TopicView) -> list[MessageSeen]:
-    found = [m for m in topic.messages if isinstance(m.content, dict) and "step" in m.content]
+    found = [m for m in topic.before_ctrl_c if isinstance(m.content, dict) and "step" in m.content]
     if not found:
         raise NothingToJudge(f"no picture came on {topic.name}")
     return found

@@ -23,7 +23,7 @@ from roslings.evidence import (
 )
 from roslings.judge.faults import NothingToJudge
 from roslings.near import Near, nearest, nearest_endpoint, own_endpoints
-from roslings.rates import Rate, measure_rate, measure_simulated_rate, own_rate
+from roslings.rates import Rate, in_the_watch, measure_rate, measure_simulated_rate, own_rate
 
 LAST_LINES = 40
 V = TypeVar("V", bound="View")
@@ -177,12 +177,21 @@ class TopicView(View):
         return tuple(self.heard.messages)
 
     @property
+    def before_ctrl_c(self) -> tuple[MessageSeen, ...]:
+        """Those that came before all nodes were asked to end: later ones may be half made."""
+        asked_ns = [each.asked_to_end_ns for each in self.experiment.processes.values()]
+        end_ns = max((at_ns for at_ns in asked_ns if at_ns is not None), default=None)
+        if end_ns is None or None in asked_ns:
+            return self.messages
+        return tuple(message for message in self.messages if message.arrival_ns < end_ns)
+
+    @property
     def rate(self) -> Rate | None:
         """How often they came; None for too few. By the clock that ruled the experiment."""
         seen = self.experiment
         if seen.clock == "sim":
             return measure_simulated_rate(self.messages, seen.ticks, seen.segments)
-        return own_rate(measure_rate(self.messages), seen)
+        return own_rate(measure_rate(in_the_watch(self.messages, seen)), seen)
 
     @property
     def texts(self) -> list[str]:

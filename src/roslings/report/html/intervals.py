@@ -11,6 +11,7 @@ from roslings.near import nearest_endpoint, own_endpoints
 from roslings.rates import (
     NS_PER_S,
     Rate,
+    in_the_watch,
     measure_rate,
     measure_simulated_rate,
     period_bounds_s,
@@ -77,9 +78,10 @@ def _watched(experiment: ExperimentSeen, topic: TopicSeen, asked: Sequence[Asked
     meant = next((each for each in asked if _is_meant(experiment, topic, each)), None)
     if experiment.clock == "sim":
         return _simulated(experiment, topic, meant)
-    rate = measure_rate(topic.messages)
+    messages = in_the_watch(topic.messages, experiment)
+    rate = measure_rate(messages)
     stamped = rate is not None and rate.from_stamps
-    intervals = intervals_of(topic.messages, _source_ns if stamped else _arrival_ns)
+    intervals = intervals_of(messages, _source_ns if stamped else _arrival_ns)
     return Watched(experiment, topic, meant, rate, tuple(intervals) if rate else ())
 
 
