@@ -169,6 +169,27 @@ def test_one_reading_of_the_kernels_table_is_not_believed(monkeypatch: pytest.Mo
     assert any(settling.after(sight(b"us", b"them")) for _ in range(50))
 
 
+def test_where_we_are_late_the_others_are_given_longer(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One of them may have to wait for a processor between its first topic and its second."""
+    now_s = [100.0]
+    monkeypatch.setattr(eye.time, "monotonic", lambda: now_s[0])
+    monkeypatch.setattr(eye, "participants_here", lambda _: frozenset({7410}))
+    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+
+    def quiet_s(late_s: float) -> float:
+        def sleep(for_s: float) -> None:
+            now_s[0] += for_s + late_s
+
+        monkeypatch.setattr(eye.time, "sleep", sleep)
+        settling, began_s = eye.Settling(domain=0), now_s[0]
+        while not settling.after(sight(b"us")):
+            settling.wait()
+        return now_s[0] - began_s
+
+    assert quiet_s(0.0) < 0.15
+    assert quiet_s(0.06) > 5 * 0.06
+
+
 def test_a_program_that_never_answers_is_told(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
