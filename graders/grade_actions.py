@@ -281,7 +281,7 @@ def test_stops(cancelling: ExperimentView) -> None:
     cancelling.must(stop_in_time(SERVER, DRIVE_TO, "cancelled"))
 
 
-@check(needs=["cancel", "arrives"])
+@check(needs=["cancel", "arrives"], explained_by={"next_goal": "StaysBusy"})
 def test_after_cancel(cancelling: ExperimentView) -> None:
     """After a cancel it takes the next goal."""
     cancelling.must(accept_again(SERVER, "after", "after a goal that was cancelled"))
@@ -320,17 +320,17 @@ def test_client_ends(sending: ExperimentView) -> None:
     sending.must(end_so(CLIENT, CLIENT.outcomes["reached"], f"{ELAPSED_S:.1f}"))
 
 
-@check(needs=["client_sends"])
-def test_client_refused(refused: ExperimentView, failing: ExperimentView) -> None:
-    """Refused, or not reached: it says so and ends, exit code 1."""
-    refused.must(end_so(CLIENT, CLIENT.outcomes["refused"]))
-    failing.must(end_so(CLIENT, CLIENT.outcomes["not_reached"]))
-
-
 @check(needs=["builds"])
 def test_no_server(nobody: ExperimentView) -> None:
     """Without a server it says so and ends, exit code {GIVES_UP.exit_code}."""
     nobody.must(give_up(CLIENT))
+
+
+@check(needs=["client_sends"], explained_by={"no_server": "WrongExitCode"})
+def test_client_refused(refused: ExperimentView, failing: ExperimentView) -> None:
+    """Refused, or not reached: it says so and ends, exit code 1."""
+    refused.must(end_so(CLIENT, CLIENT.outcomes["refused"]))
+    failing.must(end_so(CLIENT, CLIENT.outcomes["not_reached"]))
 
 
 # --- the end -----------------------------------------------------------------------------------

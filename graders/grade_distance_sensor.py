@@ -211,7 +211,7 @@ def test_distance(sensing: ExperimentView) -> None:
     sensing.must(show(MEASURED, usual_range))
 
 
-@check(needs=["sensor_runs"])
+@check(needs=["sensor_runs"], explained_by={"distance": "WrongReaction"})
 def test_out_of_range(sensing: ExperimentView) -> None:
     """Too near is -infinity, too far +infinity, NaN is NaN (REP 117)."""
     sensing.must(show(MEASURED, odd_range))

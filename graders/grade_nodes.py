@@ -161,7 +161,7 @@ def test_parameter(quicker: ExperimentView) -> None:
     quicker.topic(STATUS).must(follow_its_parameter(PERIOD, STATUS, QUICK))
 
 
-@check(needs=["stays"])
+@check(needs=["stays"], explained_by={"parameter": "ParameterIgnored"})
 def test_other_names(twice: ExperimentView, alone: ExperimentView) -> None:
     """Run as {FIRST} and {SECOND}, each has its own topic."""
     twice.must(take_names(NODE.other_names))

@@ -144,7 +144,7 @@ def test_reset(serving: ExperimentView) -> None:
     serving.must(answer_each(SERVER, RESET))
 
 
-@check(needs=["server_runs"])
+@check(needs=["server_runs"], explained_by={"reset": "WrongAnswer"})
 def test_state(serving: ExperimentView) -> None:
     """The state is kept: {STATE.topic} says what was set."""
     serving.must(show_each(SERVER.serves, STATE))

@@ -62,6 +62,23 @@ def test_a_changed_limit_changes_that_check_alone(evidence: Evidence, other_cour
     assert "4 messages a second" in rate.title
 
 
+@pytest.mark.parametrize(("fault", "outcome"), [("TooSlow", "skip"), ("TooFast", "fail")])
+def test_one_mistake_costs_one_check(
+    evidence: Evidence, other_course: Path, fault: str, outcome: str
+) -> None:
+    """The same mistake spoils a later check too: that one is skipped, and says what to mend."""
+    card, grader = other_course / "labs/topics/card.yaml", other_course / "graders/grade_topics.py"
+    change(card, "hz: 2.0", "hz: 4.0")
+    change(card, 'text: "Hello', 'text: "Other')
+    ends = '@check(needs=["talker_type"])\ndef test_text('
+    rate = f'@check(needs=["talker_type"], explained_by={{"rate": "{fault}"}})\ndef test_text('
+    verdict = judge(change(grader, ends, rate), evidence)
+    text = next(check for check in verdict.checks if check.id == "text")
+    assert outcomes(verdict)["rate"] == "fail"
+    assert text.outcome == outcome
+    assert ("first mend: " in (text.why or "")) is (outcome == "skip")
+
+
 def test_nothing_seen_is_skipped_and_not_failed(evidence: Evidence) -> None:
     """Without experiments there is nothing to judge about the nodes."""
     empty = evidence.model_copy(update={"experiments": {}})

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
 Function = TypeVar("Function", bound=Callable[..., None])
@@ -15,17 +15,23 @@ class Check:
     """What a check's decorator says; the points stand on the card, under the check's name."""
 
     needs: tuple[str, ...] = ()
+    explained_by: Mapping[str, str] = field(default_factory=dict)
 
 
-def check(*, needs: Sequence[str] = ()) -> Callable[[Function], Function]:
+def check(
+    *, needs: Sequence[str] = (), explained_by: Mapping[str, str] | None = None
+) -> Callable[[Function], Function]:
     """Make a pytest function a check; it is skipped when a check in `needs` did not pass.
+
+    One mistake costs one check: where `explained_by` names an earlier check and the fault that was
+    found there, this check is skipped if it fails too. Where it passes, it has its points.
 
     Its name without `test_` is the check's name; its docstring is what the student reads, with
     the grader's own names in braces: `{CHATTER.topic} carries {CHATTER.type}.`
     """
 
     def mark(function: Function) -> Function:
-        setattr(function, MARK, Check(tuple(needs)))
+        setattr(function, MARK, Check(tuple(needs), explained_by or {}))
         return function
 
     return mark

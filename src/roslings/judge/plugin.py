@@ -49,7 +49,7 @@ class Collector:
         """Turn what happened into one line of the verdict."""
         if call.when == "call" or (call.when == "setup" and call.excinfo):
             error = self._looks.outcome(call.excinfo.value if call.excinfo else None)
-            self.results.append(self._result(item, error))
+            self.results.append(self._result(item, self._explained(item, error)))
         return (yield)
 
     def pytest_collectreport(self, report: pytest.CollectReport) -> None:
@@ -61,6 +61,16 @@ class Collector:
         """The check to mend first: what `need` itself waits for, else `need`; None if it passed."""
         passed = any(r.id == need and r.outcome == "pass" for r in self.results)
         return None if passed else self._roots.get(need, need)
+
+    def _explained(self, item: pytest.Item, error: BaseException | None) -> BaseException | None:
+        """The same, or where an earlier check found this mistake already: that it is the same."""
+        if not isinstance(error, Fault):
+            return error
+        for name, kind in check_of(_function(item)).explained_by.items():
+            if any(r.id == name and r.fault == kind for r in self.results):
+                self._roots[check_name(item)] = name
+                return NothingToJudge(f"first mend: {self._title_of(name)}")
+        return error
 
     def _title_of(self, name: str) -> str:
         titles = {result.id: result.title for result in self.results}

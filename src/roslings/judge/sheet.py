@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -20,16 +21,23 @@ class CheckLine:
     id: str
     title: str
     needs: tuple[str, ...]
+    explained_by: Mapping[str, str]
+    """Earlier checks to the faults there that are the same mistake."""
 
 
 def sheet(lab: Lab) -> list[CheckLine]:
     """The lab's checks, in the grader's order."""
     functions = vars(load_grader(lab.grader)).items()
     return [
-        CheckLine(name.removeprefix(PREFIX), title_of(function), check_of(function).needs)
+        _line(name.removeprefix(PREFIX), function)
         for name, function in functions
         if name.startswith(PREFIX) and inspect.isfunction(function)
     ]
+
+
+def _line(name: str, function: Any) -> CheckLine:
+    said = check_of(function)
+    return CheckLine(name, title_of(function), said.needs, said.explained_by)
 
 
 def title_of(function: Any) -> str:
