@@ -51,7 +51,10 @@ ROOMS_BELOW = {
     "doctor": set[str](),
     "bootstrap": set[str](),
     "devices": set[str](),
-    "ros2": {"evidence", "near", "rates", "rtps", "leaving", "arena", "probe", "report", "doctor"},
+    "ros2": {
+        "evidence", "near", "rates", "endings", "rtps", "leaving", "arena", "probe", "report",
+        "doctor",
+    },
     "jupyter": {"lessons", "workspace"},
     "notebook": {
         "evidence", "near", "course", "lessons", "workspace", "arena", "probe", "report", "devices",

@@ -10,6 +10,10 @@ from collections.abc import Iterable, Sequence
 
 from roslings.evidence import ExperimentSeen, ProcessSeen
 
+NOT_READ_HERE = 69
+"""Exit code of our own `ros2 launch` for a file that only the full ROS reads: EX_UNAVAILABLE of
+sysexits(3). Of such a file nothing can be said."""
+
 
 def is_late(seen: ProcessSeen, limit_s: float) -> bool:
     """After Ctrl-C it took more than `limit_s` of its own time, or had to be killed."""

@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 from terminal import DEAF, Shell, ours
 
+from roslings.endings import NOT_READ_HERE
+
 XML = """\
 <launch>
   <arg name="topic" default="news" description="where to talk"/>
@@ -129,7 +131,7 @@ def test_a_python_launch_file_needs_the_full_ros2(empty: Shell, tmp_path: Path) 
     """Exit 2, and how to get it."""
     written(tmp_path, "a.launch.py", "")
     ran = empty("launch", "a.launch.py")
-    assert ran.code == 2
+    assert ran.code == NOT_READ_HERE
     assert "sudo apt install ros-jazzy-ros-base" in ran.err
 
 
@@ -145,10 +147,29 @@ def test_arguments_are_shown(empty: Shell, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        ("exec=", "exe=", "line 7: 'node' has no attribute 'exe' here. Did you mean exec?"),
-        ("<log", "<logg", "line 4: 'logg' is not known here. Did you mean log?"),
-        ("$(var space)", "$(var spcae)", "line 6: there is no arg or let with the name 'spcae'"),
         ("$(dirname)", "$(command ls)", "line 4: $(command ...) is not known here."),
+        ("<log message", "<shutdown reason", "line 4: 'shutdown' is not known here."),
+        ('name="speaker"', 'respawn="true"', "line 7: 'respawn' of 'node' is not known here."),
+    ],
+)
+def test_what_only_the_full_ros_reads_has_a_code_of_its_own(
+    empty: Shell, tmp_path: Path, old: str, new: str, said: str
+) -> None:
+    """Right there, so no mistake: who judges must not count it as one."""
+    written(tmp_path, "a.launch.xml", XML.replace(old, new))
+    ran = empty("launch", "a.launch.xml")
+    assert ran.code == NOT_READ_HERE
+    assert said in ran.err
+    assert "sudo apt install ros-jazzy-ros-base" in ran.err
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("exec=", "exe=", "line 7: 'node' has no attribute 'exe' here. Did you mean exec?"),
+        ("<log", "<logg", "line 4: there is no 'logg'. Did you mean log?"),
+        ("$(var space)", "$(var spcae)", "line 6: there is no arg or let with the name 'spcae'"),
+        ("$(dirname)", "$(dirnam)", "line 4: there is no $(dirnam ...). Did you mean dirname?"),
         ("</group>", "", "line 13: no valid XML: mismatched tag"),
         (' default="news"', "", "Required launch argument 'topic' (description: 'where to talk')"),
         ("demo_nodes_py", "demo_node_py", "Package 'demo_node_py' not found. Did you mean demo"),

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from roslings.endings import NOT_READ_HERE
 from roslings.experiment.launching import LABEL
-from roslings.judge.faults import NothingToJudge
+from roslings.judge.faults import Inconclusive, NothingToJudge
 from roslings.judge.faults.launching import LaunchFailed, LaunchMissesNode
 from roslings.judge.views import Demand, ExperimentView, ProcessView
 from roslings.judge.words import describe_end
@@ -25,6 +26,8 @@ def start_all(names: Sequence[str]) -> Demand[ExperimentView]:
         process = launch_of(experiment)
         command, there = process.seen.executable, tuple(experiment.seen.graph.nodes)
         how, log = describe_end(process.seen), process.last_lines()
+        if process.seen.status == NOT_READ_HERE:
+            raise Inconclusive(_not_read(log))
         if process.seen.ended_by_itself and not there:
             raise LaunchFailed(command, how, log=log)
         for name in names:
@@ -32,3 +35,11 @@ def start_all(names: Sequence[str]) -> Demand[ExperimentView]:
                 raise LaunchMissesNode(command, how, name, there, log=log)
 
     return demand
+
+
+def _not_read(log: Sequence[str]) -> str:
+    said = next((line.rpartition("[launch]: ")[2] for line in log if "known here" in line), "")
+    return (
+        f"only the full ROS can read this launch file ({said or 'it is written in Python'});"
+        " launch it there, or show it to your instructor"
+    )

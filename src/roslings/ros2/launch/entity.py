@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from roslings.endings import NOT_READ_HERE
 from roslings.ros2.problem import Problem
 
 
@@ -34,3 +35,15 @@ class BadLaunchFile(Problem):
 
     def __init__(self, place: str, reason: str) -> None:
         super().__init__(f"[ERROR] [launch]: {place}: {reason}")
+
+
+class NotReadHere(BadLaunchFile):
+    """Right in Jazzy, and only the full ROS carries it out."""
+
+    exit_code = NOT_READ_HERE
+
+    def __init__(self, place: str, what: str) -> None:
+        super().__init__(
+            place, f"{what} is not known here. It needs the full ros2 on Ubuntu 24.04:"
+            " sudo apt install ros-jazzy-ros-base",
+        )  # fmt: skip

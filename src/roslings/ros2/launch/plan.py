@@ -8,9 +8,10 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from roslings.ros2.launch.entity import BadLaunchFile, Entity
+from roslings.ros2.launch import jazzy
+from roslings.ros2.launch.entity import BadLaunchFile, Entity, NotReadHere
 from roslings.ros2.launch.reading import read_launch_file
-from roslings.ros2.launch.substitution import Scope, filled_in
+from roslings.ros2.launch.substitution import Scope, UnknownSubstitution, filled_in
 from roslings.ros2.problem import Problem, did_you_mean
 
 NODE_ATTRIBUTES = (
@@ -112,12 +113,13 @@ class Planner:
                 yield from self._steps_of(child, scope)
 
     def _steps_of(self, entity: Entity, scope: Scope) -> Iterator[Step]:
+        if entity.tag in jazzy.ELEMENTS:
+            raise NotReadHere(entity.place, f"'{entity.tag}'")
         if entity.tag not in self._actions:
             known = sorted([*self._actions, "push_ros_namespace"])
             raise BadLaunchFile(
-                entity.place, f"'{entity.tag}' is not known here.{did_you_mean(entity.tag, known)}"
-                f" Known: {', '.join(known)}. The others need the full ros2:"
-                " sudo apt install ros-jazzy-ros-base",
+                entity.place, f"there is no '{entity.tag}'.{did_you_mean(entity.tag, known)}"
+                f" Known: {', '.join(known)}.",
             )  # fmt: skip
         yield from self._actions[entity.tag](entity, scope)
 
@@ -235,6 +237,8 @@ def _refuse_others(entity: Entity, known: tuple[str, ...]) -> None:
     """Raises BadLaunchFile where an attribute would be ignored."""
     names = {name.replace("-", "_") for name in entity.attributes} - {*known, "if", "unless"}
     for name in sorted(names):
+        if entity.tag == "node" and name in jazzy.NODE_ATTRIBUTES:
+            raise NotReadHere(entity.place, f"'{name}' of '{entity.tag}'")
         raise BadLaunchFile(
             entity.place, f"'{entity.tag}' has no attribute '{name}' here."
             f"{did_you_mean(name, known)}",
@@ -267,6 +271,8 @@ def filled(entity: Entity, text: str, scope: Scope) -> str:
     """`text` filled in; a fault names the place. Raises BadLaunchFile."""
     try:
         return filled_in(text, scope)
+    except UnknownSubstitution as unknown:
+        raise NotReadHere(entity.place, str(unknown)) from None
     except Problem as problem:
         raise BadLaunchFile(entity.place, str(problem)) from None
 

@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Any
 from xml.parsers import expat
 
+from roslings.endings import NOT_READ_HERE
 from roslings.ros2.launch.entity import BadLaunchFile, Entity
 from roslings.ros2.problem import Problem
-from roslings.ros2.words import WRONG_USE
 
 ROOT = "launch"
 LISTS = (ROOT, "group")
@@ -19,7 +19,7 @@ LISTS = (ROOT, "group")
 class PythonLaunchFile(Problem):
     """Only the full installation runs these."""
 
-    exit_code = WRONG_USE
+    exit_code = NOT_READ_HERE
 
     def __init__(self, path: Path) -> None:
         super().__init__(

@@ -8,11 +8,16 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from roslings.ros2.launch import jazzy
 from roslings.ros2.problem import Problem, did_you_mean
 
 
 class BadSubstitution(Problem):
     """A `$(...)` that cannot be filled in; the caller adds the place."""
+
+
+class UnknownSubstitution(Problem):
+    """Jazzy fills it in, and we do not; the caller adds the place."""
 
 
 @dataclass(frozen=True)
@@ -57,11 +62,12 @@ def _value(inside: str, scope: Scope) -> str:
         name, *words = shlex.split(inside)
     except ValueError:
         raise BadSubstitution(f"$({inside}) is empty or has an open quote") from None
+    if name in jazzy.SUBSTITUTIONS:
+        raise UnknownSubstitution(f"$({name} ...)")
     if name not in KINDS:
         near = did_you_mean(name, KINDS)
         raise BadSubstitution(
-            f"$({name} ...) is not known here.{near} Known: {', '.join(sorted(KINDS))}."
-            " The others need the full ros2: sudo apt install ros-jazzy-ros-base"
+            f"there is no $({name} ...).{near} Known: {', '.join(sorted(KINDS))}."
         )
     return KINDS[name](words, scope)
 
