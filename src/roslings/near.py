@@ -30,6 +30,19 @@ class Near:
     how: How
 
     @property
+    def slip(self) -> str:
+        """Where two names differ by a letter or two: which, as /alve and /alive look alike."""
+        pieces = difflib.SequenceMatcher(None, self.wanted, self.found).get_opcodes()
+        others = [piece for piece in pieces if piece[0] != "equal"]
+        if len(others) != 1:
+            return ""
+        ((_, begin, end, at, to),) = others
+        missing, extra = self.wanted[begin:end], self.found[at:to]
+        if missing and extra:
+            return f"{extra!r} stands where {missing!r} is wanted"
+        return f"{missing!r} is missing" if missing else f"{extra!r} is too much"
+
+    @property
     def exact(self) -> bool:
         """It is the very name."""
         return self.how == "exact"

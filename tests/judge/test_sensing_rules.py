@@ -9,7 +9,7 @@ import pytest
 
 from roslings.evidence import ExperimentSeen, MessageSeen, TopicSeen
 from roslings.experiment.telling import nested
-from roslings.judge.sensing import field_of, same, shown
+from roslings.judge.sensing import field_of, remark, same, shown
 
 INFINITY = math.inf
 
@@ -64,3 +64,17 @@ def test_evidence_keeps_what_json_has_no_number_for() -> None:
     assert same(content["a"], math.nan)
     assert [same(content["b"][0], INFINITY), same(content["b"][1], -INFINITY)] == [True, True]
     assert content["c"] == 1.5
+
+
+@pytest.mark.parametrize(
+    ("found", "wanted", "words"),
+    [
+        (120.0, 1.2, "in cm?"), (1200.0, 1.2, "in mm?"), (-1.2, 1.2, "wrong sign"),
+        (90.0, math.pi / 2, "in degrees?"), (0.012, 1.2, "divided by 100"), (1.3, 1.2, ""),
+        ("NaN", 1.2, ""), (0.0, 0.0, ""),
+    ],
+)  # fmt: skip
+def test_what_a_wrong_number_looks_like(found: Any, wanted: float, words: str) -> None:
+    """Units, mostly."""
+    assert words in remark(found, wanted)
+    assert bool(words) == bool(remark(found, wanted))

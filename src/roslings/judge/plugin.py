@@ -14,6 +14,7 @@ from roslings.course import Lab
 from roslings.judge.check import check_of
 from roslings.judge.dropped import Looks
 from roslings.judge.faults import Fault, Inconclusive, NothingToJudge, Unmet
+from roslings.judge.faults.python_words import hint_for
 from roslings.judge.sheet import title_of
 from roslings.judge.unrecorded import NotRecordedView
 from roslings.judge.views import View
@@ -106,7 +107,7 @@ def _words_for(error: BaseException | None, title: str) -> dict[str, Any]:
             "expected": error.expected,
             "measured": error.measured,
             "why": error.why,
-            "hint": error.hint,
+            "hint": hint_for(error.log) or error.hint,
             "fault": type(error).__name__,
             "log": error.log,
         }

@@ -131,7 +131,7 @@ def _judge(process: ProcessView, turn: Turn, place: Shown, wanted: Any) -> None:
     if turn.message is None:
         raise faults.DoesNotReact(*words, None)
     kind = faults.NotInfinite if _should_be_infinite(found, wanted) else faults.WrongReaction
-    raise kind(*words, shown(found), _remark(found, wanted))
+    raise kind(*words, shown(found), remark(found, wanted))
 
 
 def _require_calm(stall_s: float) -> None:
@@ -205,14 +205,23 @@ def _should_be_infinite(found: Any, wanted: Any) -> bool:
     return goal is not None and not math.isfinite(goal) and number is not None
 
 
-def _remark(found: Any, wanted: Any) -> str:
+LOOKS_LIKE = {
+    2.0: "twice as much", 0.5: "half of it", -1.0: "with the wrong sign",
+    100.0: "a hundred times as much: in cm?", 1000.0: "a thousand times as much: in mm?",
+    0.01: "a hundredth of it: divided by 100 once too often?",
+    0.001: "a thousandth of it: divided by 1000 once too often?",
+    math.degrees(1): "180/pi times as much: in degrees?",
+    math.radians(1): "pi/180 of it: turned into radians once too often?",
+}  # fmt: skip
+"""Found over wanted to what is probably the reason."""
+
+
+def remark(found: Any, wanted: Any) -> str:
     """What the wrong number looks like."""
     goal, number = as_number(wanted), as_number(found)
     if not goal or number is None or not math.isfinite(goal) or not math.isfinite(number):
         return ""
-    looks = {2.0: "twice as much", 0.5: "half of it", 100.0: "a hundred times as much: in cm?"}
-    looks |= {1000.0: "a thousand times as much: in mm?", -1.0: "with the wrong sign"}
-    for factor, words in looks.items():
+    for factor, words in LOOKS_LIKE.items():
         if math.isclose(number / goal, factor, rel_tol=0.02):
             return f", {words}"
     return ""

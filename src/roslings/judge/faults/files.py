@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from roslings.judge.faults.base import Fault
+from roslings.judge.faults.python_words import syntax_hint
 
 
 @dataclass(eq=False)
@@ -81,7 +82,6 @@ class SyntaxErrorInCode(Fault):
 
     place: str
     why = "Python reads a whole file before it runs one line of it."
-    hint = "Look at that line and the one above it: a missing colon, bracket or quotation mark?"
 
     @property
     def expected(self) -> str:
@@ -92,6 +92,13 @@ class SyntaxErrorInCode(Fault):
     def measured(self) -> str:
         """File, line and Python's words."""
         return self.place
+
+    @property
+    def hint(self) -> str:
+        """What these words ask for."""
+        return syntax_hint(self.place) or (
+            "Look at that line and the one above it: a missing colon, bracket or quotation mark?"
+        )
 
 
 @dataclass(eq=False)

@@ -236,6 +236,6 @@ def guess(near: Near) -> str:
     sentences = {
         "namespace": ": another namespace?",
         "case": ": capital letters?",
-        "spelling": ": a spelling mistake?",
+        "spelling": f": a spelling mistake? {near.slip}".rstrip(),
     }
     return sentences.get(near.how, "")
