@@ -55,7 +55,7 @@ class Count:
         )
         yield f"{self.kind}: {passed + wrong} of {len(self.there)} graded, {wrong} wrong"
         if skipped:
-            yield f"  {skipped} skipped: this machine cannot hold them, or had no time left; the tests say why."
+            yield f"  {skipped} skipped: no room or no time on this machine; the tests say which."
         if self.missing:
             yield f"  MISSING {len(self.missing)}: {', '.join(self.missing)}"
 
