@@ -87,3 +87,20 @@ def test_it_is_proven(written: Lab, tmp_path: Path) -> None:
     command = [sys.executable, "-m", "roslings", "prove", written.name]
     done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path)
     assert done.returncode == 0, done.stdout + done.stderr
+
+
+@pytest.mark.slow
+def test_each_word_of_its_card_is_judged(written: Lab, tmp_path: Path) -> None:
+    """Step 5, and the mutant that it shows."""
+    assert yaml.safe_load(blocks("yaml")[2]).items() <= _mutant(written, "best_effort").items()
+    command = [sys.executable, "-m", "roslings", "prove", written.name, "--contract"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert re.search(r"(\d+) of \1 words of the card are judged \(100%\)", done.stdout)
+
+
+def _mutant(lab: Lab, name: str) -> dict[str, object]:
+    found: dict[str, object] = yaml.safe_load(
+        (lab.folder / "mutants" / f"{name}.yaml").read_text("utf-8")
+    )
+    return found
