@@ -583,8 +583,8 @@ class CancelRefused(Fault):
 
     why = "Who cannot cancel must wait, or pull the plug."
     hint = (
-        "Without a cancel callback, ROS refuses each cancel. Give ActionServer(...) a"
-        " cancel_callback=FUNCTION that returns CancelResponse.ACCEPT."
+        "ROS refuses each cancel where ActionServer(...) has no cancel_callback=FUNCTION, and where"
+        " that function ends without `return CancelResponse.ACCEPT`. Which is it?"
     )
 
     @property
