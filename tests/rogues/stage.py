@@ -31,6 +31,9 @@ from roslings.evidence import Evidence
 HERE = Path(__file__).parent
 NOBODY = 65534
 LONG_S = 7200.0
+UNTIL_S = float(os.environ.get("ROSLINGS_TESTS_UNTIL", "inf"))
+"""After this moment of time.time(), what takes the whole machine begins no more."""
+NO_TIME = "no time was left for it on this machine (ROSLINGS_TESTS_UNTIL)"
 BUILDS_WITHIN_S = 45.0
 """What never comes to an end burns a processor for that long; an honest build takes a second."""
 QUIET_WITHIN_S = 60.0

@@ -27,7 +27,18 @@ import pytest
 from gallery import Seen, seen_of, untrue
 from parcels import PARCELS, Parcel
 from rogue import LAB, Attempt, Truth, attempts
-from stage import LONG_S, Stage, abandoned_groups, adopting, children, known, quiet, stage
+from stage import (
+    LONG_S,
+    NO_TIME,
+    UNTIL_S,
+    Stage,
+    abandoned_groups,
+    adopting,
+    children,
+    known,
+    quiet,
+    stage,
+)
 
 from roslings.arena import choose_isolation
 from roslings.course import Mutant
@@ -145,6 +156,8 @@ def test_killed_and_resumed_nothing_is_lost_doubled_or_left(ordinary: bool) -> N
     """Three ends in the middle; then each has its verdict, and nothing else is there."""
     if ordinary and os.geteuid() != 0:
         pytest.skip("these tests run as an ordinary user already")
+    if time.time() >= UNTIL_S:
+        pytest.skip(NO_TIME)
     handed = mixed(MANY)
     with stage(ordinary) as made, adopting() as left:
         for each in handed:

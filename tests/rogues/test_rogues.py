@@ -28,6 +28,7 @@ from gallery import Entry, Gallery, Seen, hang, hang_in_turns, next_to, turns, u
 from once import once
 from parcels import PARCELS, Parcel
 from rogue import Attempt, attempts
+from stage import NO_TIME, UNTIL_S
 
 from roslings.arena import choose_isolation
 from roslings.batch.opening import package_in
@@ -39,7 +40,6 @@ HARMLESS = ("exits_0_from_atexit-run", "fake_std_msgs", "reads-build", "zip_link
 
 JOBS, JOBS_OF_THE_WILD = 4, 2
 """Most of a grading is waiting. One that rages has its honest neighbour beside it, and no other."""
-UNTIL_S = float(os.environ.get("ROSLINGS_TESTS_UNTIL", "inf"))
 LACK = choose_isolation().lack
 NO_SANDBOX = f"{LACK.reason}: {LACK.next_step}" if LACK else ""
 needs_sandbox = pytest.mark.skipif(bool(LACK), reason=NO_SANDBOX)
@@ -191,7 +191,7 @@ def insist_on(name: str, gallery: Gallery) -> None:
         insist_on_nothing_left(gallery)
         return
     if name not in gallery.seen:
-        pytest.skip("no time was left for it on this machine (ROSLINGS_TESTS_UNTIL)")
+        pytest.skip(NO_TIME)
     seen = gallery.seen[name]
     assert seen.reached == []
     assert untrue(ENTRIES[name].truth, seen) == []
