@@ -309,6 +309,12 @@ def test_client_sends(sending: ExperimentView) -> None:
 
 
 @check(needs=["client_sends"])
+def test_client_name(nobody: ExperimentView) -> None:
+    """The client's node is called {CLIENT.node}."""
+    nobody.node(CLIENT).must(be_named)
+
+
+@check(needs=["client_sends"])
 def test_client_tells(sending: ExperimentView) -> None:
     """The client shows the progress: each distance."""
     sending.must(show_each(CLIENT, TELLS))

@@ -65,15 +65,17 @@ NEUTRAL, LEVELS = CAMERA.constant("neutral_brightness"), CAMERA.constant("levels
 SMALLEST, WITHIN = FINDER.constant("smallest_ball"), FINDER.constant("within")
 SCREEN = Screen(FINDER, BALL, DRAWN, WITHIN)
 RED, GREEN, BLUE = int(HUE.default), int(HUE.tried), 115
-LIT = (51, int(BRIGHTNESS.tried), 0)
+LIT = (51, int(BRIGHTNESS.tried), *BRIGHTNESS.ends)
 """The brightnesses that are tried, one after the other."""
 
+FIRST_HUE, LAST_HUE = HUE.ends
 SMALL, LARGE, ODD = (160, 120), (640, 480), (147, 101)
 PARTS = ["ball", "none", "rgb8", "rows", "mono8"]
 PLAIN_PARTS = ["ball", "none"]
 """Where a picture needs no conversion: what goes wrong in others is told by other checks."""
 
-WRONG_BRIGHTNESS, WRONG_HUE = (300, "light"), (200, "red")
+WRONG_BRIGHTNESS, WRONG_HUE = (*BRIGHTNESS.beyond, "light"), (*HUE.beyond, "red")
+BAD_PICTURE = str(FINDER.log).partition("{")[0]
 
 
 # --- pictures ----------------------------------------------------------------------------------
@@ -192,9 +194,9 @@ def retuning(scene: Scene) -> None:
         change_parameter(scene, FINDER, HUE.name, GREEN)
         screen.show("hue", with_decoy(scene, GREEN, RED))
         screen.show("hue", shot(scene, hue=GREEN))
-        change_parameter(scene, FINDER, HUE.name, 178)
+        change_parameter(scene, FINDER, HUE.name, LAST_HUE)
         screen.show("across", shot(scene, hue=0))
-        change_parameter(scene, FINDER, HUE.name, 2)
+        change_parameter(scene, FINDER, HUE.name, FIRST_HUE)
         screen.show("across", shot(scene, hue=175))
         for wrong in WRONG_HUE:
             change_parameter(scene, FINDER, HUE.name, wrong)
@@ -207,8 +209,8 @@ def spoiled(scene: Scene) -> None:
         screen = Projector(scene, process, SEEN, BALL, DRAWN)
         screen.begin()
         screen.show("before", shot(scene))
-        screen.show_spoiled("short", "bgr8", missing=160 * 3 * 20, words="Bad picture")
-        screen.show_spoiled("unknown", "16UC1", missing=0, words="Bad picture")
+        screen.show_spoiled("short", "bgr8", missing=160 * 3 * 20, words=BAD_PICTURE)
+        screen.show_spoiled("unknown", "16UC1", missing=0, words=BAD_PICTURE)
         screen.show("after", shot(scene))
 
 

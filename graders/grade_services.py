@@ -22,6 +22,7 @@ from roslings.judge import (
     have_rate,
     install,
     list_what_it_imports,
+    match_qos,
 )
 from roslings.judge.demands import written
 from roslings.judge.services import (
@@ -42,7 +43,8 @@ SERVER, CLIENT = CARD.node("motor_controller"), CARD.node("motor_client")
 STATE = SERVER.publishes[0]
 SET_MAX_SPEED, RESET = SERVER.serves
 ASKED = CLIENT.calls[0]
-IN_A_ROW, CLIENTS, TIMES = 100, 4, 25
+RESET_AGAIN = RESET.whatever_it_answers
+IN_A_ROW, CLIENTS, TIMES, RESETS = 100, 4, 25, 20
 GIVES_UP = written(CLIENT.gives_up, CLIENT.node)
 
 
@@ -60,6 +62,7 @@ def serving(scene: Scene) -> None:
         asker.ask_at_once(SET_MAX_SPEED, SET_MAX_SPEED.answers, TIMES, CLIENTS)
         asker.ask_once(SET_MAX_SPEED, SET_MAX_SPEED.answers[0])
         asker.ask_each(RESET, RESET.answers, STATE)
+        asker.ask_in_a_row(RESET_AGAIN, RESET_AGAIN.answers, RESETS, part="resets")
 
 
 @experiment
@@ -116,7 +119,7 @@ def test_server_name(serving: ExperimentView) -> None:
 @check(needs=["server_runs"])
 def test_state_topic(serving: ExperimentView) -> None:
     """It publishes {STATE.type} on {STATE.topic}, {STATE.rate.hz:g} Hz."""
-    serving.publisher(SERVER, STATE).must(be_there, carry_its_type)
+    serving.publisher(SERVER, STATE).must(be_there, carry_its_type, match_qos)
     before_the_calls(serving, STATE).must(have_rate(STATE))
 
 
@@ -140,11 +143,14 @@ def test_set_max_speed(serving: ExperimentView) -> None:
 
 @check(needs=["server_runs"])
 def test_reset(serving: ExperimentView) -> None:
-    """{RESET.service} answers with success and message, in both cases."""
-    serving.must(answer_each(SERVER, RESET))
+    """{RESET.service} answers with success and message, in both cases, in {RESET.within_s:g} s."""
+    serving.must(
+        answer_each(SERVER, RESET),
+        answer_in_time(SERVER, RESET_AGAIN, "resets", "resets in a row", RESETS),
+    )
 
 
-@check(needs=["server_runs"], explained_by={"reset": "WrongAnswer"})
+@check(needs=["server_runs"], explained_by={"set_max_speed": "WrongAnswer", "reset": "WrongAnswer"})
 def test_state(serving: ExperimentView) -> None:
     """The state is kept: {STATE.topic} says what was set."""
     serving.must(show_each(SERVER.serves, STATE))
@@ -170,6 +176,12 @@ def test_at_once(serving: ExperimentView) -> None:
 def test_client_asks(asking: ExperimentView) -> None:
     """The client calls {ASKED.service}, with data: true."""
     asking.must(ask(CLIENT, ASKED))
+
+
+@check(needs=["client_asks"])
+def test_client_name(nobody: ExperimentView) -> None:
+    """The client's node is called {CLIENT.node}."""
+    nobody.node(CLIENT).must(be_named)
 
 
 @check(needs=["client_asks"])

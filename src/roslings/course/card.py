@@ -101,6 +101,19 @@ class ParameterContract(Contract):
         default=False, description="A change acts at once, while the node runs"
     )
 
+    @property
+    def ends(self) -> tuple[int, int]:
+        """The smallest and the largest whole number that it takes. Raises ValueError."""
+        if self.least is None or self.most is None:
+            raise ValueError(f"the parameter {self.name} has no limits: give it least and most")
+        return int(self.least), int(self.most)
+
+    @property
+    def beyond(self) -> tuple[int, int]:
+        """The nearest whole numbers that it refuses, below and above. Raises ValueError."""
+        least, most = self.ends
+        return least - 1, most + 1
+
 
 class ConstantContract(Contract):
     """A number that the node reckons with."""
@@ -132,6 +145,12 @@ class ServiceContract(Contract):
         default=None, gt=0, description="The answer comes in this time"
     )
     answers: tuple[AnswerContract, ...] = ()
+
+    @property
+    def whatever_it_answers(self) -> ServiceContract:
+        """The same, with one answer that is not compared: for who asks only how soon it comes."""
+        any_answer = self.answers[0].model_copy(update={"response": {}})
+        return self.model_copy(update={"answers": (any_answer,)})
 
 
 class ActionContract(Contract):

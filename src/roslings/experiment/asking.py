@@ -58,10 +58,14 @@ class Asker:
             self._ask(callers, [answer], "before", 0)
 
     def ask_in_a_row(
-        self, service: ServiceContract, answers: Sequence[AnswerContract], count: int
+        self,
+        service: ServiceContract,
+        answers: Sequence[AnswerContract],
+        count: int,
+        part: str = "row",
     ) -> None:
         """Ask again and again, in turn for each of `answers`; stop when too many were late."""
-        self._ask_often(service, answers, count, clients=1, part="row")
+        self._ask_often(service, answers, count, clients=1, part=part)
 
     def ask_at_once(
         self, service: ServiceContract, answers: Sequence[AnswerContract], count: int, clients: int

@@ -348,12 +348,13 @@ def give_up(node: NodeContract) -> Demand[ExperimentView]:
 
     def demand(experiment: ExperimentView) -> None:
         process = experiment.process(node)
-        if not process.seen.ended_by_itself:
+        late_s = process.ran_s - contract.within_s
+        if not process.seen.ended_by_itself or late_s > 0:
             require_steady(experiment.seen.stall_s)
-            late_s = process.ran_s - contract.within_s
             require_its_time(experiment.seen, CLIENT_ENDS, late_s, "the client's end")
             wait = "wait_for_server" if node.orders else "wait_for_service"
-            raise faults.NeverGivesUp(node.executable, process.ran_s, contract.within_s, wait)
+            kind = faults.GivesUpLate if process.seen.ended_by_itself else faults.NeverGivesUp
+            raise kind(node.executable, process.ran_s, contract.within_s, wait)
         if not any(contract.log in text for text in process.texts):
             require_no_crash(process, f"writes {contract.log!r} when there is no server")
             near = most_similar(contract.log, process.texts)

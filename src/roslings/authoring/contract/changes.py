@@ -24,6 +24,9 @@ OTHER_TYPES = {
 TYPE = re.compile(r"^[a-z0-9_]+/(msg|srv|action)/\w+$")
 NEXT_TO_NOTHING_S = 0.001
 HUGE = 100_000
+FAR = 4
+"""A rate is another one where it lies so many tolerances away."""
+
 BESIDE = 0.05
 """So far from a limit, as a part of the tolerance, lie the two sides of it."""
 
@@ -62,6 +65,9 @@ def changes_of(word: Word) -> list[Change]:
 
 
 def _other(word: Word) -> Iterator[Change]:
+    if word.key == "hz":
+        yield _says(word, word.value * (1 + FAR * word.around["within"]))
+        return
     for value in _others(word.value, word.choices):
         yield _says(word, value)
 

@@ -394,6 +394,16 @@ class NeverGivesUp(ClientStays):
 
 
 @dataclass(eq=False)
+class GivesUpLate(NeverGivesUp):
+    """There is no server, and the client waits long before it says so."""
+
+    @property
+    def measured(self) -> str:
+        """When it ended."""
+        return f"it ended {self.waited_s:.1f} s after its start"
+
+
+@dataclass(eq=False)
 class WrongExitCode(Fault):
     """The program's exit code does not tell how it went."""
 
