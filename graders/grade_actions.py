@@ -65,11 +65,13 @@ GIVES_UP = written(CLIENT.gives_up, CLIENT.node)
 GOAL = DRIVE_TO.goal
 CENTRE = {"x": 3.0, "y": 2.5, "tolerance": 0.1}
 ASKED = {parameter.name: float(parameter.tried) for parameter in CLIENT.parameters}
+USUAL = {parameter.name: float(parameter.default) for parameter in CLIENT.parameters}
 TELLS = ("1.87", "1.23", "0.64", "0.12")
 ELAPSED_S = 7.3
 
 WEST, EAST = SERVER.constant("west"), SERVER.constant("east")
 SOUTH, NORTH = SERVER.constant("south"), SERVER.constant("north")
+INSIDE_M = 0.02
 OUTSIDE = "it lies outside of the map"
 IMPOSSIBLE = {
     "too far east": ({"x": EAST + 1.0}, OUTSIDE),
@@ -123,8 +125,27 @@ def refusing(scene: Scene) -> None:
     with scene.run(SERVER) as process, robot_beside(scene, start, CMD_VEL, ODOM) as robot:
         director = Director(scene, process, SERVER, DRIVE_TO, robot)
         for part, (wrong, _) in IMPOSSIBLE.items():
-            director.refuse(part, {**CENTRE, **wrong})
+            director.give_and_cancel(part, {**CENTRE, **wrong})
         director.disturb("kept", CENTRE, GOAL, after_m=0.2)
+
+
+@experiment
+def north_east(scene: Scene) -> None:
+    """The server gets a goal just inside of one corner of the map."""
+    _give_alone(scene, "north east", EAST - INSIDE_M, NORTH - INSIDE_M)
+
+
+@experiment
+def south_west(scene: Scene) -> None:
+    """The server gets a goal just inside of the other corner."""
+    _give_alone(scene, "south west", WEST + INSIDE_M, SOUTH + INSIDE_M)
+
+
+def _give_alone(scene: Scene, part: str, x: float, y: float) -> None:
+    start = start_near(scene, CENTRE["x"], CENTRE["y"], 0.9, 1.1)
+    with scene.run(SERVER) as process, robot_beside(scene, start, CMD_VEL, ODOM) as robot:
+        director = Director(scene, process, SERVER, DRIVE_TO, robot)
+        director.give_and_cancel(part, {"x": x, "y": y, "tolerance": 0.1})
 
 
 @experiment
@@ -227,9 +248,13 @@ def test_action_type(driving: ExperimentView) -> None:
 
 
 @check(needs=["action_type"])
-def test_accepts(driving: ExperimentView) -> None:
-    """It accepts a goal on the map."""
+def test_accepts(
+    driving: ExperimentView, north_east: ExperimentView, south_west: ExperimentView
+) -> None:
+    """It accepts a goal on the map, also at its corners."""
     driving.must(accept(SERVER, "first", "when the rover has nothing to do"))
+    north_east.must(accept(SERVER, "north east", "just inside of the map"))
+    south_west.must(accept(SERVER, "south west", "just inside of the map"))
 
 
 @check(needs=["accepts"])
@@ -303,9 +328,10 @@ def test_at_once(refusing: ExperimentView) -> None:
 
 
 @check(needs=["builds"])
-def test_client_sends(sending: ExperimentView) -> None:
-    """The client sends the goal that its parameters say."""
+def test_client_sends(sending: ExperimentView, refused: ExperimentView) -> None:
+    """The client sends the goal that its parameters say; with no word, their defaults."""
     sending.must(send_goal(CLIENT, ORDER, ASKED))
+    refused.must(send_goal(CLIENT, ORDER, USUAL))
 
 
 @check(needs=["client_sends"])

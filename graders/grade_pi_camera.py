@@ -10,6 +10,7 @@ from roslings.devices.rover import Disc
 from roslings.experiment import Scene, experiment
 from roslings.experiment.filming import PICTURES, camera_beside, change_parameter
 from roslings.experiment.showing import Projector, Shot, place_ball
+from roslings.experiment.starting import list_parameters
 from roslings.judge import (
     ExperimentView,
     PackageView,
@@ -55,11 +56,13 @@ from roslings.judge.showing import (
     follow_the_hue,
     survive,
 )
+from roslings.judge.starting import declare_its_parameters
 
 CARD = lab("pi-camera").card
 CAMERA, FINDER = CARD.node("camera"), CARD.node("ball_finder")
 IMAGE, SEEN = CAMERA.publishes[0], FINDER.subscribes[0]
 BALL, DRAWN = FINDER.publishes
+DEVICE = CAMERA.parameter("device")
 BRIGHTNESS, HUE = CAMERA.parameter("brightness"), FINDER.parameter("ball_hue")
 NEUTRAL, LEVELS = CAMERA.constant("neutral_brightness"), CAMERA.constant("levels")
 SMALLEST, WITHIN = FINDER.constant("smallest_ball"), FINDER.constant("within")
@@ -135,7 +138,8 @@ def lighting(scene: Scene) -> None:
     with camera_beside(scene) as camera, scene.run(CAMERA, start=camera.start()):
         for value in LIT:
             camera.expect_lighter((value - NEUTRAL) * LEVELS)
-        camera.await_pictures(IMAGE, 2)
+        if camera.await_pictures(IMAGE, 2):
+            list_parameters(scene, CAMERA)
         for value in LIT:
             if change_parameter(scene, CAMERA, BRIGHTNESS.name, value):
                 camera.await_pictures(IMAGE, 8)
@@ -191,6 +195,7 @@ def retuning(scene: Scene) -> None:
         screen = Projector(scene, process, SEEN, BALL, DRAWN)
         screen.begin()
         screen.show("before", shot(scene))
+        list_parameters(scene, FINDER)
         change_parameter(scene, FINDER, HUE.name, GREEN)
         screen.show("hue", with_decoy(scene, GREEN, RED))
         screen.show("hue", shot(scene, hue=GREEN))
@@ -383,6 +388,13 @@ def test_bad_pictures(spoiled: ExperimentView) -> None:
 
 
 # --- both --------------------------------------------------------------------------------------
+
+
+@check(needs=["camera_runs", "finder_runs"])
+def test_parameters(lighting: ExperimentView, retuning: ExperimentView) -> None:
+    """Both nodes have the parameters of the card, with their types and defaults."""
+    lighting.must(declare_its_parameters(CAMERA, DEVICE.name))
+    retuning.must(declare_its_parameters(FINDER))
 
 
 @check(needs=["brightness", "hue"])

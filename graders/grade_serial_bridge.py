@@ -7,6 +7,7 @@ node beside a board and watch both; checks read what was seen and run nothing.
 from roslings.course import lab
 from roslings.experiment import Scene, experiment
 from roslings.experiment.cable import board_beside
+from roslings.experiment.starting import list_parameters
 from roslings.judge import (
     ExperimentView,
     PackageView,
@@ -39,9 +40,11 @@ from roslings.judge.cable import (
     tell_nothing_else,
     tell_the_speeds,
 )
+from roslings.judge.starting import declare_its_parameters
 
 CARD = lab("serial-bridge").card
 BRIDGE = CARD.node("serial_bridge")
+PORT = BRIDGE.parameter("port")
 WHEELS, ODOM = BRIDGE.publishes
 CMD_VEL = BRIDGE.subscribes[0]
 STRAIGHT, TURN, ARC = (0.3, 0.0), (0.0, 1.2), (0.25, -0.8)
@@ -113,7 +116,8 @@ def unplugged(scene: Scene) -> None:
 def nonsense(scene: Scene) -> None:
     """A command that is no number."""
     with board_beside(scene) as cable, scene.run(BRIDGE, start=cable.start()):
-        cable.await_messages(WHEELS, 10)
+        if cable.await_messages(WHEELS, 10):
+            list_parameters(scene, BRIDGE)
         cable.say_nonsense(CMD_VEL)
         cable.await_messages(WHEELS, 25)
 
@@ -152,6 +156,12 @@ def test_runs(driving: ExperimentView) -> None:
 def test_name(driving: ExperimentView) -> None:
     """The node is called {BRIDGE.node}."""
     driving.node(BRIDGE).must(be_named)
+
+
+@check(needs=["runs"])
+def test_parameters(nonsense: ExperimentView) -> None:
+    """It has the parameters of the card, with their types and defaults."""
+    nonsense.must(declare_its_parameters(BRIDGE, PORT.name))
 
 
 @check(needs=["runs"])

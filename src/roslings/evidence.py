@@ -341,6 +341,15 @@ class BoardSeen(Record):
     lost_bytes: int = Field(default=0, description="Sent by the board, and read too late")
 
 
+class ParameterDeclared(Record):
+    """One parameter of a node, as the node itself says it."""
+
+    node: str
+    name: str
+    type: Literal["bool", "integer", "double", "string", "other"]
+    value: bool | int | float | str | None = Field(description="None where the type is another")
+
+
 class ParameterSet(Record):
     """One try to set a node's parameter while it ran."""
 
@@ -480,6 +489,7 @@ class ExperimentSeen(Record):
     parameters: dict[str, list[str]] = Field(
         default_factory=dict, description="Node to the names of its parameters"
     )
+    declared: list[ParameterDeclared] = Field(default_factory=list)
     parameter_sets: list[ParameterSet] = Field(default_factory=list)
     shown: list[PictureShown] = Field(default_factory=list, description="By the grader")
     stages: list[StageMark] = Field(default_factory=list)

@@ -118,8 +118,8 @@ class Director:
                 self._note_lateness(given)
                 self._silent = not (on_its_way and given.ended)
 
-    def refuse(self, part: str, goal: Mapping[str, float]) -> None:
-        """Give a goal that is to be refused; one that is accepted is cancelled at once."""
+    def give_and_cancel(self, part: str, goal: Mapping[str, float]) -> None:
+        """Give a goal, and see whether it is accepted; if it is, it is cancelled at once."""
         with self.giving() as giver:
             if given := self._give(giver, part, goal):
                 self._cancel(given)

@@ -6,16 +6,19 @@ from roslings.course import NodeContract
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
 from roslings.experiment.scene import Scene
 from roslings.near import nearest, own_endpoints
-from roslings.probe.calling import parameters_of
+from roslings.probe.calling import declared_by, parameters_of
 
 
 def list_parameters(scene: Scene, node: NodeContract) -> None:
-    """Ask the node, or the one nearest to it, which parameters it has."""
+    """Ask the node, or the one nearest to it, which parameters it has, and what they are."""
     near = nearest(node.node, scene.seen.graph.nodes)
     if near:
         lives = scene.arena.all_alive
         names = parameters_of(scene.probe, near.found, FIRST_MESSAGE_WITHIN_S, lives)
         scene.seen.parameters[near.found] = names
+        scene.seen.declared += declared_by(
+            scene.probe, near.found, names, FIRST_MESSAGE_WITHIN_S, lives
+        )
 
 
 def await_publishers(scene: Scene) -> None:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import difflib
+import math
 from collections.abc import Sequence
 
 from roslings.course import NodeContract, ParameterContract, RateContract, TopicContract
+from roslings.evidence import ParameterDeclared
 from roslings.judge.demands import have_rate, require_believable, require_steady, written
 from roslings.judge.faults import NothingToJudge
 from roslings.judge.faults.starting import (
@@ -14,6 +16,8 @@ from roslings.judge.faults.starting import (
     ParameterIgnored,
     ParameterMisread,
     TopicStays,
+    WrongDefault,
+    WrongParameterType,
 )
 from roslings.judge.views import Demand, ExperimentView, TopicView
 from roslings.near import nearest_endpoint, own_endpoints
@@ -37,6 +41,41 @@ def has_parameter(node: NodeContract, parameter: ParameterContract) -> Demand[Ex
             raise NoParameter(name, parameter.name, own, near[0] if near else None)
 
     return demand
+
+
+def declare_its_parameters(node: NodeContract, *given: str) -> Demand[ExperimentView]:
+    """Each parameter of the card is there, of its type and with its default.
+
+    `given` are those that the node was started with: their defaults cannot be seen.
+    """
+
+    def demand(experiment: ExperimentView) -> None:
+        for parameter in node.parameters:
+            experiment.must(has_parameter(node, parameter))
+            found = _declared(experiment, node, parameter)
+            if found.type != parameter.type:
+                raise WrongParameterType(found.node, found.name, parameter.type, found.type)
+            if parameter.name not in given and not _same(found.value, parameter.default):
+                wanted, is_ = repr(parameter.default), repr(found.value)
+                raise WrongDefault(found.node, found.name, wanted, is_)
+
+    return demand
+
+
+def _declared(
+    experiment: ExperimentView, node: NodeContract, parameter: ParameterContract
+) -> ParameterDeclared:
+    name = experiment.node(node).near.found
+    for each in experiment.seen.declared:
+        if (each.node, each.name) == (name, parameter.name):
+            return each
+    raise NothingToJudge(f"{name} did not say what its parameters are")
+
+
+def _same(found: object, wanted: object) -> bool:
+    if isinstance(found, float) and isinstance(wanted, (int, float)):
+        return math.isclose(found, wanted, rel_tol=1e-6)
+    return found == wanted
 
 
 def follow_its_parameter(

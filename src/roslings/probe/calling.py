@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from types import TracebackType
-from typing import Any
+from typing import Any, Literal
 
-from roslings.evidence import CallSeen, ParameterSet
+from roslings.evidence import CallSeen, ParameterDeclared, ParameterSet
 from roslings.probe.content import message_class, to_plain
 from roslings.probe.probe import Probe
 
@@ -143,6 +143,38 @@ def parameters_of(
         call = caller.send({})
         call.wait(within_s, while_true)
     return list(call.seen.response["result"]["names"]) if call.seen.response else []
+
+
+KINDS: dict[int, Literal["bool", "integer", "double", "string"]] = {
+    1: "bool", 2: "integer", 3: "double", 4: "string",
+}  # fmt: skip
+"""The numbers of rcl_interfaces/msg/ParameterType."""
+
+
+def declared_by(
+    probe: Probe,
+    node: str,
+    names: Sequence[str],
+    within_s: float,
+    while_true: Callable[[], bool] = lambda: True,
+) -> list[ParameterDeclared]:
+    """Type and value of a node's parameters, as the node itself says; empty without an answer."""
+    service, type_ = f"{node}/get_parameters", "rcl_interfaces/srv/GetParameters"
+    with Caller(probe, service, type_) as caller:
+        probe.until(lambda: caller.ready or not while_true(), within_s)
+        if not caller.ready:
+            return []
+        call = caller.send({"names": list(names)})
+        call.wait(within_s, while_true)
+    values = call.seen.response["values"] if call.seen.response else []
+    return [_declared(node, name, value) for name, value in zip(names, values, strict=False)]
+
+
+def _declared(node: str, name: str, value: Mapping[str, Any]) -> ParameterDeclared:
+    kind = KINDS.get(value["type"])
+    if kind is None:
+        return ParameterDeclared(node=node, name=name, type="other", value=None)
+    return ParameterDeclared(node=node, name=name, type=kind, value=value[f"{kind}_value"])
 
 
 def set_parameter(

@@ -757,8 +757,8 @@ class SentAnotherGoal(Fault):
     def expected(self) -> str:
         """The goal."""
         return (
-            f"started with -p {self.field_name}:={self.wanted}, {self.executable} sends a goal with"
-            f" {self.field_name} {self.wanted}"
+            f"where the parameter {self.field_name} is {self.wanted}, by -p or by its default,"
+            f" {self.executable} sends a goal with {self.field_name} {self.wanted}"
         )
 
     @property

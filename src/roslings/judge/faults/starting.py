@@ -39,6 +39,58 @@ class NoParameter(Fault):
 
 
 @dataclass(eq=False)
+class WrongParameterType(Fault):
+    """The parameter takes values of another type."""
+
+    node: str
+    name: str
+    wanted: str
+    found: str
+    was_seen = True
+    why = "A parameter takes values of the type of its default, and refuses all others."
+
+    @property
+    def expected(self) -> str:
+        """The type."""
+        return f"the parameter {self.name!r} of {self.node} is of type {self.wanted}"
+
+    @property
+    def measured(self) -> str:
+        """Its own."""
+        return f"it is of type {self.found}"
+
+    @property
+    def hint(self) -> str:
+        """Where the type comes from."""
+        return (
+            f"Look at the default in declare_parameter('{self.name}', ...): 1 is an integer, 1.0"
+            " a double, '1' a string, True a bool."
+        )
+
+
+@dataclass(eq=False)
+class WrongDefault(WrongParameterType):
+    """The parameter has another value where nobody set one."""
+
+    why = "Who starts the node without a word relies on the defaults of the card."
+
+    @property
+    def expected(self) -> str:
+        """The default."""
+        return f"the parameter {self.name!r} of {self.node} is {self.wanted} when nobody sets it"
+
+    @property
+    def measured(self) -> str:
+        """Its own."""
+        return f"it is {self.found}"
+
+    @property
+    def hint(self) -> str:
+        """Where it stands."""
+        return f"Compare declare_parameter('{self.name}', DEFAULT) with the card."
+
+
+@dataclass(eq=False)
 class ParameterIgnored(Fault):
     """The node has the parameter, and its value changes nothing."""
 
