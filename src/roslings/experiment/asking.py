@@ -8,7 +8,7 @@ from contextlib import ExitStack, contextmanager
 
 from roslings.arena import Process
 from roslings.course import AnswerContract, NodeContract, ServiceContract, TopicContract
-from roslings.evidence import ServiceEnd
+from roslings.evidence import ServiceEnd, StageMark
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
 from roslings.experiment.scene import Scene
 from roslings.experiment.timing import accounting, timing
@@ -182,9 +182,10 @@ def answering(
 
 def await_end(scene: Scene, process: Process, node: NodeContract) -> None:
     """Wait for a node that ends by itself; where it does not, look whether it is stuck."""
-    scene.until(lambda: _has_clients(scene), TURNS_WITHIN_S)
+    scene.seen.stages.append(StageMark(part=CLIENT_ENDS, at_ns=time.monotonic_ns()))
     gives_up_s = node.gives_up.within_s if node.gives_up else 0.0
     with accounting(scene, CLIENT_ENDS):
+        scene.until(lambda: _has_clients(scene), TURNS_WITHIN_S)
         scene.until_own(lambda: not process.alive, gives_up_s + ENDS_WITHIN_S)
     if not process.alive:
         return

@@ -348,13 +348,14 @@ def give_up(node: NodeContract) -> Demand[ExperimentView]:
 
     def demand(experiment: ExperimentView) -> None:
         process = experiment.process(node)
-        late_s = process.ran_s - contract.within_s
-        if not process.seen.ended_by_itself or late_s > 0:
+        took_s = _ended_after_s(experiment, process)
+        late_s = (process.ran_s if took_s is None else took_s) - contract.within_s
+        if took_s is None or late_s > 0:
             require_steady(experiment.seen.stall_s)
             require_its_time(experiment.seen, CLIENT_ENDS, late_s, "the client's end")
             wait = "wait_for_server" if node.orders else "wait_for_service"
-            kind = faults.GivesUpLate if process.seen.ended_by_itself else faults.NeverGivesUp
-            raise kind(node.executable, process.ran_s, contract.within_s, wait)
+            kind = faults.NeverGivesUp if took_s is None else faults.GivesUpLate
+            raise kind(node.executable, took_s or process.ran_s, contract.within_s, wait)
         if not any(contract.log in text for text in process.texts):
             require_no_crash(process, f"writes {contract.log!r} when there is no server")
             near = most_similar(contract.log, process.texts)
@@ -363,6 +364,14 @@ def give_up(node: NodeContract) -> Demand[ExperimentView]:
         require_code(process, contract.exit_code, "without a server")
 
     return demand
+
+
+def _ended_after_s(experiment: ExperimentView, process: ProcessView) -> float | None:
+    """From when its node was there until it ended by itself; None where it did not."""
+    if not process.seen.ended_by_itself or process.seen.ended_ns is None:
+        return None
+    marks = [mark.at_ns for mark in experiment.seen.stages if mark.part == CLIENT_ENDS]
+    return (process.seen.ended_ns - marks[-1]) / NS_PER_S if marks else 0.0
 
 
 def require_code(process: ProcessView, wanted: int, when: str) -> None:

@@ -400,7 +400,7 @@ class GivesUpLate(NeverGivesUp):
     @property
     def measured(self) -> str:
         """When it ended."""
-        return f"it ended {self.waited_s:.1f} s after its start"
+        return f"it ended {self.waited_s:.1f} s after its node was there"
 
 
 @dataclass(eq=False)
