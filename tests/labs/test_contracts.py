@@ -1,0 +1,27 @@
+"""Cards of which each word is judged stay so: a new word without a proof is told here.
+
+./roslings test tests/labs/test_contracts.py -m slow
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+SHORT, LONG = ("nodes", "topics"), ("services",)
+"""Labs with all words judged. CI proves those that take less than a minute."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "lab", [*SHORT, *(pytest.param(lab, marks=pytest.mark.twice) for lab in LONG)]
+)
+def test_each_word_of_the_card_is_judged(lab: str, tmp_path: Path) -> None:
+    """By the command that an author types."""
+    command = [sys.executable, "-m", "roslings", "prove", lab, "--contract"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path)
+    assert done.returncode == 0, done.stdout
+    assert "(100%)" in done.stdout
