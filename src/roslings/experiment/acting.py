@@ -24,7 +24,7 @@ from roslings.experiment.on_the_wall import (
 )
 from roslings.experiment.own_time import OwnTime
 from roslings.experiment.scene import Scene
-from roslings.experiment.timing import accounting, timing
+from roslings.experiment.timing import accounting
 from roslings.near import nearest
 from roslings.probe.actions import Goal, GoalGiver, GoalTaker, read_actions
 from roslings.rates import measure_rate, own_rate
@@ -107,12 +107,15 @@ class Director:
                 self._watch_rest(given)
 
     def cancel(self, part: str, goal: Mapping[str, float], after_m: float) -> None:
-        """Give a goal, cancel it when the robot has gone so far, and watch until it stands."""
-        with self.giving() as giver:
+        """Give a goal, cancel it when the robot has gone so far, and watch until it stands.
+
+        The turn is waited for before the goal is given: who waits for it on the way arrives.
+        """
+        with self.giving() as giver, self.scene.timed():
             given = self._give(giver, part, goal)
             if given and self._look_whether_it_hears():
                 on_its_way = self._await_way(given, after_m)
-                with timing(self.scene, part):
+                with accounting(self.scene, part):
                     self._cancel(given)
                     self._watch_rest(given)
                 self._note_lateness(given)
