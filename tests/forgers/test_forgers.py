@@ -21,6 +21,12 @@ from once import once
 
 ENTRIES = {each.name: each for each in forgers()}
 JOBS = 2
+TOUCH_OTHERS = (
+    "inherited_descriptors", "leaves_a_daemon", "plants_in_python", "poisons_the_home",
+    "replaces_programs", "rewrites_the_grader", "second_a_leaves", "second_b_takes",
+    "writes_the_verdict",
+)  # fmt: skip
+"""They write into files, homes or processes of the grader or of other students."""
 
 
 def _marks(wall: Wall) -> list[pytest.MarkDecorator]:
@@ -33,11 +39,12 @@ def _marks(wall: Wall) -> list[pytest.MarkDecorator]:
 
 
 def _behind(wall: Wall, name: str) -> object:
-    """Users are graded one after the other: the strangers' forgers wait for `-m slow` there.
+    """Users are graded one after the other: most forgers wait for `-m slow` there.
 
-    What another user may not do is held off by the kernel; our own forgers try each way of it.
+    What another user may not do is held off by the kernel; those that touch what is somebody
+    else's try it each time.
     """
-    again = [pytest.mark.twice] if wall == "user" and name.startswith("stranger_") else []
+    again = [pytest.mark.twice] if wall == "user" and name not in TOUCH_OTHERS else []
     return pytest.param(wall, name, marks=[*_marks(wall), *again], id=f"{name}-{wall}")
 
 
