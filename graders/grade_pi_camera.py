@@ -138,8 +138,8 @@ def lighting(scene: Scene) -> None:
     with camera_beside(scene) as camera, scene.run(CAMERA, start=camera.start()):
         for value in LIT:
             camera.expect_lighter((value - NEUTRAL) * LEVELS)
-        if camera.await_pictures(IMAGE, 2):
-            list_parameters(scene, CAMERA)
+        list_parameters(scene, CAMERA)
+        camera.await_pictures(IMAGE, 2)
         for value in LIT:
             if change_parameter(scene, CAMERA, BRIGHTNESS.name, value):
                 camera.await_pictures(IMAGE, 8)
@@ -194,8 +194,8 @@ def retuning(scene: Scene) -> None:
     with scene.run(FINDER) as process:
         screen = Projector(scene, process, SEEN, BALL, DRAWN)
         screen.begin()
-        screen.show("before", shot(scene))
         list_parameters(scene, FINDER)
+        screen.show("before", shot(scene))
         change_parameter(scene, FINDER, HUE.name, GREEN)
         screen.show("hue", with_decoy(scene, GREEN, RED))
         screen.show("hue", shot(scene, hue=GREEN))
