@@ -20,6 +20,7 @@ from __future__ import annotations
 import ast
 import functools
 import os
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -181,8 +182,12 @@ def test_a_rogue_is_contained(
 def test_a_wild_rogue_is_contained(
     rogue: str, user: str, graded_as: Callable[[str, bool], Gallery]
 ) -> None:
-    """The same of those that stress the machine."""
-    insist_on(rogue, graded_as(user, True))
+    """The same of those that stress the machine, where there was time for it."""
+    gallery = graded_as(user, True)
+    was_graded = rogue in gallery.seen or (rogue == NOTHING_LEFT and gallery.seen)
+    if not was_graded and time.time() >= UNTIL_S:
+        pytest.skip(NO_TIME)
+    insist_on(rogue, gallery)
 
 
 def insist_on(name: str, gallery: Gallery) -> None:
@@ -190,8 +195,6 @@ def insist_on(name: str, gallery: Gallery) -> None:
     if name == NOTHING_LEFT:
         insist_on_nothing_left(gallery)
         return
-    if name not in gallery.seen:
-        pytest.skip(NO_TIME)
     seen = gallery.seen[name]
     assert seen.reached == []
     assert untrue(ENTRIES[name].truth, seen) == []

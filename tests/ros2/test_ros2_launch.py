@@ -128,7 +128,7 @@ def test_launch_ends_with_its_last_node(programs: Shell, tmp_path: Path) -> None
 
 
 def test_a_python_launch_file_needs_the_full_ros2(empty: Shell, tmp_path: Path) -> None:
-    """Exit 2, and how to get it."""
+    """An exit code of its own, and how to get it."""
     written(tmp_path, "a.launch.py", "")
     ran = empty("launch", "a.launch.py")
     assert ran.code == NOT_READ_HERE

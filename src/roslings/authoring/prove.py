@@ -22,7 +22,7 @@ from roslings.course import Lab, Mutant
 from roslings.course.task import is_current
 from roslings.experiment.declare import Clock
 from roslings.experiment.run_folder import LOCK, run_folder
-from roslings.judge.sheet import CheckLine, dependants, sheet
+from roslings.judge.sheet import dependants, sheet
 
 
 @dataclass(frozen=True)
@@ -207,17 +207,13 @@ def files_fit(lab: Lab) -> Iterator[Proof]:
     unseen = [check for check in lab.card.points if check not in caught]
     problem = f"nobody has seen these fail: {_all(unseen)}" if unseen else ""
     yield Proof(f"{lab.name}: each check is shown at work by a mutant", problem)
+    lines = sheet(lab)
     unmet = [
-        name for line in sheet(lab) for name in line.explained_by if name not in _before(lab, line)
-    ]
+        name for number, line in enumerate(lines) for name in line.explained_by
+        if name not in {earlier.id for earlier in lines[:number]}
+    ]  # fmt: skip
     problem = f"no earlier check: {_all(unmet)}" if unmet else ""
     yield Proof(f"{lab.name}: what explains a failure is checked before", problem)
-
-
-def _before(lab: Lab, line: CheckLine) -> set[str]:
-    """The checks that stand above a line of the sheet."""
-    names = [each.id for each in sheet(lab)]
-    return set(names[: names.index(line.id)])
 
 
 def gradings_fit(

@@ -136,13 +136,8 @@ def parameters_of(
 ) -> list[str]:
     """The names of a node's parameters, as the node itself lists them; empty without an answer."""
     service, type_ = f"{node}/list_parameters", "rcl_interfaces/srv/ListParameters"
-    with Caller(probe, service, type_) as caller:
-        probe.until(lambda: caller.ready or not while_true(), within_s)
-        if not caller.ready:
-            return []
-        call = caller.send({})
-        call.wait(within_s, while_true)
-    return list(call.seen.response["result"]["names"]) if call.seen.response else []
+    answer = _answer_of(probe, service, type_, {}, within_s, while_true)
+    return list(answer["result"]["names"]) if answer else []
 
 
 KINDS: dict[int, Literal["bool", "integer", "double", "string"]] = {
@@ -160,14 +155,28 @@ def declared_by(
 ) -> list[ParameterDeclared]:
     """Type and value of a node's parameters, as the node itself says; empty without an answer."""
     service, type_ = f"{node}/get_parameters", "rcl_interfaces/srv/GetParameters"
+    answer = _answer_of(probe, service, type_, {"names": list(names)}, within_s, while_true)
+    values = answer["values"] if answer else []
+    return [_declared(node, name, value) for name, value in zip(names, values, strict=False)]
+
+
+def _answer_of(
+    probe: Probe,
+    service: str,
+    type_: str,
+    request: dict[str, Any],
+    within_s: float,
+    while_true: Callable[[], bool],
+) -> dict[str, Any] | None:
+    """What a service answers to one request; None where nobody does."""
     with Caller(probe, service, type_) as caller:
         probe.until(lambda: caller.ready or not while_true(), within_s)
         if not caller.ready:
-            return []
-        call = caller.send({"names": list(names)})
+            return None
+        call = caller.send(request)
         call.wait(within_s, while_true)
-    values = call.seen.response["values"] if call.seen.response else []
-    return [_declared(node, name, value) for name, value in zip(names, values, strict=False)]
+    answer: dict[str, Any] | None = call.seen.response
+    return answer
 
 
 def _declared(node: str, name: str, value: Mapping[str, Any]) -> ParameterDeclared:
