@@ -11,9 +11,11 @@ from typing import TYPE_CHECKING
 
 from roslings.cli import SHAPES
 from roslings.verdict import Verdict
+from roslings.workspace.student import package_of
 from roslings.workspace.trouble import MachineTrouble, WorkspaceError, without_places
 
 if TYPE_CHECKING:
+    from roslings.course import Lab
     from roslings.report import Refusal
 
 NOT_HERE = "It could not be graded on this machine."
@@ -35,11 +37,35 @@ def for_others(options: argparse.Namespace) -> bool:
 
 def write_shapes(told: Verdict | Refusal, options: argparse.Namespace) -> None:
     """Write the verdict, or why there is none, for each platform. Raises CannotWrite."""
-    from roslings.report import write_check50, write_gradescope, write_junit
+    from roslings import report
 
-    writers = {"junit": write_junit, "gradescope": write_gradescope, "check50": write_check50}
     for name, path in shapes_asked(options).items():
-        writers[name](told, path)
+        getattr(report, f"write_{name}")(told, path)
+
+
+class Ungradable(WorkspaceError):
+    """What was handed in holds no package that could be graded."""
+
+
+@contextmanager
+def handed_in(lab: Lab, path: Path | None, others: bool) -> Iterator[Path]:
+    """The package that `path` means; for others also in archives, which are strangers'.
+
+    Raises what `package_of` raises, and Ungradable.
+    """
+    if not others or path is None:
+        yield package_of(lab, path)
+        return
+    from roslings.batch.opening import package_in
+    from roslings.batch.trouble import Refused
+    from roslings.experiment.run_folder import run_folder
+
+    with run_folder() as room:
+        try:
+            package = package_in(path, lab.outline.package, room)
+        except Refused as refusal:
+            raise Ungradable(refusal.reason, refusal.next_step) from refusal
+        yield package
 
 
 @contextmanager

@@ -77,6 +77,7 @@ class CourseCopy:
     wheels: Path
     environment: dict[str, str]
     pins: dict[str, str] = field(default_factory=lambda: dict(PINS))
+    patience_s: float = 300
 
     def lay_out(self) -> None:
         """Writes the course's files."""
@@ -120,7 +121,7 @@ class CourseCopy:
             stdin=subprocess.DEVNULL,
             capture_output=True,
             text=True,
-            timeout=300,
+            timeout=self.patience_s,
             check=False,
         )
         return Outcome(done.returncode, done.stdout, done.stderr)

@@ -79,11 +79,15 @@ def test_a_folder_of_wheels_sets_up_without_a_network(
 ) -> None:
     """`./roslings wheels DIR` on one machine, ROSLINGS_WHEELS=DIR on the next."""
     stick = tmp_path / "a stick"
+    make_wheel(online.wheels, "other-x", "3.0")
+    oldest = f"3.{online.run('doctor').seen['python'][1]}.1"
+    with (online.root / "constraints.txt").open("a") as pins:
+        pins.write(f"other-x==3.0 ; python_full_version < '{oldest}'  # check\n")
     filled = online.run("wheels", str(stick), "ros", "colcon", "check")
     assert filled.code == 0, filled.err
     assert f"ROSLINGS_WHEELS='{stick}'" in filled.err
     names = {wheel.name.split("-")[0] for wheel in stick.glob("*.whl")}
-    assert names == {"pip", "setuptools", "ros_x", "col_x", "check_x"}
+    assert names == {"pip", "setuptools", "ros_x", "col_x", "check_x", "other_x"}
     away = "http://127.0.0.1:9/simple"
     outcome = online.run("check", ROSLINGS_WHEELS=str(stick), PIP_INDEX_URL=away)
     assert outcome.code == 0, outcome.err

@@ -81,6 +81,27 @@ def test_plain_commands_need_no_environment(course: CourseCopy, words: list[str]
     assert not course.venv.exists()
 
 
+def test_ready_runs_nothing(course: CourseCopy) -> None:
+    """An image or a computer room is made ready beforehand: for a command, and for labs."""
+    (course.root / "labs/arm").mkdir(parents=True)
+    (course.root / "labs/arm/card.yaml").write_text("groups: [graph]\n")
+    made = course.run("ready", "check", "arm")
+    assert (made.code, made.out) == (0, ""), made.err
+    used = course.run("check", "arm")
+    assert (used.err, used.seen["has"]) == ("", ["ros_x", "col_x", "check_x", "draw_x"])
+    again = course.run("ready", "check")
+    assert (again.code, again.out, again.err) == (0, "", "")
+
+
+@pytest.mark.parametrize("words", [["doctor"], ["no-such-word"]])
+def test_ready_for_what_needs_nothing_is_refused(course: CourseCopy, words: list[str]) -> None:
+    """A misspelt command would else look as if all were well."""
+    refused = course.run("ready", *words)
+    assert refused.code == 2
+    assert "Next: ./roslings ready lab" in refused.err
+    assert not course.venv.exists()
+
+
 def test_plain_commands_use_an_environment_that_stands(standing: CourseCopy) -> None:
     """The doctor can then look at ROS as well."""
     assert standing.run("doctor").seen["prefix"] == str(standing.venv)

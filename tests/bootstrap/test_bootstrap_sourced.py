@@ -1,16 +1,22 @@
-"""A terminal that has ROS sourced: Jazzy is used as it is, another distribution is named."""
+"""A terminal that has ROS sourced: Jazzy is used as it is, another distribution is named.
+
+apt's Jazzy is not on every machine that tests: a prefix made of the wheels stands in for it.
+"""
 
 from __future__ import annotations
 
 import importlib.util
+import json
 import os
+import shutil
 import sys
 from importlib.metadata import Distribution, distributions
 from pathlib import Path
 
 import pytest
 from compiled import uncompiled
-from course_copy import CourseCopy
+from course_copy import REAL, CourseCopy, plain_environment
+from pythons_here import BASE
 
 from roslings.bootstrap.packages import installed
 from roslings.bootstrap.virtual import Virtual
@@ -30,14 +36,26 @@ def jazzy(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
         name = str(package.metadata["Name"]).lower()
         if name.startswith("ros-") or name in NEEDED_BY_ROS:
             _link(package, site)
-    libraries = [Path(sys.prefix) / "lib", *site.glob("ros_*.libs")]
+    _link_prefix(prefix)
+    libraries = [prefix / "lib", *site.glob("ros_*.libs")]
     return {
         "ROS_DISTRO": "jazzy",
         "ROS_VERSION": "2",
         "PYTHONPATH": str(site),
-        "AMENT_PREFIX_PATH": sys.prefix,
+        "AMENT_PREFIX_PATH": str(prefix),
+        "CMAKE_PREFIX_PATH": str(prefix),
         "LD_LIBRARY_PATH": os.pathsep.join(map(str, libraries)),
     }
+
+
+def _link_prefix(prefix: Path) -> None:
+    """What the packages hold beside Python, without what this clone has built for its labs."""
+    own = [found.parent.name for found in REAL.glob("labs/*/interfaces/*/package.xml")]
+    for part in ("share", "lib", "include"):
+        (prefix / part).mkdir(exist_ok=True)
+        for entry in (Path(sys.prefix) / part).iterdir():
+            if not (prefix / part / entry.name).exists() and not any(o in entry.name for o in own):
+                _same(entry, prefix / part / entry.name)
 
 
 def _link(package: Distribution, site: Path) -> None:
@@ -45,7 +63,22 @@ def _link(package: Distribution, site: Path) -> None:
     for name in {path.parts[0] for path in package.files or () if path.parts[0] != ".."}:
         real = Path(str(package.locate_file(name)))
         if real.exists() and not (site / name).exists() and real.suffix != ".pth":
-            (site / name).symlink_to(real)
+            _same(real, site / name)
+
+
+def _same(real: Path, new: Path) -> None:
+    """The same files under another name: a sandbox that shows the prefix shows no link's target."""
+    if real.is_dir():
+        shutil.copytree(real, new, copy_function=_hard_link)
+    else:
+        _hard_link(str(real), str(new))
+
+
+def _hard_link(real: str, new: str) -> None:
+    try:
+        os.link(real, new)
+    except OSError:  # another disk
+        shutil.copy2(real, new)
 
 
 def test_a_sourced_jazzy_is_used(
@@ -101,3 +134,41 @@ def test_a_jazzy_without_rclpy_is_named(ready: CourseCopy, tmp_path: Path) -> No
         assert outcome.code == 2
         assert "import rclpy" in " ".join(outcome.err.split())
         assert "ros-jazzy-rclpy" in outcome.err
+
+
+# --- the real course ---------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def beside(jazzy: dict[str, str], tmp_path_factory: pytest.TempPathFactory) -> CourseCopy:
+    """This course, copied, in a terminal that has the Jazzy sourced."""
+    folder = tmp_path_factory.mktemp("beside")
+    left = shutil.ignore_patterns(".*", "tests", "site", "build", "__pycache__")
+    root = Path(shutil.copytree(REAL, folder / "course", ignore=left))
+    pip = {name: text for name, text in os.environ.items() if name.startswith(("PIP_", "SSL_"))}
+    kept = {"XDG_CACHE_HOME": os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache")}
+    own = plain_environment(folder / "home", BASE) | pip | kept | jazzy
+    return CourseCopy(root, folder, own, patience_s=3600)
+
+
+@pytest.mark.slow
+def test_a_lab_is_graded_on_the_sourced_jazzy(beside: CourseCopy) -> None:
+    """All of it, and no ROS is downloaded; the doctor does not miss what the check built with."""
+    graded = beside.run("check", "topics", "--solution")
+    assert "100 of 100" in graded.out, graded.out + graded.err
+    environment = Virtual(beside.root / ".venv-apt")
+    assert not beside.venv.exists()
+    assert not [name for name in installed(environment.site) if name.startswith("ros-")]
+    seen = json.loads(beside.run("doctor", "--json", "--only", "ros-found", "colcon").out)
+    told = {result["id"]: result["status"] for result in seen["checks"]}
+    assert told == {"ros-found": "ok", "colcon": "advice"}
+
+
+@pytest.mark.slow
+@pytest.mark.twice
+def test_a_lab_with_types_of_its_own_is_too(beside: CourseCopy) -> None:
+    """They are built beside the sourced ROS, in the overlay."""
+    graded = beside.run("check", "actions", "--solution")
+    assert "100 of 100" in graded.out, graded.out + graded.err
+    made = beside.root / ".venv-apt/overlay/share/rover_interfaces"
+    assert made.is_dir()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import shutil
+import zipfile
 from pathlib import Path
 
 import pytest
@@ -47,7 +48,24 @@ def test_a_package_that_cannot_be_checked_leaves_a_result(
     assert json.loads(told["gradescope"])["score"] == 0
 
 
-@pytest.mark.parametrize("option", ["--gradescope", "--check50", "--junit"])
+@pytest.mark.parametrize(
+    ("name", "says"),
+    [("../x", "leads out of the archive"), ("/etc/x", "absolute name"), ("readme.txt", "no ROS")],
+)
+def test_a_strangers_zip_is_opened_for_a_platform(name: str, says: str, tmp_path: Path) -> None:
+    """Within its bounds, and refused in the student's words; nothing of it is left."""
+    with zipfile.ZipFile(tmp_path / "work.zip", "w") as archive:
+        archive.writestr(zipfile.ZipInfo(name), b"x")
+    (tmp_path / "to").mkdir()
+    status, told = refused(tmp_path / "work.zip", tmp_path / "to")
+    assert status == 2
+    for text in told.values():
+        assert says in text
+        assert str(tmp_path) not in text
+    assert not (tmp_path / "x").exists()
+
+
+@pytest.mark.parametrize("option", [f"--{name}" for name in SHAPES])
 def test_no_verdict_for_others_without_a_wall(
     option: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -61,7 +79,9 @@ def test_no_verdict_for_others_without_a_wall(
     assert "nothing would hold it" in capsys.readouterr().err
     text = file.read_text("utf-8")
     assert "not be graded on this machine" in text
-    assert '"score"' not in text
+    gives_points = '"max_score": 100' if option == "--classroom" else '"score"'
+    assert gives_points not in text
+    assert "Grade :=>>" not in text
     assert str(tmp_path) not in text
 
 

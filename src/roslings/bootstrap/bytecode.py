@@ -9,6 +9,7 @@ import subprocess
 from collections.abc import Iterator
 from pathlib import Path
 
+from roslings.bootstrap.progress import going_on
 from roslings.bootstrap.virtual import Virtual
 
 UNUSED = ("pip",)
@@ -22,14 +23,15 @@ def compile_packages(virtual: Virtual) -> None:
 
     A module in which this Python finds a mistake (a template, a test of errors) stays as it is.
     """
-    subprocess.run(
-        [virtual.python, "-I", "-m", "compileall", "-qq", *_packages(virtual)],
-        cwd=os.sep,
-        env={"_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1"},  # needs none of ROS's libraries
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.DEVNULL,
-        check=False,
-    )
+    with going_on(lambda: "Compiling, so that each start is quick"):
+        subprocess.run(
+            [virtual.python, "-I", "-m", "compileall", "-qq", *_packages(virtual)],
+            cwd=os.sep,
+            env={"_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1"},  # needs none of ROS's libraries
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            check=False,
+        )
 
 
 def _packages(virtual: Virtual) -> Iterator[Path]:

@@ -15,7 +15,7 @@ from roslings.bootstrap.trouble import Trouble
 # Run by the environment's Python, which knows what a marker means there and what is installed.
 # The pip that it asks is itself pinned.
 _ASK = """
-import json, sys
+import json, platform, sys
 from importlib.metadata import PackageNotFoundError, version
 from pip._vendor.packaging.requirements import Requirement
 
@@ -25,8 +25,15 @@ def missing(need):
     except PackageNotFoundError:
         return True
 
+minor = "%d.%d" % sys.version_info[:2]
+others = [minor + ".0", minor + ".99"] if sys.argv[1] == "all" else []
+pythons = [{"python_full_version": full} for full in [platform.python_version(), *others]]
+
+def holds(need):
+    return not need.marker or any(map(need.marker.evaluate, pythons))
+
 needs = [Requirement(line) for line in json.load(sys.stdin)]
-here = [need for need in needs if not need.marker or need.marker.evaluate()]
+here = list(filter(holds, needs))
 print(json.dumps([f"{n.name}{n.specifier}" for n in here if sys.argv[1] == "all" or missing(n)]))
 """
 
@@ -74,7 +81,10 @@ def exact(file: Path, group: str) -> dict[str, str]:
 
 
 def applying(python: Path, requirements: Sequence[str], environment: dict[str, str]) -> list[str]:
-    """`name==version` of those that hold for `python`, installed or not."""
+    """`name==version` of those that hold for `python`, installed or not.
+
+    For any release of it: a folder of wheels made by 3.11.7 is to do for 3.11.2 as well.
+    """
     return _ask(python, requirements, environment, "all")
 
 

@@ -19,7 +19,7 @@ from roslings.bootstrap import constraints
 from roslings.bootstrap.packages import fetched, installed
 from roslings.bootstrap.pip import Pip
 from roslings.bootstrap.place import Place
-from roslings.bootstrap.progress import DownloadLine
+from roslings.bootstrap.progress import DownloadLine, going_on
 from roslings.bootstrap.seeds import find_seed
 from roslings.bootstrap.virtual import Virtual
 
@@ -45,7 +45,10 @@ class Installer:
         pins = constraints.exact(self.place.constraints, TOOLS)
         have = installed(self.virtual.site)
         if any(have.get(name) != version for name, version in pins.items()):
-            with tempfile.TemporaryDirectory(prefix="roslings-") as scratch:
+            with (
+                tempfile.TemporaryDirectory(prefix="roslings-") as scratch,
+                going_on(lambda: "Getting pip"),
+            ):
                 self._install_tools(pins, Path(scratch))
 
     def _install_tools(self, pins: dict[str, str], scratch: Path) -> None:
@@ -80,6 +83,7 @@ class Installer:
         left = [package for package in packages if package not in fetched(folder)]
         line = DownloadLine(total_mb)
         words = ["wheel", "--no-deps", "--no-build-isolation", "--progress-bar=raw"]
+        words += ["--ignore-requires-python"]  # the pins know better, and may be for another one
         for start in range(0, len(left), _AT_ONCE):
             some = left[start : start + _AT_ONCE]
             line.follow(self.pip().run(*words, "-w", str(folder), *some, cwd=self.place.root))
@@ -95,9 +99,15 @@ class Installer:
     def install(self, packages: Sequence[str], wheels: Path) -> None:
         """Puts `packages` into the environment; a folder of our own is then removed."""
         pip = replace(self.pip(), wheels=wheels)
-        drain(pip, ["install", "--no-deps", *packages], self.place.root)
+        before = self._count()
+        with going_on(lambda: f"{self._count() - before} of {len(packages)} packages"):
+            drain(pip, ["install", "--no-deps", *packages], self.place.root)
         if wheels != self.wheels:
             shutil.rmtree(wheels, ignore_errors=True)
+
+    def _count(self) -> int:
+        """How many packages are in the environment; those that are replaced count too late."""
+        return sum(1 for _ in self.virtual.site.glob("*.dist-info"))
 
     def libraries(self) -> list[Path]:
         """What the ROS wheels add to LD_LIBRARY_PATH: the folders that they find themselves."""

@@ -19,6 +19,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from roslings.bootstrap.place import Place
+from roslings.bootstrap.progress import going_on
 from roslings.bootstrap.trouble import Trouble, say
 from roslings.bootstrap.virtual import Virtual
 
@@ -86,7 +87,10 @@ class Interfaces:
         say(f"Building the message types of {names}, once. This takes about half a minute.")
         self._stamp.unlink(missing_ok=True)
         self.name_headers()
-        with tempfile.TemporaryDirectory(prefix="roslings-") as scratch:
+        with (
+            tempfile.TemporaryDirectory(prefix="roslings-") as scratch,
+            going_on(lambda: "Building"),
+        ):
             self._install(self._built(Path(scratch)))
         self._stamp.write_text(self._fingerprint(), encoding="utf-8")
 

@@ -15,8 +15,12 @@ from roslings.bootstrap.trouble import Trouble
 OLDEST_GLIBC = (2, 28)
 PYTHONS = ((3, 10), (3, 13))
 
+_WSL = "Use the Linux that Windows brings: wsl --install Ubuntu-24.04, and run this again there."
 _APT = "On Ubuntu 24.04: install ROS 2 Jazzy with apt, source it, and run this again."
-_CONTAINER = 'Use the container: docker run -it -v "$PWD:/roslings" -w /roslings ros:jazzy'
+_BUILD = "Use a container: docker build -t roslings -f .devcontainer/Containerfile{on} ."
+_RUN = "docker run -it --rm -p 8888:8888 -v roslings:/work roslings"
+_CONTAINER = (_BUILD.format(on=""), _RUN)
+_CONTAINER_OF_APT = (_BUILD.format(on=" --build-arg BASE=ros:jazzy"), _RUN)
 
 
 @dataclass(frozen=True)
@@ -52,18 +56,32 @@ def _glibc() -> tuple[int, ...]:
     return tuple(int(n) for n in words[-1].split(".") if n.isdigit()) if words else ()
 
 
+def require_unix(machine: Machine) -> None:
+    """Nothing where scripts of a shell run.
+
+    Raises:
+        Trouble: this is Windows itself, not the Linux in it.
+    """
+    if machine.system == "Windows":
+        raise Trouble("roslings does not run on Windows itself.", _WSL, *_CONTAINER)
+
+
 def require_wheels(machine: Machine) -> None:
     """Nothing where the ROS wheels fit `machine`; else the other way to take.
 
     Raises:
         Trouble: there are no wheels for this machine.
     """
+    x86 = machine.architecture in ("x86_64", "AMD64")
     if machine.system != "Linux":
-        raise Trouble(f"There are no ROS wheels for {_named(machine.system)}.", _CONTAINER)
-    if machine.architecture not in ("x86_64", "AMD64"):
-        raise Trouble(f"There are no ROS wheels for {machine.architecture}.", _APT, _CONTAINER)
+        way = _CONTAINER if x86 else _CONTAINER_OF_APT
+        raise Trouble(f"There are no ROS wheels for {_named(machine.system)}.", *way)
+    if not x86:
+        raise Trouble(
+            f"There are no ROS wheels for {machine.architecture}.", _APT, *_CONTAINER_OF_APT
+        )
     if machine.bits != 64:
-        raise Trouble("This Python has 32 bits, and the ROS wheels 64.", _APT, _CONTAINER)
+        raise Trouble("This Python has 32 bits, and the ROS wheels 64.", _APT, *_CONTAINER)
     _require_libc(machine.glibc)
     _require_python(machine)
 
@@ -75,13 +93,13 @@ def _named(system: str) -> str:
 def _require_libc(glibc: tuple[int, ...]) -> None:
     if not glibc:
         raise Trouble(
-            "The ROS wheels need glibc, and this Linux has another C library.", _CONTAINER
+            "The ROS wheels need glibc, and this Linux has another C library.", *_CONTAINER
         )
     if glibc < OLDEST_GLIBC:
         raise Trouble(
             f"The ROS wheels need glibc {_dotted(OLDEST_GLIBC)} or newer, and this Linux has "
             f"{_dotted(glibc)}.",
-            _CONTAINER,
+            *_CONTAINER,
         )
 
 
@@ -94,7 +112,7 @@ def _require_python(machine: Machine) -> None:
             f"is {_dotted(machine.python)}.",
             _OTHER,
             _APT,
-            _CONTAINER,
+            *_CONTAINER,
         )
 
 

@@ -1,12 +1,16 @@
-"""The one line that moves while pip downloads; nothing moves where nobody looks."""
+"""The one line that moves while something takes long; where nobody looks, a line now and then."""
 
 import re
 import sys
+import threading
 import time
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 
 _BAR = 30
 _EVERY_S = 0.1
+_PLAIN_EVERY_S = 10.0
+"""Where standard error is no terminal: often enough to see that something goes on."""
 
 
 class DownloadLine:
@@ -49,3 +53,26 @@ class DownloadLine:
     def _write(self, line: str) -> None:
         if self._moves:
             print(f"\r\033[K{line}", end="", file=sys.stderr, flush=True)
+
+
+@contextmanager
+def going_on(told: Callable[[], str]) -> Iterator[None]:
+    """A block that takes long: says `told()` and for how many seconds it has been at work."""
+    ended = threading.Event()
+    teller = threading.Thread(target=_tell, args=(told, ended), daemon=True)
+    teller.start()
+    try:
+        yield
+    finally:
+        ended.set()
+        teller.join()
+
+
+def _tell(told: Callable[[], str], ended: threading.Event) -> None:
+    moves, began_s = sys.stderr.isatty(), time.monotonic()
+    while not ended.wait(_EVERY_S * 5 if moves else _PLAIN_EVERY_S):
+        line = f"  {told()}, {time.monotonic() - began_s:.0f} s"
+        print(f"\r\033[K{line}" if moves else line, end="" if moves else "\n",
+              file=sys.stderr, flush=True)  # fmt: skip
+    if moves:
+        print("\r\033[K", end="", file=sys.stderr, flush=True)

@@ -10,11 +10,16 @@ from pathlib import Path
 
 from roslings.bootstrap.trouble import Trouble, disk_full
 
-COMMANDS = ("ros2", "rqt_graph")
+COMMANDS = ("ros2", "rqt_graph", "rqt", "rqt_console", "rqt_plot", "rviz2")
 _COMMAND = """#!/bin/sh
 # `{name}` of roslings, for machines where the real one is not installed.
 exec {script} {name} "$@"
 """
+_LOCAL_SETUP = """# Nothing is left to set: `source setup.bash` in the roslings folder has
+# done it. colcon looks for this file in each folder of AMENT_PREFIX_PATH, and warns where it is
+# missing.
+"""
+_SHELLS = ("bash", "sh", "zsh")
 _FACTS = "import sys, sysconfig; print(sys.prefix); print(sysconfig.get_path('purelib'))"
 
 
@@ -75,6 +80,8 @@ class Virtual:
         (self.site / "roslings.pth").write_text(f"{root / 'src'}\n", encoding="utf-8")
         for name in COMMANDS:
             self._add_command(root, name)
+        for shell in _SHELLS:
+            (self.folder / f"local_setup.{shell}").write_text(_LOCAL_SETUP, encoding="utf-8")
 
     def _add_command(self, root: Path, name: str) -> None:
         """A real command of this name, further on the path, is handed over to by our own."""

@@ -9,18 +9,14 @@ import json
 from pathlib import Path
 from typing import Any
 
-from roslings.report.junit import lines_of
+from roslings.report.markdown import markdown_of
+from roslings.report.not_graded import INCONCLUSIVE, NO_GRADE
 from roslings.report.refusal import Refusal
 from roslings.report.safe_text import harmless
 from roslings.report.wall_words import held
 from roslings.report.whole_file import write_whole
 from roslings.verdict import CheckResult, Verdict
 
-INCONCLUSIVE = (
-    "Not everything could be told: mostly the computer was too busy. This is no grade:"
-    " submit again, or tell your instructor."
-)
-NO_GRADE = "This submission was not graded, and that is no fault of yours: tell your instructor."
 STATUS = {"pass": "passed", "fail": "failed"}
 
 
@@ -80,15 +76,9 @@ def _test(check: CheckResult, known: bool) -> dict[str, Any]:
     points = {"score": check.points, "max_score": check.max_points} if known else {}
     words: dict[str, Any] = {
         "name": harmless(check.title), "number": check.id, **points,
-        "output_format": "text", "visibility": "hidden" if check.hidden else "visible",
-        "output": harmless(_output(check), keep_newlines=True),
+        "output_format": "md", "visibility": "hidden" if check.hidden else "visible",
+        "output": markdown_of(check),
     }  # fmt: skip
     if check.outcome in STATUS:
         words["status"] = STATUS[check.outcome]
     return words
-
-
-def _output(check: CheckResult) -> str:
-    if check.outcome == "fail":
-        return "\n".join(lines_of(check)[1:])
-    return check.why or ""

@@ -40,6 +40,14 @@ def write_whole(path: Path, content: bytes, *, overwrite: bool = True) -> None:
         raise CannotWrite(path, error) from error
 
 
+def make_folder_of(path: Path) -> None:
+    """Make the folder that `path` lies in. Raises CannotWrite."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise CannotWrite(path, error) from error
+
+
 def already_there(path: Path) -> FileExistsError:
     """The refusal to overwrite, with the next step."""
     return FileExistsError(f"{path} is there already. Give another name, or remove it first.")

@@ -1,0 +1,88 @@
+"""The grading platforms: what each is given, and what keeps a student's code from the grade there.
+
+The files of a platform are `templates/NAME/`; a word between two `@` in their text or names is
+filled in: `@LAB@`, `@TITLE@`, `@PACKAGE@`, `@UUID@`, and `@HIDDEN@`, the option for hidden checks.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+TEMPLATES = Path(__file__).parent / "templates"
+
+
+@dataclass(frozen=True)
+class System:
+    """One platform."""
+
+    name: str
+    about: str
+    upload: str
+    """What the instructor puts where."""
+    wall: str
+    course: str
+    """Where in the bundle the course goes."""
+    keeps_hidden: bool
+    """Students cannot read what is uploaded: hidden checks may be in it."""
+
+    @property
+    def templates(self) -> Path:
+        """The folder with its files."""
+        return TEMPLATES / self.name
+
+
+NAMESPACES_OR_USER = (
+    "the sandbox of namespaces where the container may make one, else a user of its own;"
+    " without either nothing is run, and there is no grade"
+)
+_ALL = (
+    System(
+        "gradescope", "Gradescope, a programming assignment",
+        "all that is in the folder, as one zip file: Configure Autograder",
+        f"{NAMESPACES_OR_USER}. A user of its own does not stop the network",
+        "course", keeps_hidden=True,
+    ),
+    System(
+        "github", "GitHub Classroom, with its autograding reporter",
+        "template/ as the assignment's template repository, grader/ as a repository of yours",
+        "the sandbox of namespaces. It does not keep students from editing the workflow:"
+        " protect .github/, and grade their clones once more with ./roslings grade",
+        "grader/course", keeps_hidden=False,
+    ),
+    System(
+        "classroom50", "Classroom 50",
+        "autograders/ into your classroom's folder of the classroom50 repository",
+        "the sandbox of namespaces. The grader comes from your repository, but runs in the"
+        " student's: grade their clones once more with ./roslings grade",
+        "autograders/@LAB@/course", keeps_hidden=False,
+    ),
+    System(
+        "prairielearn", "PrairieLearn, an external grader",
+        "the image that Containerfile makes, and question/ into your course",
+        f"{NAMESPACES_OR_USER}. PrairieLearn itself stops the network",
+        "course", keeps_hidden=True,
+    ),
+    System(
+        "moodle-vpl", "Moodle, Virtual Programming Lab",
+        "vpl_run.sh and vpl_evaluate.sh as execution files; course/ onto the execution server",
+        "the sandbox of namespaces alone: VPL runs everything as one user without rights. Where"
+        " its jail allows no namespaces, nothing is run, and there is no grade",
+        "course", keeps_hidden=False,
+    ),
+    System(
+        "gitlab", "GitLab CI, with a badge",
+        "the folder as a project of yours; students' projects take its .gitlab-ci.yml",
+        f"{NAMESPACES_OR_USER}. It does not keep students from editing their own CI file:"
+        " name yours in the settings of their projects",
+        "course", keeps_hidden=False,
+    ),
+    System(
+        "github-ci", "GitHub Actions, with a badge",
+        "the folder into a student's repository",
+        "the sandbox of namespaces. Students own the repository: the badge is for themselves,"
+        " it is no grade",
+        ".roslings", keeps_hidden=False,
+    ),
+)  # fmt: skip
+SYSTEMS = {system.name: system for system in _ALL}

@@ -1,0 +1,7 @@
+"""What is said where there is no grade: it is never a zero."""
+
+INCONCLUSIVE = (
+    "Not everything could be told: mostly the computer was too busy. This is no grade:"
+    " submit again, or tell your instructor."
+)
+NO_GRADE = "This submission was not graded, and that is no fault of yours: tell your instructor."

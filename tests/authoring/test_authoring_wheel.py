@@ -1,0 +1,215 @@
+"""The wheel: built here, installed where nothing is, used in an empty folder."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import tarfile
+import zipfile
+from email.message import Message
+from email.parser import Parser
+from pathlib import Path
+
+import pytest
+
+from roslings import __version__, course
+from roslings.authoring.release import is_for_students, leaks
+from roslings.authoring.wheel import ENGINE, build_sdist, extras
+from roslings.bootstrap import constraints, groups
+from roslings.bootstrap.place import Place
+from roslings.course import all_labs
+from roslings.installed import ARCHIVE
+
+CLONE = Place(course.root())
+NAME = f"roslings-{__version__}-py3-none-any.whl"
+RUNS_A_CHECK = "ros,colcon,check"
+
+
+@pytest.fixture(scope="session")
+def wheel(shared_folder: Path) -> Path:
+    """The wheel of this clone, as `pip wheel .` makes it; once in a run."""
+    from once import once
+
+    return Path(once(shared_folder / "wheel.txt", lambda: str(_built(shared_folder / "wheel"))))
+
+
+def _built(folder: Path) -> Path:
+    words = ["wheel", "--no-deps", "--no-build-isolation", "--no-index", "-w", str(folder), "."]
+    done = run([sys.executable, "-m", "pip", *words], cwd=course.root())
+    assert done.returncode == 0, done.stdout + done.stderr
+    return folder / NAME
+
+
+def run(words: list[str], cwd: Path, **variables: str) -> subprocess.CompletedProcess[str]:
+    """Run a program with pip's settings of this machine, and these variables besides."""
+    pip = {name: text for name, text in os.environ.items() if name.startswith(("PIP_", "SSL_"))}
+    own = {"PATH": "/usr/bin:/bin", "HOME": str(cwd), **pip, **variables}
+    return subprocess.run(
+        words, cwd=cwd, env=own, stdin=subprocess.DEVNULL, capture_output=True, text=True,
+        check=False,
+    )  # fmt: skip
+
+
+def installed(folder: Path, wheel: str, *options: str, **variables: str) -> Path:
+    """The command `roslings` of a fresh environment that the wheel was installed into."""
+    new = folder / "environment"
+    run([sys.executable, "-m", "venv", "--without-pip", str(new)], folder)
+    words = ["--python", str(new), "install", "--no-compile", *options, wheel]
+    done = run([sys.executable, "-m", "pip", *words], folder, **variables)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return new / "bin" / "roslings"
+
+
+@pytest.fixture(scope="module")
+def command(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """`pip install roslings`, and nothing else."""
+    return installed(tmp_path_factory.mktemp("pip"), str(wheel), "--no-index")
+
+
+@pytest.fixture
+def empty(tmp_path: Path) -> Path:
+    """An empty folder."""
+    folder = tmp_path / "empty"
+    folder.mkdir()
+    return folder
+
+
+# --- what is in it -----------------------------------------------------------------------------
+
+
+def test_it_holds_the_students_edition_and_no_answer(wheel: Path, tmp_path: Path) -> None:
+    """Every file that students get, as a package or in the archive; no other, no answer."""
+    with zipfile.ZipFile(wheel) as packed:
+        packed.extractall(tmp_path)
+    with tarfile.open(tmp_path / "roslings" / ARCHIVE) as archive:
+        archive.extractall(tmp_path / "course", filter="fully_trusted")
+    (tmp_path / "roslings" / ARCHIVE).unlink()
+    shutil.copytree(tmp_path / "roslings", tmp_path / "course" / ENGINE)
+    whole = tmp_path / "course"
+    names = {path.relative_to(whole).as_posix() for path in whole.rglob("*") if path.is_file()}
+    assert names == {name for name in tracked() if is_for_students(name)}
+    assert list(leaks(tmp_path, all_labs())) == []
+
+
+def tracked() -> list[str]:
+    """The files of this clone."""
+    listed = subprocess.run(
+        ["git", "ls-files", "-z"], cwd=course.root(), capture_output=True, text=True, check=True
+    )
+    return [name for name in listed.stdout.split("\0") if (course.root() / name).is_file()]
+
+
+def told(wheel: Path) -> Message:
+    """What the wheel says of itself."""
+    with zipfile.ZipFile(wheel) as packed:
+        return Parser().parsestr(packed.read(f"roslings-{__version__}.dist-info/METADATA").decode())
+
+
+def test_each_group_is_an_extra_with_its_pins(wheel: Path) -> None:
+    """No more and no less, as the wheel itself says; and each group has something to install."""
+    said = told(wheel)
+    assert said.get_all("Provides-Extra") == groups.names(CLONE.pyproject)
+    needs: dict[str, set[str]] = {}
+    for need in said.get_all("Requires-Dist") or []:
+        pin, _, name = need.removesuffix('"').rpartition('extra == "')
+        needs.setdefault(name, set()).add(pin.partition(";")[0].strip())
+    pins = constraints.read(CLONE.constraints)
+    assert needs == {
+        name: {pin.requirement.partition(";")[0].strip() for pin in pins if name in pin.groups}
+        for name in extras(CLONE)
+    }
+
+
+def test_there_is_no_sdist(tmp_path: Path) -> None:
+    """It would be the clone, solutions and all."""
+    with pytest.raises(NotImplementedError, match="solutions"):
+        build_sdist(str(tmp_path))
+    assert list(tmp_path.iterdir()) == []
+
+
+# --- how it is used ----------------------------------------------------------------------------
+
+
+def test_in_an_empty_folder_it_says_how_to_begin(command: Path, empty: Path) -> None:
+    """Without data, without dependencies; and nothing appears there by itself."""
+    alone = run([str(command)], empty)
+    assert (alone.returncode, alone.stderr) == (0, "")
+    assert "Next: roslings new" in alone.stdout
+    refused = run([str(command), "check", "topics"], empty)
+    assert (refused.returncode, refused.stdout) == (2, "")
+    assert "Next: Make one: roslings new" in refused.stderr
+    module = run([str(command.parent / "python"), "-m", "roslings", "--version"], empty)
+    assert module.stdout == f"roslings {__version__}\n"
+    assert list(empty.iterdir()) == []
+
+
+def test_new_makes_a_course_that_works_as_a_clone_does(command: Path, empty: Path) -> None:
+    """The command then runs that course's own script, from beside it and from within."""
+    made = run([str(command), "new"], empty)
+    assert made.returncode == 0, made.stderr
+    assert "cd roslings-course" in made.stdout
+    folder = empty / "roslings-course"
+    assert not [path for path in empty.iterdir() if path != folder]
+    for inside in (empty, folder, folder / "labs" / "topics"):
+        listed = run([str(command), "doctor", "--list"], inside, ROSLINGS_PYTHON="")
+        assert listed.stdout == run([str(folder / "roslings"), "doctor", "--list"], empty).stdout
+    assert run([str(command), "no-such-word"], folder).returncode == 2
+
+
+def test_new_overwrites_nothing(command: Path, empty: Path) -> None:
+    """Neither a course in which somebody has worked, nor any other folder."""
+    (empty / "mine").mkdir()
+    (empty / "mine" / "notes.txt").write_text("mine")
+    again = run([str(command), "new", "mine"], empty)
+    assert again.returncode == 2
+    assert "nothing is ever" in again.stderr
+    spaced = run([str(command), "new", "a space"], empty)
+    assert spaced.returncode == 2
+    assert "a space" in spaced.stderr
+    assert [path.relative_to(empty).as_posix() for path in empty.rglob("*")] == [
+        "mine", "mine/notes.txt",
+    ]  # fmt: skip
+
+
+def test_without_the_extras_this_environment_is_told(command: Path, empty: Path) -> None:
+    """ROSLINGS_COURSE asks for the environment that the wheel is in."""
+    run([str(command), "new"], empty)
+    where = {"ROSLINGS_COURSE": str(empty / "roslings-course")}
+    refused = run([str(command), "check", "topics"], empty, **where)
+    assert refused.returncode == 2
+    assert f"pip install 'roslings[{RUNS_A_CHECK}]==" in refused.stderr
+
+
+def kept_downloads() -> dict[str, str]:
+    """What pip fetched before is not fetched again, although HOME is another one."""
+    words = [sys.executable, "-m", "pip", "cache", "dir"]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    return {"PIP_CACHE_DIR": done.stdout.strip()} if done.returncode == 0 else {}
+
+
+@pytest.mark.slow
+def test_from_nothing_to_100(command: Path, empty: Path) -> None:
+    """`pip install roslings`, `roslings new`, `roslings check`: the course makes the rest."""
+    run([str(command), "new"], empty)
+    solution = str(course.lab("topics").solution)
+    graded = run([str(command), "check", "topics", solution], empty, **kept_downloads())
+    assert graded.returncode == 0, graded.stdout + graded.stderr
+    assert "100 of 100" in graded.stdout
+
+
+@pytest.mark.slow
+@pytest.mark.twice
+def test_the_extras_alone_grade_too(wheel: Path, empty: Path, tmp_path: Path) -> None:
+    """One environment, made by pip: for a container, or a grading system."""
+    whole = f"{wheel}[{RUNS_A_CHECK}]"
+    command = installed(tmp_path, whole, **kept_downloads())
+    run([str(command), "new"], empty)
+    where = {"ROSLINGS_COURSE": str(empty / "roslings-course")}
+    graded = run(
+        [str(command), "check", "topics", str(course.lab("topics").solution)], empty, **where
+    )
+    assert graded.returncode == 0, graded.stdout + graded.stderr
+    assert "100 of 100" in graded.stdout
+    assert not (empty / "roslings-course" / ".venv").exists()
