@@ -72,9 +72,10 @@ def zip_with_link(path: Path) -> Path:
     return make_zip(path, [("chatter", b"/etc")], mode=stat.S_IFLNK | 0o777)
 
 
-def zip_with_raw_name(path: Path, name: bytes) -> Path:
-    """A zip file with a name that no Python would write."""
-    stand_in = b"x" * len(name)
+def zip_with_raw_name(path: Path, name: bytes, utf8: bool = False) -> Path:
+    """A zip file with a name that no Python would write, marked as UTF-8 or not."""
+    stand_in = ("\u00ff" if utf8 else "x").encode() * (len(name) // (1 + utf8))
+    stand_in = stand_in.ljust(len(name), b"x")
     make_zip(path, [(stand_in.decode(), b"1")])
     path.write_bytes(path.read_bytes().replace(stand_in, name))
     return path
@@ -88,3 +89,25 @@ def huge_header(path: Path, size: int) -> Path:
         file.write(info.tobuf(tarfile.USTAR_FORMAT))
         file.write(b"0" * 1024)
     return path
+
+
+def zip_bytes(entries: Entries = PACKAGE) -> bytes:
+    """A zip file that is to be put into another one."""
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, text in entries:
+            archive.writestr(name, text)
+    return content.getvalue()
+
+
+def windows_zip(entries: Entries = PACKAGE) -> bytes:
+    """As old programs on Windows write it: backslashes, code page 437, folders of their own."""
+    names = {name: name.replace("/", "\\").encode("cp437") for name, _ in entries}
+    folders = {name.rpartition(b"\\")[0] + b"\\" for name in names.values() if b"\\" in name}
+    flat = [(folder, b"") for folder in sorted(folders)]
+    flat += [(names[name], text) for name, text in entries]
+    stand_ins = [(f"{number:x}".rjust(len(name), "q"), t) for number, (name, t) in enumerate(flat)]
+    content = zip_bytes(stand_ins)
+    for (stand_in, _), (name, _) in zip(stand_ins, flat, strict=True):
+        content = content.replace(stand_in.encode(), name)
+    return content

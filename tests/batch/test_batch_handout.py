@@ -179,6 +179,78 @@ def test_the_files_and_pages_tell_the_same(tmp_path: Path) -> None:
     assert all((tmp_path / link).is_file() for link in links)
 
 
+def test_a_refused_hand_in_never_beats_a_graded_one(tmp_path: Path) -> None:
+    """Whatever comes last, in time or by name; what a person decided stands before both."""
+    late = {"s1001_z": DEADLINE, "s1001_a": DEADLINE - timedelta(days=1)}
+    with gradebook(tmp_path, "topics") as book:
+        book.write(graded("s1001_a", "figure"))
+        book.write(refused("s1001_z", "There is no ROS package in it."))
+        (grade,) = class_of(book, late, [ANNA]).grades
+        assert (grade.submission, grade.final) == ("s1001_a", 98)
+        book.override("s1001_z", 70, "it ran in class", "tutor")
+        (grade,) = class_of(book, late, [ANNA]).grades
+    assert (grade.submission, grade.final) == ("s1001_z", 70)
+
+
+def test_the_newest_is_that_with_the_higher_number(tmp_path: Path) -> None:
+    """`topics-10` comes after `topics-2`; a known time stands before a number."""
+    names = ["s1001_topics-2", "s1001_topics-10", "s1001_topics"]
+    with gradebook(tmp_path, "topics") as book:
+        for name in names:
+            book.write(graded(name))
+        found = class_of(book, {}, [ANNA])
+        timed = class_of(book, {"s1001_topics-2": DEADLINE}, [ANNA])
+    assert [found.grades[0].submission, timed.grades[0].submission] == [names[1], names[0]]
+    assert sorted(found.twice["Anna Berg"]) == sorted(names)
+
+
+def test_a_score_by_hand_for_a_student_by_name(tmp_path: Path) -> None:
+    """Or by number or address: it goes to the submission that counts."""
+    (tmp_path / "class.csv").write_text(
+        "name,id,email\nAnna Berg,s1001,a.berg@example.org\nZoe,s1003,\nKim Lee,k1,\nKim Lee,k2,\n"
+    )
+    with gradebook(tmp_path, "topics") as book:
+        keep(book, Settings(roster=tmp_path / "class.csv"))
+        book.write(graded("Anna Berg_17_assignsubmission_file_", "rate"))
+        book.write(refused("Anna Berg_17_assignsubmission_onlinetext_", "It is a text."))
+    for score, who in ((60, "Anna Berg"), (70, "berg, anna"), (80, "a.berg@example.org")):
+        told = override(tmp_path, who, score, "showed it", None)
+        assert "Anna Berg_17_assignsubmission_file_" in told[0]
+        rows = {row["name"]: row["final"] for row in cells(tmp_path / "grades.csv")}
+        assert rows["Anna Berg"] == f"{score}"
+    with pytest.raises(BatchError, match="Zoe handed in nothing"):
+        override(tmp_path, "Zoe", 5, "x", None)
+    with pytest.raises(BatchError, match="one of several"):
+        override(tmp_path, "Kim Lee", 5, "x", None)
+    with pytest.raises(BatchError, match="no student 'Max'"):
+        override(tmp_path, "Max", 5, "x", None)
+
+
+def test_canvas_is_told_which_assignment(tmp_path: Path) -> None:
+    """Its import makes a new column where the name is not that of one."""
+    (tmp_path / "class.csv").write_text("name,id\nAnna Berg,s1001\n")
+    with gradebook(tmp_path, "topics") as book:
+        keep(book, Settings(roster=tmp_path / "class.csv", assignment="Lab 3 (48151)"))
+        book.write(graded("s1001"))
+        hand_out(book, TOPICS, tmp_path)
+    assert cells(tmp_path / "canvas.csv")[1]["Lab 3 (48151)"] == "100"
+
+
+def test_many_who_handed_in_nothing_are_a_table(tmp_path: Path) -> None:
+    """With number and address, to write to them; no long list."""
+    lines = [f"Student {n},m{n:04},s{n}@example.org" for n in range(192)]
+    (tmp_path / "class.csv").write_text("\n".join(["name,id,email", *lines]))
+    with gradebook(tmp_path, "topics") as book:
+        keep(book, Settings(roster=tmp_path / "class.csv"))
+        book.write(graded("somebody"))
+        told = "\n".join(hand_out(book, TOPICS, tmp_path))
+    page = (tmp_path / "class.html").read_text("utf-8")
+    assert "Handed in nothing (192)" in page
+    assert page.count("<tr><td>Student 5</td><td>m0005</td><td>s5@example.org</td></tr>") == 1
+    assert page.count("<li>") < 10
+    assert "Student 190" not in told
+
+
 def test_an_override_needs_reason_score_and_submission(tmp_path: Path) -> None:
     """Or nothing is changed."""
     with gradebook(tmp_path, "topics") as book:

@@ -184,6 +184,20 @@ def test_nobody_is_let_in_while_there_is_room() -> None:
     assert [capacity.now(1) for _ in range(5)] == [2] * 5
 
 
+def test_who_only_waits_takes_nobodys_place() -> None:
+    """Its nodes run on, and cost next to nothing: the others compute meanwhile."""
+    capacity = Capacity(cores=2, look=Machine(*[0.0] * 20))
+    assert [capacity.now(working, working - 2) for working in (2, 5, 9)] == [2, 5, 9]
+    assert Capacity(fixed=1, look=Machine()).now(3, 3) == 4
+    assert Capacity(fixed=1, alone=True, look=Machine()).now(1, 1) == 1
+
+
+def test_memory_and_number_bound_those_who_wait() -> None:
+    """At half a gigabyte for the next one; and there is an end to it."""
+    assert Capacity(cores=2, look=Machine(free_bytes=10**8)).now(7, 7) == 7
+    assert Capacity(cores=2, look=Machine()).now(32, 32) == 32
+
+
 def test_memory_bounds_it() -> None:
     """But one is always graded."""
     assert Capacity(cores=8, look=Machine(free_bytes=1_200_000_000)).now(0) == 2

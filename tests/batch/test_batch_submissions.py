@@ -20,7 +20,7 @@ from packed import (
     zip_with_raw_name,
 )
 
-from roslings.batch.archives import unpack
+from roslings.batch.archives import Budget, unpack
 from roslings.batch.opening import package_in
 from roslings.batch.submissions import digest_of, find_submissions
 from roslings.batch.trouble import BadTable, HostileArchive, NoSubmissions, Refused
@@ -57,7 +57,7 @@ HOSTILE: dict[str, tuple[Make, str]] = {
     "zip-very-many": (
         lambda p: make_zip(p, [(f"{n}", b"") for n in range(200)]), "more than 50 files",
     ),
-    "zip-no-utf8": (lambda p: zip_with_raw_name(p, b"\xff\xfe\xfd"), "no UTF-8"),
+    "zip-no-utf8": (lambda p: zip_with_raw_name(p, b"\xff\xfe\xfd", utf8=True), "no UTF-8"),
     "zip-control": (lambda p: make_zip(p, [("a\x1b[2Jb", b"1")]), "control characters"),
     "zip-pipe": (lambda p: make_zip(p, [("a", b"")], mode=0o010644), "neither a file"),
     "zip-file-as-folder": (lambda p: make_zip(p, [("a", b"1"), ("a/b", b"1")]), "as if that"),
@@ -83,7 +83,7 @@ def test_a_hostile_archive_is_refused(tmp_path: Path, make: Make, says: str) -> 
     around.mkdir()
     file = make(tmp_path / "it.zip")
     with pytest.raises(HostileArchive, match=says) as refusal:
-        unpack(file, around / "out", SMALL)
+        unpack(file, around / "out", Budget(SMALL))
     assert "roslings pack" in refusal.value.next_step
     assert [path.name for path in around.iterdir()] == ["out"]
     written = [path for path in (around / "out").rglob("*") if path.is_file()]

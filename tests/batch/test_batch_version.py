@@ -42,6 +42,17 @@ def test_what_a_lab_is_judged_by_counts(file: str, copied: Lab) -> None:
     assert version_of(copied) != before
 
 
+@pytest.mark.parametrize("file", ["interfaces/arm/msg/Bend.msg", "firmware/arm/arm.ino"])
+def test_what_a_lab_brings_counts(file: str, copied: Lab) -> None:
+    """Its message types and its sketch: there or not, and each byte of them."""
+    versions = {version_of(copied)}
+    (copied.folder / file).parent.mkdir(parents=True)
+    for text in ("float64 angle\n", "float32 angle\n"):
+        (copied.folder / file).write_text(text)
+        versions.add(version_of(copied))
+    assert len(versions) == 3
+
+
 def test_what_is_only_read_by_people_does_not(copied: Lab) -> None:
     """The task can be made clearer without grading anew."""
     before = version_of(copied)

@@ -11,14 +11,16 @@ import bz2
 import gzip
 import lzma
 import mmap
+import os
 import stat
 import struct
 import tarfile
+import time
 import unicodedata
 import zipfile
 import zlib
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 from typing import IO, cast
@@ -35,6 +37,8 @@ LONGEST_PART_BYTES, LONGEST_NAME_BYTES = 255, 1000
 ENTRY_MARK = b"PK\x01\x02"
 """Stands before each entry in a zip file's list."""
 ENCRYPTED, NAME_IS_UTF8 = 0x1, 0x800
+CLUTTER = frozenset({"__macosx", "thumbs.db", "desktop.ini"})
+"""What Windows and macOS add by themselves, in small letters; so are files that begin with `._`."""
 BROKEN = (
     zipfile.BadZipFile, tarfile.TarError, zlib.error, lzma.LZMAError, EOFError, struct.error,
     NotImplementedError, RuntimeError, ValueError, gzip.BadGzipFile,
@@ -46,14 +50,50 @@ def is_archive(path: Path) -> bool:
     return path.name.lower().endswith(SUFFIXES)
 
 
-def unpack(archive: Path, into: Path, limits: Limits | None = None) -> None:
-    """Unpack `archive` into the new folder `into`.
+def is_clutter(name: str) -> bool:
+    """Whether a computer made this file or folder by itself, and nobody handed it in."""
+    return name.casefold() in CLUTTER or name.startswith("._") or name == ".DS_Store"
+
+
+@dataclass
+class Budget:
+    """How much may come out of all archives of one submission together, and how much has."""
+
+    limits: Limits = field(default_factory=Limits)
+    entries: int = 0
+    used_bytes: int = 0
+
+    def take_entry(self, declared_bytes: int) -> None:
+        """One more file or folder. Raises HostileArchive."""
+        self.entries += 1
+        if self.entries > self.limits.files:
+            raise self.too_many()
+        if self.used_bytes + declared_bytes > self.limits.bytes:
+            raise self.too_large()
+
+    def take_bytes(self, count: int) -> None:
+        """So much more was really unpacked. Raises HostileArchive."""
+        self.used_bytes += count
+        if self.used_bytes > self.limits.bytes:
+            raise self.too_large()
+
+    def too_many(self) -> HostileArchive:
+        """It would make too many files."""
+        return HostileArchive(f"It holds more than {self.limits.files:,} files.")
+
+    def too_large(self) -> HostileArchive:
+        """It would fill the disk."""
+        return HostileArchive(f"Unpacked, it is larger than {size(self.limits.bytes)}.")
+
+
+def unpack(archive: Path, into: Path, budget: Budget | None = None) -> None:
+    """Unpack `archive` into the new folder `into`, as far as `budget` reaches.
 
     Raises HostileArchive, Refused for a file that is no archive, and what `writing` raises.
     """
-    room = Room(into, limits or Limits())
-    if archive.stat().st_size > room.limits.bytes:
-        raise HostileArchive(f"The file is larger than {size(room.limits.bytes)}.")
+    room = Room(into, budget or Budget())
+    if archive.stat().st_size > room.budget.limits.bytes:
+        raise HostileArchive(f"The file is larger than {size(room.budget.limits.bytes)}.")
     with writing(into):
         into.mkdir(mode=0o700)
     try:
@@ -65,12 +105,10 @@ def unpack(archive: Path, into: Path, limits: Limits | None = None) -> None:
 
 @dataclass
 class Room:
-    """The folder that an archive is unpacked to, and how much of its limits is used."""
+    """The folder that one archive is unpacked to."""
 
     folder: Path
-    limits: Limits
-    entries: int = 0
-    used_bytes: int = 0
+    budget: Budget
     names: dict[str, bool] = field(default_factory=dict)
     """Name to whether it is a folder."""
 
@@ -79,13 +117,17 @@ class Room:
         parts = _parts(name)
         if not parts and not is_folder:
             raise HostileArchive("A file in it has no name.")
-        self.entries += 1
-        if self.entries > self.limits.files:
-            raise HostileArchive(f"It holds more than {self.limits.files:,} files.")
-        if self.used_bytes + declared_bytes > self.limits.bytes:
-            raise self.too_large()
+        self.budget.take_entry(declared_bytes)
         self._note(parts, is_folder)
         return self.folder.joinpath(*parts)
+
+    def make(self, folder: Path) -> None:
+        """One folder, unless it is clutter."""
+        if not self._is_clutter(folder):
+            folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+
+    def _is_clutter(self, place: Path) -> bool:
+        return any(is_clutter(part) for part in place.relative_to(self.folder).parts)
 
     def _note(self, parts: tuple[str, ...], is_folder: bool) -> None:
         for end in range(1, len(parts)):
@@ -96,20 +138,19 @@ class Room:
             raise HostileArchive(f"{_shown(parts)} is in it twice.")
         self.names[whole] = is_folder
 
-    def write(self, source: IO[bytes], to: Path, runs: bool) -> None:
-        """Write one file, counting what really comes. Raises HostileArchive."""
+    def write(self, source: IO[bytes], to: Path, runs: bool, written_s: float | None) -> None:
+        """Write one file with its date, counting what really comes. Raises HostileArchive."""
+        if self._is_clutter(to):
+            return
         to.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
         with writing(to), to.open("xb") as file:
             while chunk := source.read(CHUNK_BYTES):
-                self.used_bytes += len(chunk)
-                if self.used_bytes > self.limits.bytes:
-                    raise self.too_large()
+                self.budget.take_bytes(len(chunk))
                 file.write(chunk)
         to.chmod(0o700 if runs else 0o600)
-
-    def too_large(self) -> HostileArchive:
-        """It would fill the disk."""
-        return HostileArchive(f"Unpacked, it is larger than {size(self.limits.bytes)}.")
+        if written_s is not None:
+            with suppress(OSError, OverflowError, ValueError):  # a date that no disk knows
+                os.utime(to, (written_s, written_s))
 
 
 def _parts(name: str) -> tuple[str, ...]:
@@ -145,7 +186,7 @@ def _shown(parts: tuple[str, ...]) -> str:
 
 
 def _unpack_zip(archive: Path, room: Room) -> None:
-    _count_entries(archive, room)
+    _count_entries(archive, room.budget)
     try:
         file = zipfile.ZipFile(archive)
     except UnicodeDecodeError as error:
@@ -153,21 +194,38 @@ def _unpack_zip(archive: Path, room: Room) -> None:
     with file:
         places = [(info, _place_of(info, room)) for info in file.infolist()]
         for info, place in places:
-            if info.is_dir():
-                place.mkdir(mode=0o700, parents=True, exist_ok=True)
+            if _is_folder(info):
+                room.make(place)
             else:
                 with file.open(info) as source:
-                    room.write(source, place, runs=bool(_mode(info) & 0o100))
+                    room.write(source, place, bool(_mode(info) & 0o100), _written_s(info))
 
 
-def _count_entries(archive: Path, room: Room) -> None:
+def zip_names(archive: Path, limits: Limits) -> dict[str, zipfile.ZipInfo]:
+    """The files in a zip file, by name with slashes; empty for what is none.
+
+    Nothing is unpacked, and clutter is left out. Raises HostileArchive where it holds too many.
+    """
+    if not zipfile.is_zipfile(archive):
+        return {}
+    _count_entries(archive, Budget(limits))
+    with suppress(*BROKEN, OSError), zipfile.ZipFile(archive) as file:
+        named = ((_zip_name(info).replace("\\", "/"), info) for info in file.infolist())
+        return {
+            name: info for name, info in named
+            if not _is_folder(info) and not any(map(is_clutter, name.split("/")))
+        }  # fmt: skip
+    return {}
+
+
+def _count_entries(archive: Path, budget: Budget) -> None:
     """Before Python makes an object of each entry: a list of millions would fill the memory."""
     with archive.open("rb") as file, _mapped(file) as content:
         at, found = content.find(ENTRY_MARK), 0
         while at >= 0:
             found += 1
-            if found > 2 * room.limits.files:
-                raise HostileArchive(f"It holds more than {room.limits.files:,} files.")
+            if found > 2 * budget.limits.files:
+                raise budget.too_many()
             at = content.find(ENTRY_MARK, at + 1)
 
 
@@ -186,15 +244,31 @@ def _place_of(info: zipfile.ZipInfo, room: Room) -> Path:
         raise HostileArchive(f"{_shown((name,))} is neither a file nor a folder.")
     if info.flag_bits & ENCRYPTED:
         raise Refused("It is locked with a password.", "Pack it again without one.")
-    return room.enter(name, info.is_dir(), info.file_size)
+    return room.enter(name, _is_folder(info), info.file_size)
+
+
+def _is_folder(info: zipfile.ZipInfo) -> bool:
+    """Some programs on Windows end a folder's name with a backslash."""
+    return info.orig_filename.endswith(("/", "\\"))
+
+
+def _written_s(info: zipfile.ZipInfo) -> float | None:
+    """When the file was last written, in local time as zip files have it."""
+    with suppress(OverflowError, ValueError):
+        return time.mktime((*info.date_time, 0, 0, -1))
+    return None
 
 
 def _zip_name(info: zipfile.ZipInfo) -> str:
-    """A name without the mark of UTF-8 was read as an old code page; most programs mean UTF-8."""
+    """A name without the mark of UTF-8 was read as code page 437; most programs mean UTF-8.
+
+    What is no UTF-8 is of an old program on Windows, and was meant as it was read.
+    """
     if info.flag_bits & NAME_IS_UTF8:
         return info.orig_filename
-    raw = info.orig_filename.encode("cp437", "surrogateescape")
-    return raw.decode("utf-8", "surrogateescape")
+    with suppress(UnicodeError):
+        return info.orig_filename.encode("cp437").decode("utf-8")
+    return info.orig_filename
 
 
 def _mode(info: zipfile.ZipInfo) -> int:
@@ -218,9 +292,9 @@ def _unpack_member(file: tarfile.TarFile, member: tarfile.TarInfo, room: Room) -
     _insist_on_kind(member)
     place = room.enter(member.name, member.isdir(), member.size if member.isreg() else 0)
     if member.isdir():
-        place.mkdir(mode=0o700, parents=True, exist_ok=True)
+        room.make(place)
     elif source := file.extractfile(member):
-        room.write(source, place, runs=bool(member.mode & 0o100))
+        room.write(source, place, bool(member.mode & 0o100), member.mtime)
 
 
 def _insist_on_kind(member: tarfile.TarInfo) -> None:
@@ -255,8 +329,9 @@ class Bounded:
     """A stream that ends in a refusal where it holds more than any package."""
 
     def __init__(self, stream: IO[bytes], room: Room) -> None:
-        self._stream, self._room = stream, room
-        self._most = room.limits.bytes + room.limits.files * 2 * tarfile.BLOCKSIZE
+        self._stream, self._budget = stream, room.budget
+        limits = room.budget.limits
+        self._most = limits.bytes + limits.files * 2 * tarfile.BLOCKSIZE
         self.tell = stream.tell
 
     def read(self, count: int = -1) -> bytes:
@@ -268,5 +343,5 @@ class Bounded:
     def seek(self, position: int) -> int:
         """Go on elsewhere. Raises HostileArchive."""
         if position > self._most:
-            raise self._room.too_large()
+            raise self._budget.too_large()
         return self._stream.seek(position)

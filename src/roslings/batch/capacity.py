@@ -22,6 +22,8 @@ NEWEST = 0.3
 """What the newest look weighs in the mean: those that build at the same time wait at the same time,
 so that one look often sees only the one or only the other."""
 MOST_PER_CORE = 2
+MOST_SOAKING_PER_CORE = 16
+"""Those whose nodes only run on: half a minute of it fills this with gradings of two seconds."""
 NEEDS_BYTES = 500_000_000
 """Memory that one grading may come to need: grader, probe, colcon and nodes."""
 
@@ -58,7 +60,9 @@ class Capacity:
     """How many may work at once, by what was seen of the machine so far."""
 
     fixed: int | None = None
-    """What `--jobs` says; then nothing is measured."""
+    """What `--jobs` says; then nothing is measured but the memory."""
+    alone: bool = False
+    """Whether one that only waits, while its nodes run on, keeps its place."""
     cores: int = field(default_factory=cores)
     look: Callable[[], Look] = look
     allowed: int = 0
@@ -69,17 +73,28 @@ class Capacity:
     def __post_init__(self) -> None:
         self.allowed = self.fixed or self.cores
 
-    def now(self, working: int) -> int:
-        """How many may work now, of whom `working` do already; at least one."""
-        if self.fixed:
-            return self.fixed
+    def now(self, working: int, soaking: int = 0) -> int:
+        """How many there may be now, of `working` that are there already; at least one.
+
+        Of these, `soaking` only wait until their nodes have run for long enough. They cost
+        memory, and next to nothing else.
+        """
+        if self.alone or (self.fixed and not soaking):
+            return self.fixed or 1
+        if soaking >= MOST_SOAKING_PER_CORE * self.cores:
+            return working
         seen = self.look()
+        busy = self.fixed or self._busy(working - soaking, seen)
+        return max(1, min(busy + soaking, working + seen.free_bytes // NEEDS_BYTES))
+
+    def _busy(self, working: int, seen: Look) -> int:
+        """How many may compute now, of whom `working` do already."""
         if self._last is None:
             self._last = seen
         elif seen.at_s - self._last.at_s >= LOOK_EVERY_S:
             self._adjust(self._mean_with(self._idle_part(seen)), working)
             self._last = seen
-        return max(1, min(self.allowed, working + seen.free_bytes // NEEDS_BYTES))
+        return self.allowed
 
     def _idle_part(self, seen: Look) -> float:
         assert self._last is not None

@@ -56,7 +56,7 @@ def _body(lab: Lab, found: Class, common: Iterable[int]) -> Markup:
     parts = (
         *_overview(found), *_scores(found.grades), *_checks(results),
         *_rates(lab, results), *_alike(results, common), *_loose_ends(found),
-        *_everybody(found.grades),
+        *_missing(found.missing), *_everybody(found.grades),
     )  # fmt: skip
     header = tag("header", tag("p", f"Lab {lab.name}", class_="over"), tag("h1", lab.card.title))
     return tag("body", header, tag("main", *parts))
@@ -175,15 +175,22 @@ def _percent(pair: Pair) -> str:
 
 def _loose_ends(found: Class) -> Iterator[Markup]:
     items = [
-        *(tag("li", f"{grade.name} handed in nothing") for grade in found.missing),
         *(tag("li", f"{name} is of nobody in the class list") for name in found.unknown),
         *(tag("li", f"{name} may be of {' or '.join(names)}")
           for name, names in found.unclear.items()),
-        *(tag("li", f"{name} handed in several: {', '.join(names)}; the newest counts")
+        *(tag("li", f"{name} handed in several: {', '.join(names)}; the newest that was"
+              " graded counts")
           for name, names in found.twice.items()),
     ]  # fmt: skip
     if items:
         yield tag("section", tag("h2", "What does not fit the class list"), tag("ul", *items))
+
+
+def _missing(grades: Sequence[Grade]) -> Iterator[Markup]:
+    rows = [_row((who.name, who.id, who.email)) for each in grades if (who := each.student)]
+    if rows:
+        heading = f"Handed in nothing ({len(rows)})"
+        yield tag("section", tag("h2", heading), _table(("who", "id", "address"), rows))
 
 
 def _everybody(grades: Sequence[Grade]) -> Iterator[Markup]:

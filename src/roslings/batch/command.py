@@ -2,26 +2,27 @@
 
 from __future__ import annotations
 
-import fcntl
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from roslings import course
 from roslings.arena import Isolation
+from roslings.batch.alone import alone_in
 from roslings.batch.capacity import Capacity
 from roslings.batch.crew import Limits
+from roslings.batch.downloads import submissions_at
 from roslings.batch.far import FarCrew, far_crew
 from roslings.batch.gradebook import Gradebook, gradebook
 from roslings.batch.grades import LateRule
 from roslings.batch.handout import Settings, hand_out, keep
-from roslings.batch.roster import read_roster
+from roslings.batch.roster import insist_on_owners
 from roslings.batch.shift import Shift, Standing, Wish
-from roslings.batch.submissions import Submission, find_submissions
+from roslings.batch.submissions import Submission
 from roslings.batch.trouble import BatchError
-from roslings.batch.words import standing_line, summary_lines
+from roslings.batch.words import soak_line, standing_line, summary_lines
+from roslings.course import Lab
+from roslings.course.soak import soak_seconds
 from roslings.experiment import insist_on_wall
 from roslings.experiment.run_folder import LOCK, run_folder
 from roslings.report import Progress
@@ -54,6 +55,12 @@ class Choices:
     rule: LateRule | None = None
     dask: str | None = None
     """The address of a cluster's scheduler."""
+    soak_s: float | None = None
+    """How long the nodes are left running besides; None: as the card says."""
+    alone: bool = False
+    """Whether there is never a second one, not even one that only waits."""
+    assignment: str = ""
+    """What Canvas calls the lab."""
 
 
 @dataclass(frozen=True)
@@ -72,23 +79,31 @@ def grade(choices: Choices) -> Report:
     """
     lab = course.lab(choices.lab, choices.hidden)
     _ = lab.card, lab.hints  # a mistake in the course is told before anything is run
-    submissions = find_submissions(choices.submissions)
+    with submissions_at(choices.submissions) as submissions:
+        return _graded(choices, lab, submissions)
+
+
+def _graded(choices: Choices, lab: Lab, submissions: list[Submission]) -> Report:
+    settings = _settings(choices, submissions)
     if not choices.dask and not choices.trust:
         choices = _at_once(choices, insist_on_wall(lab, choices.submissions, choices.out))
     _make(choices)
-    with _alone_in(choices.out), gradebook(choices.out, lab.name) as book:
-        keep(book, _settings(choices, submissions))
-        _grade_all(choices, submissions, book)
+    with alone_in(choices.out, AlreadyGrading), gradebook(choices.out, lab.name) as book:
+        keep(book, settings)
+        _grade_all(choices, submissions, book, soak_seconds(lab.card, choices.soak_s))
         names = [each.name for each in submissions]
         latest = book.latest()
         unclear = sum(latest[name].word == "inconclusive" for name in names)
-        lines = [*summary_lines(book, names), *hand_out(book, lab, choices.out)]
+        lines = [
+            *summary_lines(book, names), soak_line(latest.values()),
+            *hand_out(book, lab, choices.out),
+        ]  # fmt: skip
         return Report(lines, unclear)
 
 
 def _at_once(choices: Choices, wall: Isolation) -> Choices:
     """Users of one machine share its network: one at a time, none can speak in another's place."""
-    return replace(choices, jobs=1) if wall.wall == "user" else choices
+    return replace(choices, jobs=1, alone=True) if wall.wall == "user" else choices
 
 
 def _make(choices: Choices) -> None:
@@ -105,26 +120,34 @@ def _make(choices: Choices) -> None:
 
 
 def _settings(choices: Choices, submissions: list[Submission]) -> Settings:
-    """A class list that cannot be read is told before anything is run. Raises BadTable."""
+    """A class list that cannot be read, or is of others, is told before anything is run.
+
+    Raises BadTable, NobodyInTheList.
+    """
     if choices.roster:
-        read_roster(choices.roster)
+        insist_on_owners(choices.roster, [each.name for each in submissions])
     times = {each.name: each.submitted for each in submissions if each.submitted}
     roster = choices.roster.absolute() if choices.roster else None
     hidden = choices.hidden.absolute() if choices.hidden else None
-    return Settings(roster=roster, rule=choices.rule, times=times, hidden=hidden)
+    return Settings(
+        roster=roster, rule=choices.rule, times=times, hidden=hidden, assignment=choices.assignment
+    )
 
 
-def _grade_all(choices: Choices, submissions: list[Submission], book: Gradebook) -> None:
+def _grade_all(
+    choices: Choices, submissions: list[Submission], book: Gradebook, soak_s: float
+) -> None:
     with run_folder() as scratch, Progress() as progress:
         wish = Wish(
             lab=choices.lab, scratch=scratch, lock=scratch / LOCK, clock=choices.clock,
             hidden=choices.hidden.absolute() if choices.hidden else None,
             strangers=not choices.trust, keeps_evidence=choices.keeps_evidence,
-            limits=Limits(choices.limit_s),
+            limits=Limits(choices.limit_s), soak_s=soak_s,
         )  # fmt: skip
         teller = Teller(progress)
         if choices.dask is None:
-            Shift(wish, book, Capacity(fixed=choices.jobs), teller).run(submissions)
+            capacity = Capacity(fixed=choices.jobs, alone=choices.alone)
+            Shift(wish, book, capacity, teller).run(submissions)
         else:
             lab = course.lab(choices.lab, wish.hidden)
             with far_crew(choices.dask, lab, choices.trust, wish.limits) as hands:
@@ -138,7 +161,7 @@ class FarCapacity:
     hands: FarCrew
     fixed: int | None = None
 
-    def now(self, working: int) -> int:
+    def now(self, working: int, soaking: int = 0) -> int:
         """One more than there are threads waits on its way."""
         return self.hands.threads() + 1
 
@@ -156,14 +179,3 @@ class Teller:
         if sys.stderr.isatty() or now != self.said:
             self.progress.step(standing_line(standing))
             self.said = now
-
-
-@contextmanager
-def _alone_in(folder: Path) -> Iterator[None]:
-    """Two commands in one folder would grade everything twice. Raises AlreadyGrading."""
-    with (folder / ".lock").open("w") as lock:
-        try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            raise AlreadyGrading(folder) from None
-        yield

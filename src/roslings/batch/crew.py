@@ -76,6 +76,11 @@ class Crew:
         self._nursery, self._limits = nursery, limits
         self._unfinished = b""
 
+    @property
+    def soaking(self) -> int:
+        """How many of the workers only wait until their nodes have run for long enough."""
+        return sum(worker.order.soaking.exists() for worker in self.workers)
+
     def start(self, order: Order) -> None:
         """Begin to grade one more. Raises NurseryGone."""
         order.room.mkdir(mode=0o700, parents=True)

@@ -19,10 +19,13 @@ MOODLE = ("Identifier", "Full name", "Email address", "Grade", "Feedback comment
 Line = Sequence[str]
 
 
-def write_all(grades: Sequence[Grade], lab: Lab, folder: Path) -> None:
-    """Write grades.csv, canvas.csv and moodle.csv. Raises CannotWrite."""
+def write_all(grades: Sequence[Grade], lab: Lab, folder: Path, assignment: str = "") -> None:
+    """Write grades.csv, canvas.csv and moodle.csv; `assignment` is Canvas's name of the lab.
+
+    Raises CannotWrite.
+    """
     _write(folder / "grades.csv", _plain(grades, list(lab.card.points)))
-    _write(folder / "canvas.csv", _canvas(grades, lab))
+    _write(folder / "canvas.csv", _canvas(grades, assignment or f"{lab.card.title} ({lab.name})"))
     _write(folder / "moodle.csv", _moodle(grades))
 
 
@@ -68,9 +71,9 @@ def _reason(grade: Grade) -> str:
     return " ".join(grade.result.reason.split()) if grade.result else ""
 
 
-def _canvas(grades: Sequence[Grade], lab: Lab) -> Iterable[Line]:
+def _canvas(grades: Sequence[Grade], assignment: str) -> Iterable[Line]:
     """A score that is not known stays empty: Canvas then leaves it as it is."""
-    yield (*CANVAS, f"{lab.card.title} ({lab.name})")
+    yield (*CANVAS, assignment)
     yield ("    Points Possible", "", "", "", "", "100")
     for each in (each for each in grades if each.student):
         assert each.student

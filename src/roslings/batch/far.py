@@ -136,6 +136,11 @@ class FarCrew:
     """Dask's future to its order, and when it began."""
     refused: list[Ended] = field(default_factory=list)
 
+    @property
+    def soaking(self) -> int:
+        """None that is known here: each has a thread of the cluster until its end."""
+        return 0
+
     def start(self, order: Order) -> None:
         """Send one more."""
         try:

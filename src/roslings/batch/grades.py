@@ -10,6 +10,7 @@ from datetime import datetime
 from pydantic import BaseModel
 
 from roslings.batch.gradebook import Gradebook, Override
+from roslings.batch.newest import Natural, natural
 from roslings.batch.result import Result
 from roslings.batch.roster import Matched, Student, match
 
@@ -83,7 +84,7 @@ class Class:
     unknown: list[str] = field(default_factory=list)
     unclear: dict[str, list[str]] = field(default_factory=dict)
     twice: dict[str, list[str]] = field(default_factory=dict)
-    """Students with several submissions, of which the newest counts."""
+    """Students with several submissions, of which the newest that was graded counts."""
 
     @property
     def missing(self) -> list[Grade]:
@@ -127,7 +128,12 @@ class _Join:
         return Grade(student, self.latest[name], self.overrides.get(name), days, costs)
 
     def _newest(self, names: list[str]) -> str:
-        return max(names, key=lambda name: (self._stamp(name), name))
+        """A person's word first; what was refused never stands before what was graded."""
+        return max(names, key=self._rank)
+
+    def _rank(self, name: str) -> tuple[bool, bool, float, Natural]:
+        was_graded = self.latest[name].word != "refused"
+        return name in self.overrides, was_graded, self._stamp(name), natural(name)
 
     def _stamp(self, name: str) -> float:
         submitted = self.times.get(name)

@@ -20,6 +20,7 @@ from roslings.batch.version import version_of
 from roslings.course import Lab
 from roslings.evidence import Evidence, evidence_json
 from roslings.experiment import Choices, MeasuringFailed, measure
+from roslings.experiment.soaking import SOAKING
 from roslings.judge.loaded import judge_for
 from roslings.report.html.intervals import watched
 from roslings.report.whole_file import write_whole
@@ -105,15 +106,17 @@ def _measured(order: Order, lab: Lab) -> Measured:
     choices = Choices(
         order.seed, order.clock, hidden=order.hidden, builds=order.builds,
         builds_as_kin=order.builds_as_kin, strangers=order.strangers, for_others=order.strangers,
+        soak_s=order.soak_s,
     )  # fmt: skip
+
+    def note(step: str) -> None:
+        if step == SOAKING:
+            order.soaking.touch()
+
     with judge_for(lab, order.strangers) as judge:
-        evidence = measure(lab.name, package, files, choices, _silent)
+        evidence = measure(lab.name, package, files, choices, note)
         verdict = judge(evidence, began_ns)
     return Measured(verdict, evidence, _fingerprint(package))
-
-
-def _silent(step: str) -> None:
-    """Many gradings at once: nobody reads their steps."""
 
 
 def _fingerprint(package: Path) -> Fingerprint:

@@ -29,6 +29,8 @@ class Settings(BaseModel):
     """Submission to the time of handing in, where a list told it."""
     hidden: Path | None = None
     """The checks that students do not have."""
+    assignment: str = ""
+    """What Canvas calls the lab: the head of its column; empty for the lab's own title."""
 
 
 def settings_of(book: Gradebook) -> Settings:
@@ -50,7 +52,7 @@ def hand_out(book: Gradebook, lab: Lab, folder: Path) -> list[str]:
     settings = settings_of(book)
     students = read_roster(settings.roster) if settings.roster else ()
     found = class_of(book, settings.times, students, settings.rule)
-    write_all(found.grades, lab, folder)
+    write_all(found.grades, lab, folder, settings.assignment)
     write_pages(book, lab, found.grades, folder / "students")
     write_class_page(lab, found, fingerprint(lab.starter).marks, folder / "class.html")
     return [*_remarks(found, settings), f"The class on one page: {shown(folder)}/class.html"]
@@ -65,7 +67,9 @@ def _remarks(found: Class, settings: Settings) -> list[str]:
     if found.unclear:
         lines.append(_few("Of more than one in the class list", list(found.unclear)))
     if found.twice:
-        lines.append(_few("Handed in several, the newest counts", list(found.twice)))
+        lines.append(
+            _few("Handed in several, the newest that was graded counts", list(found.twice))
+        )
     untimed = sum(grade.late_days is None for grade in found.grades if grade.result)
     if settings.rule and untimed:
         lines.append(

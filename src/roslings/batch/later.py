@@ -8,9 +8,11 @@ from pathlib import Path
 
 from roslings import course
 from roslings.batch.gradebook import Gradebook, gradebook, lab_of
+from roslings.batch.grades import Grade, class_of
 from roslings.batch.grading import rates_of, unpacked
 from roslings.batch.handout import hand_out, keep, settings_of
 from roslings.batch.result import Result
+from roslings.batch.roster import read_roster
 from roslings.batch.trouble import BadGradebook, BatchError
 from roslings.batch.version import version_of
 from roslings.batch.words import summary_lines
@@ -21,6 +23,7 @@ from roslings.judge import judge
 def override(folder: Path, submission: str, score: float, reason: str, by: str | None) -> list[str]:
     """Put a person's score beside the measured one, and write everything anew.
 
+    `submission` is its name, or what the class list says of the student.
     Raises BatchError for a submission that is not there, a score that is none, or no reason.
     """
     if not reason.strip():
@@ -30,7 +33,7 @@ def override(folder: Path, submission: str, score: float, reason: str, by: str |
     name = _lab_in(folder)
     with gradebook(folder, name) as book:
         lab = course.lab(name, settings_of(book).hidden)
-        _insist_on(book, submission)
+        submission = _meant(book, submission)
         book.override(submission, score, reason, by or _who())
         told = f"{submission} has {score:g} of 100 now; the measured score is kept beside it."
         return [told, *hand_out(book, lab, folder)]
@@ -44,12 +47,35 @@ def _lab_in(folder: Path) -> str:
     return found
 
 
-def _insist_on(book: Gradebook, submission: str) -> None:
+def _meant(book: Gradebook, who: str) -> str:
+    """The submission of that name, else the one that counts for that student. Raises BatchError."""
+    if who in book.latest():
+        return who
+    found = [grade for grade in _grades(book) if grade.student and grade.student.is_called(who)]
+    if not found:
+        raise _nobody(book, who)
+    if len(found) > 1:
+        several = ", ".join(f"{grade.name} ({grade.submission or 'nothing'})" for grade in found)
+        raise BatchError(
+            f"{who!r} may be one of several: {several}.", "Give the submission's name."
+        )
+    if not found[0].result:
+        step = "A score by hand stands beside a measured one: grade something of theirs first."
+        raise BatchError(f"{found[0].name} handed in nothing.", step)
+    return found[0].submission
+
+
+def _grades(book: Gradebook) -> list[Grade]:
+    settings = settings_of(book)
+    students = read_roster(settings.roster) if settings.roster else ()
+    return class_of(book, settings.times, students, settings.rule).grades
+
+
+def _nobody(book: Gradebook, who: str) -> BatchError:
     names = list(book.latest())
-    if submission not in names:
-        near = ", ".join(name for name in names if submission.lower() in name.lower())
-        step = f"Is it one of these: {near}?" if near else "The names are in grades.csv."
-        raise BatchError(f"There is no submission {submission!r} here.", step)
+    near = ", ".join(name for name in names if who.lower() in name.lower())
+    step = f"Is it one of these: {near}?" if near else "The names are in grades.csv."
+    return BatchError(f"There is no submission and no student {who!r} here.", step)
 
 
 def _who() -> str:

@@ -34,6 +34,8 @@ class Order(BaseModel):
     builds_as_kin: bool = False
     """One of a lab's own packages: those that differ in their modules alone share a build."""
     keeps_evidence: bool = True
+    soak_s: float = 0.0
+    """How long its nodes are left running besides; 0: not at all."""
     strangers: bool = False
     """Somebody else's, and not trusted: the wall for strangers' code is taken."""
 
@@ -46,6 +48,11 @@ class Order(BaseModel):
     def evidence(self) -> Path:
         """Where the packed evidence is put."""
         return self.room / "evidence.zlib"
+
+    @property
+    def soaking(self) -> Path:
+        """There as soon as its nodes only run on: little is computed for it then."""
+        return self.room / "soaking"
 
     @property
     def errors(self) -> Path:

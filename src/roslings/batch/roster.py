@@ -3,23 +3,59 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+import unicodedata
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from roslings.batch.platform_names import platform_name
 from roslings.batch.tables import Row, read_table
-from roslings.batch.trouble import BadTable
+from roslings.batch.trouble import BadTable, BatchError
+from roslings.report.safe_text import harmless
 
 NAMES = ("name", "student", "full name", "student name")
 FIRST, LAST = ("first name", "firstname"), ("last name", "lastname", "surname")
 IDS = ("id", "student id", "sis user id", "id number", "number")
 EMAILS = ("email", "email address", "e-mail")
 LOGINS = ("sis login id", "login", "username", "user")
-OTHER_KEYS = ("identifier",)
-"""Moodle's `Participant 123`: the number stands in the name of the file."""
+GITHUB = ("github_username", "github username", "github name", "github login", "github")
+IDENTIFIER = "identifier"
+"""Moodle's `Participant 123`, or what GitHub Classroom's teacher calls a student by."""
+CANVAS_ALONE = {"sis user id", "sis login id"}
+"""Columns that only its class lists have: there `id` is the number in a file's name."""
 SHORTEST_KEY = 3
+HOW = (
+    "A submission finds its student by its name: it is, or has in it between low lines or spaces,\n"
+    "the id, the address or its part before the @, the login, or the whole name. A folder like\n"
+    "`lab-topics-annaberg` finds its student by the login, or by a column `github_username`.\n"
+    "Bring the class list up to date, or give a CSV file with the columns student, path."
+)
 _NO_WORD = re.compile(r"[\W_]+")
+_LAST_NUMBER = re.compile(r"\s(\d+)$")
 _BETWEEN = re.compile(r"[_\s(),]+")
+_WRITTEN_OUT = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "å": "aa", "ø": "oe", "æ": "ae"})
+Spelling = Callable[[str], str]
+
+
+def squashed(text: str) -> str:
+    """Letters and digits alone, small; however the file system writes an accent."""
+    return _NO_WORD.sub("", unicodedata.normalize("NFKC", text)).casefold()
+
+
+def without_accents(text: str) -> str:
+    """The same in plain letters: `Zoë` is `zoe`."""
+    apart = unicodedata.normalize("NFKD", squashed(text))
+    return "".join(char for char in apart if not unicodedata.combining(char))
+
+
+def written_out(text: str) -> str:
+    """The same as German and Scandinavian addresses have it: `Müller` is `mueller`."""
+    return without_accents(squashed(text).translate(_WRITTEN_OUT))
+
+
+SPELLINGS: tuple[Spelling, ...] = (squashed, without_accents, written_out)
+"""The first by which anybody is found counts."""
 
 
 @dataclass(frozen=True)
@@ -33,19 +69,31 @@ class Student:
     cells: dict[str, str] = field(default_factory=dict, compare=False)
     """All that the list says, column in small letters to text."""
 
-    def keys(self) -> set[str]:
+    def keys(self, spelling: Spelling = squashed) -> set[str]:
         """What a submission of theirs may be called."""
+        keys = {spelling(text) for text in self._told()}
+        return {key for key in keys if len(key) >= SHORTEST_KEY}
+
+    def _told(self) -> Iterator[str]:
         words = self.name.replace(",", " ").split()
-        turned = ["".join(words[-1:] + words[:-1]), "".join(words[1:] + words[:1])]
-        more = [re.sub(r"\D", "", self.cells.get(column, "")) for column in OTHER_KEYS]
-        local = self.email.partition("@")[0]
-        given = [self.id, self.email, local, self.login, self.name, *turned, *more]
-        return {key for text in given if len(key := squashed(text)) >= SHORTEST_KEY}
+        yield from (self.name, "".join(words[-1:] + words[:-1]), "".join(words[1:] + words[:1]))
+        identifier = self.cells.get(IDENTIFIER, "")
+        for address in (self.email, identifier):
+            yield from (address, address.partition("@")[0])
+        yield from (self.id, self.login, *self.numbers())
+        yield from (self.cells.get(column, "") for column in GITHUB)
 
+    def numbers(self) -> set[str]:
+        """What a platform numbers the student with, however short; not what others do."""
+        of_moodle = _LAST_NUMBER.findall(self.cells.get(IDENTIFIER, ""))
+        of_canvas = (
+            [self.cells["id"]] if "id" in self.cells and CANVAS_ALONE & set(self.cells) else []
+        )
+        return {number.strip() for number in (*of_moodle, *of_canvas)} - {""}
 
-def squashed(text: str) -> str:
-    """Letters and digits alone, small."""
-    return _NO_WORD.sub("", text).casefold()
+    def is_called(self, who: str) -> bool:
+        """Whether a person may mean this student by that."""
+        return squashed(who) in {squashed(self.name), *self.keys()}
 
 
 def read_roster(path: Path) -> list[Student]:
@@ -61,11 +109,34 @@ def _is_about_points(row: Row) -> bool:
     return row.first(NAMES).lower() == "points possible"
 
 
+def insist_on_owners(path: Path, submissions: Sequence[str]) -> None:
+    """Raises NobodyInTheList where no submission is of anybody in the list, and BadTable."""
+    students = read_roster(path)
+    found = match(students, submissions)
+    if not found.unclear and not any(found.of_student.values()):
+        raise NobodyInTheList(path, students, submissions)
+
+
+class NobodyInTheList(BatchError):
+    """No submission is of anybody in the class list."""
+
+    def __init__(self, path: Path, students: Sequence[Student], names: Sequence[str]) -> None:
+        handed_in, listed = (
+            ", ".join(map(repr, some[:3])) for some in (names, [each.name for each in students])
+        )
+        super().__init__(
+            f"{path}: no submission is of anybody in this class list.\n"
+            f"Submissions are called, for example: {harmless(handed_in)}\n"
+            f"Students are called, for example: {harmless(listed)}",
+            HOW,
+        )
+
+
 def _student(row: Row) -> Student:
     name = row.first(NAMES) or f"{row.first(FIRST)} {row.first(LAST)}".strip()
     return Student(
-        name or row.needed((*NAMES, *IDS, *EMAILS)),
-        row.first(IDS), row.first(EMAILS), row.first(LOGINS), row.cells,
+        name or row.needed((*NAMES, *IDS, *EMAILS, IDENTIFIER, *GITHUB)),
+        row.first((*IDS, IDENTIFIER)), row.first(EMAILS), row.first(LOGINS), row.cells,
     )  # fmt: skip
 
 
@@ -87,11 +158,12 @@ class Matched:
 
 
 def match(students: Sequence[Student], submissions: Iterable[str]) -> Matched:
-    """Find out which submission is whose: the whole name first, then the parts of it."""
+    """Find out which submission is whose; never by a guess."""
     found = Matched({student: [] for student in students}, [], {})
-    keys = {student: student.keys() for student in students}
-    for name in submissions:
-        owners = _owners(keys, {squashed(name)}) or _owners(keys, _parts(name))
+    names = list(submissions)
+    matching = _Matching(students, shared_starts(names))
+    for name in names:
+        owners = matching.owners(name)
         if len(owners) == 1:
             found.of_student[owners[0]].append(name)
         elif owners:
@@ -101,10 +173,63 @@ def match(students: Sequence[Student], submissions: Iterable[str]) -> Matched:
     return found
 
 
-def _owners(keys: dict[Student, set[str]], parts: set[str]) -> list[Student]:
-    return [student for student, own in keys.items() if own & parts]
+class _Matching:
+    """The ways to find a student by a name, the surest first."""
+
+    def __init__(self, students: Sequence[Student], starts: set[str]) -> None:
+        self._students, self._starts = students, starts
+        self._keys = {
+            spelling: {student: student.keys(spelling) for student in students}
+            for spelling in SPELLINGS
+        }
+
+    def owners(self, name: str) -> list[Student]:
+        """Who may have handed in what is called so."""
+        ways = (self._of_platform, self._by_parts)
+        found = (way(name, spelling) for spelling in SPELLINGS for way in ways)
+        return next((owners for owners in found if owners), [])
+
+    def _of_platform(self, name: str, spelling: Spelling) -> list[Student]:
+        """As the platform says: the name, and the number where two have one name."""
+        told = platform_name(name)
+        if told is None:
+            return []
+        of_group = {rest for _, rest in _cuts(told.person)}  # `Group A-Anna Berg`
+        named = self._named_by({told.person}, spelling) or self._named_by(of_group, spelling)
+        numbered = [student for student in self._students if told.number in student.numbers()]
+        return [each for each in named if each in numbered] or named or numbered
+
+    def _by_parts(self, name: str, spelling: Spelling) -> list[Student]:
+        return (
+            self._named_by({name}, spelling)
+            or self._named_by(_parts(name), spelling)
+            or self._by_tails(name, spelling)
+        )
+
+    def _by_tails(self, name: str, spelling: Spelling) -> list[Student]:
+        """What stands after the start that most names share: `lab-topics-` of a clone."""
+        tails = (tail for start, tail in _cuts(name) if start in self._starts)
+        found = (self._named_by({tail}, spelling) for tail in tails)
+        return next((owners for owners in found if owners), [])
+
+    def _named_by(self, parts: set[str], spelling: Spelling) -> list[Student]:
+        spelled = {spelling(part) for part in parts}
+        return [student for student, own in self._keys[spelling].items() if own & spelled]
 
 
 def _parts(name: str) -> set[str]:
     """Between lines low and spaces: `Anna B_123_assignsubmission_file_` and `bergannalate_123`."""
-    return {squashed(part) for part in (*name.split("_"), *_BETWEEN.split(name))}
+    return {*name.split("_"), *_BETWEEN.split(name)}
+
+
+def _cuts(name: str) -> Iterator[tuple[str, str]]:
+    """The name before and after each `-`, the longest rest first."""
+    pieces = name.split("-")
+    for at in range(1, len(pieces)):
+        yield "-".join(pieces[:at]), "-".join(pieces[at:])
+
+
+def shared_starts(names: Sequence[str]) -> set[str]:
+    """What more than half of the names have before a `-`: it tells of the lab, not of a student."""
+    starts = Counter(start for name in names for start, _ in _cuts(name))
+    return {start for start, count in starts.items() if 2 * count > len(names)}

@@ -31,6 +31,8 @@ class Wish:
     hidden: Path | None = None
     clock: str = "auto"
     keeps_evidence: bool = True
+    soak_s: float = 0.0
+    """How long the nodes are left running besides; 0: not at all."""
     strangers: bool = False
     limits: Limits = field(default_factory=Limits)
     life: str = GRADING
@@ -46,7 +48,7 @@ class Wish:
                 "attempt": attempt, "path": submission.path.absolute(), "room": room,
                 "seed": seed, "clock": self.clock, "hidden": self.hidden,
                 "builds": self.scratch / "builds", "keeps_evidence": self.keeps_evidence,
-                "strangers": self.strangers,
+                "strangers": self.strangers, "soak_s": self.soak_s,
             }
         )  # fmt: skip
 
@@ -83,6 +85,10 @@ class Hands(Protocol):
     def workers(self) -> Sized:
         """Those at work."""
 
+    @property
+    def soaking(self) -> int:
+        """How many of them only wait."""
+
     def start(self, order: Order) -> None:
         """Begin one more."""
 
@@ -95,8 +101,8 @@ class HowMany(Protocol):
 
     fixed: int | None
 
-    def now(self, working: int) -> int:
-        """Of whom `working` do already."""
+    def now(self, working: int, soaking: int) -> int:
+        """Of whom `working` do already, and of these `soaking` only wait."""
 
 
 class Shift:
@@ -132,7 +138,7 @@ class Shift:
             if not ended.result.is_conclusive:
                 todo.unclear.add(ended.order.submission)
         again = [todo.known[name] for name in sorted(todo.unclear)]
-        for _ in self._work(workers, again, Capacity(fixed=1)):
+        for _ in self._work(workers, again, Capacity(fixed=1, alone=True)):
             pass
 
     def _work(
@@ -140,7 +146,7 @@ class Shift:
     ) -> Iterator[Ended]:
         waiting = deque(todo)
         while waiting or len(workers.workers):
-            while waiting and len(workers.workers) < capacity.now(len(workers.workers)):
+            while waiting and self._has_room(workers, capacity):
                 submission, digest = waiting.popleft()
                 attempt = self._book.attempts(submission.name, digest) + 1
                 workers.start(self._wish.order(submission, digest, attempt))
@@ -151,6 +157,10 @@ class Shift:
                 self._book.write(ended.result, ended.evidence)
                 self._count(ended.result)
                 yield ended
+
+    def _has_room(self, workers: Hands, capacity: HowMany) -> bool:
+        working = len(workers.workers)
+        return working < capacity.now(working, workers.soaking)
 
     def _count(self, result: Result) -> None:
         """One more is over."""

@@ -9,14 +9,14 @@ from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 
-from roslings.batch.archives import SUFFIXES, is_archive
+from roslings.batch.archives import SUFFIXES, is_archive, is_clutter
+from roslings.batch.platform_names import beside_a_file
 from roslings.batch.tables import Row, read_table
 from roslings.batch.trouble import BadTable, NoSubmissions
 from roslings.report.safe_text import harmless
 from roslings.workspace.sources import sources
 from roslings.workspace.trouble import WorkspaceError
 
-NOT_HANDED_IN = frozenset({"__MACOSX", "Thumbs.db", "desktop.ini"})
 NAMES = ("submission", "student", "name", "id")
 PATHS = ("path", "file", "folder", "archive")
 TIMES = ("submitted", "time", "date")
@@ -54,9 +54,13 @@ def find_submissions(path: Path) -> list[Submission]:
 
 def _in_folder(folder: Path) -> Iterator[Submission]:
     """Everything that lies there: who hands in the wrong kind of file is told so."""
-    for entry in folder.iterdir():
-        if not entry.name.startswith(".") and entry.name not in NOT_HANDED_IN:
-            yield Submission(name_of(entry), entry)
+    found = [entry for entry in folder.iterdir() if not _is_passed_by(entry.name)]
+    remarks = beside_a_file(entry.name for entry in found)
+    return (Submission(name_of(entry), entry) for entry in found if entry.name not in remarks)
+
+
+def _is_passed_by(name: str) -> bool:
+    return name.startswith(".") or is_clutter(name)
 
 
 def name_of(path: Path) -> str:

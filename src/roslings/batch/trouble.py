@@ -17,7 +17,10 @@ class NoSubmissions(BatchError):
     """The path leads to nothing that could be graded."""
 
     def __init__(self, path: Path, problem: str) -> None:
-        step = "Give a folder of submissions (folders, .zip, .tar.gz), or a CSV file of them."
+        step = (
+            "Give a folder of submissions (folders, .zip, .tar.gz), a CSV file of them, or the\n"
+            "zip file that Moodle or Canvas makes of all submissions."
+        )
         super().__init__(f"{path}: {problem}", step)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from functools import cache
 from pathlib import Path
 
@@ -11,12 +11,25 @@ from roslings.course import Lab
 
 ENGINE = Path(__file__).parents[1]
 MADE = "__pycache__"
+BRINGS = ("interfaces", "firmware")
+"""Folders of a lab that its nodes are built with or talk to."""
 
 
 def version_of(lab: Lab) -> str:
-    """Changes when the card, a hint, the grader, the hidden checks or the engine changes."""
-    said = ((file.name, file) for file in (*lab.graders, *sorted(lab.folder.glob("*.yaml"))))
+    """Changes when the card, a hint, the grader, the hidden checks or the engine changes.
+
+    And with the message types and the sketch that the lab brings: nodes are built with them.
+    """
+    files = (*lab.graders, *sorted(lab.folder.glob("*.yaml")))
+    said = [(file.name, file) for file in files] + list(_brought_by(lab))
     return hashlib.sha256(engine_version() + _hash_of(said)).hexdigest()[:16]
+
+
+def _brought_by(lab: Lab) -> Iterator[tuple[str, Path]]:
+    for part in BRINGS:
+        for file in sorted((lab.folder / part).rglob("*")):
+            if file.is_file():
+                yield file.relative_to(lab.folder).as_posix(), file
 
 
 @cache
@@ -25,12 +38,13 @@ def engine_version() -> bytes:
     return engine_in(ENGINE)
 
 
-def engine_in(folder: Path) -> bytes:
-    """The version of the engine that lies in `folder`."""
+def engine_in(folder: Path, but: frozenset[str] = frozenset()) -> bytes:
+    """The version of the engine that lies in `folder`; of what is in `but` nothing counts."""
     files = sorted(path for path in folder.rglob("*") if path.is_file())
     return _hash_of(
-        (path.relative_to(folder).as_posix(), path) for path in files if MADE not in path.parts
-    )
+        (path.relative_to(folder).as_posix(), path) for path in files
+        if MADE not in path.parts and path.relative_to(folder).parts[0] not in but
+    )  # fmt: skip
 
 
 def _hash_of(files: Iterable[tuple[str, Path]]) -> bytes:

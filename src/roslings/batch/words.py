@@ -50,6 +50,15 @@ def summary_lines(book: Gradebook, names: Sequence[str]) -> list[str]:
     return lines
 
 
+def soak_line(results: Iterable[Result]) -> str:
+    """How long the nodes were left running, in the gradings that the gradebook holds now."""
+    soaked = sorted({result.verdict.soak_s for result in results if result.verdict})
+    if not any(soaked):
+        return "No node was left running longer than its checks took (--soak SECONDS does that)."
+    seconds = " or ".join(f"{each:g}" for each in soaked)
+    return f"Besides, the nodes of each were left running for {seconds} s."
+
+
 def _scores(results: Sequence[Result]) -> list[str]:
     scores = sorted(result.score for result in results if result.score is not None)
     if not scores:
