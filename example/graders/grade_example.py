@@ -23,6 +23,7 @@ from roslings.judge import (
     install,
     list_what_it_imports,
     match_qos,
+    outlast_the_soak,
     say_its_text,
     stay_up,
 )
@@ -66,7 +67,7 @@ def test_builds(package: PackageView) -> None:
 @check(needs=["builds"])
 def test_runs(telling: ExperimentView) -> None:
     """The node starts and runs until Ctrl-C."""
-    telling.process(BEACON).must(come_up, stay_up)
+    telling.process(BEACON).must(come_up, stay_up, outlast_the_soak)
 
 
 @check(needs=["runs"])

@@ -89,6 +89,7 @@ def test_a_new_lab_is_proven_and_a_spoilt_one_is_not(made: Lab, tmp_path: Path) 
     code = made.solution / "follower" / "follower.py"
     code.write_text(code.read_text("utf-8").replace("1.0,", "0.9,"), "utf-8")
     (made.folder / "mutants" / "rate_2_hz.yaml").unlink()
+    command.append("--packages")
     done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path)
     assert done.returncode == 1
     assert "WRONG  line-follower: the solution gets 100 of 100" in done.stdout

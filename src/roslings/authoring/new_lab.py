@@ -15,6 +15,8 @@ LAB_NAME, PACKAGE_NAME = re.compile(r"[a-z][a-z0-9-]*"), re.compile(r"[a-z][a-z0
 PACKAGE, CLASS = "beacon", "Beacon"
 """What the example calls its package, and the class in it."""
 
+_ARTICLE = re.compile(rf"\b([Aa]) (?={PACKAGE}\b)")
+
 
 class CannotMake(CourseError):
     """The lab cannot be made like this."""
@@ -33,6 +35,8 @@ class Names:
         text = re.sub(rf"\b{EXAMPLE}\b(?!\.com)", self.lab, text)
         text = text.replace("../../../pyproject", "../../pyproject")
         text = re.sub(r"days/03-topics|(?<=day: )03-topics", self._day_for, text)
+        if self.package.startswith(tuple("aeio")):
+            text = _ARTICLE.sub(r"\1n ", text)
         for word, name in self._words.items():
             text = text.replace(word, name)
         return text

@@ -50,6 +50,14 @@ class Proof:
         return f"{'open ' if self.is_open else 'WRONG'}  {self.about}\n       {self.problem}"
 
 
+class HasLine(Protocol):
+    """What `prove` prints: a proof, or how much of something is proven."""
+
+    @property
+    def line(self) -> str:
+        """It in words."""
+
+
 # --- the packages, and what must come of each --------------------------------------------------
 
 
@@ -252,9 +260,15 @@ class _ManyLabs(Wish):
         package = self.packages[submission.name]
         own = {
             "lab": package.lab.name, "clock": package.clock, "course": package.course,
-            "builds_as_kin": True,
+            "builds_as_kin": True, "soak_s": _soak_s_of(package),
         }  # fmt: skip
         return super().order(submission, digest, attempt).model_copy(update=own)
+
+
+def _soak_s_of(package: Package) -> float:
+    """Nothing is left running but a mutant that shows what is found by that."""
+    shows = isinstance(package, Wrong) and "soak_s" in package.mutant.proves
+    return package.lab.card.soak_s if shows else 0.0
 
 
 def graded(
@@ -273,7 +287,7 @@ def graded(
         "", scratch, scratch / LOCK, keeps_evidence=keeps_evidence, life=life,
         packages={each.name: each for each in packages},
     )  # fmt: skip
-    (scratch / book).mkdir()
+    (scratch / book).mkdir(exist_ok=True)  # a place outside of the scratch keeps what it has
     with gradebook(scratch / book, "labs") as results:
         shift = Shift(wish, results, Capacity(fixed=jobs), watcher)
         shift.run(submissions)

@@ -1,7 +1,8 @@
 """`./roslings release --to DIR`: the students' edition, without what would give the answers away.
 
-Left out: solutions, mutants, hidden checks, and all tests but those of `TESTS`, because most
-tests hold packages that would pass.
+Left out: solutions, mutants, promises (they name the mutants), what is explained of generated
+mutants, hidden checks, and all tests but those of `TESTS`, because most tests hold packages that
+would pass.
 """
 
 from __future__ import annotations
@@ -14,7 +15,8 @@ from pathlib import Path, PurePosixPath
 
 from roslings import course
 from roslings.course import CourseError, Lab, all_labs
-from roslings.course.labs import EXAMPLE
+from roslings.course.labs import EXAMPLE, example_root
+from roslings.course.promises import NAME as PROMISES
 from roslings.workspace.sources import files
 
 TESTS = ("conftest.py", "costs.py", "once.py", "arena", "report")
@@ -25,6 +27,9 @@ SOLUTION_COMMAND = re.compile(r"(\./roslings check )[\w-]+( --solution)")
 REWRITTEN = ("README.md", "CONTRIBUTING.md", "src/roslings/doctor/mends.py", "days", "site/pages")
 """Files, and folders of them, that tell students what to type."""
 TEXTS = (".md", ".ipynb", ".py")
+GUIDE = "site/pages/teachers/new-lab.md"
+"""It shows a mutant, to be copied."""
+
 LEAST_LINE = 20
 LIKE_THE_ANSWER = 0.5
 
@@ -40,7 +45,7 @@ def release(to: Path) -> list[str]:
     """
     if to.exists() and (not to.is_dir() or any(to.iterdir())):
         raise CannotRelease(f"{to} holds something already. Give a new folder: --to DIR")
-    names = [name for name in _course_files() if is_for_students(name)]
+    names = [name for name in course_files() if is_for_students(name)]
     for name in names:
         _copy(course.root() / name, to / name)
     for path in _texts_in(to):
@@ -58,12 +63,12 @@ def is_for_students(name: str) -> bool:
     if path.parts[0] == "tests":
         return len(path.parts) > 1 and path.parts[1] in TESTS
     if path.parts[0] == "labs" and len(path.parts) > 2:
-        return path.parts[2] not in ("solution", "mutants")
+        return path.parts[2] not in ("solution", "mutants", PROMISES, "generated.yaml")
     hidden = path.parts[0] == "graders" and path.name.startswith("hidden_")
     return not hidden and path.parts[0] not in MAINTAINERS_ONLY
 
 
-def _course_files() -> list[str]:
+def course_files() -> list[str]:
     """The files that git keeps; all but the hidden and made ones where there is no git."""
     root = course.root()
     listed = subprocess.run(
@@ -95,16 +100,38 @@ def _rewrite(path: Path) -> None:
 
 
 def leaks(edition: Path, labs: list[Lab]) -> Iterator[str]:
-    """Files of the edition that hold half of a solution's own lines, or what a mutant is."""
+    """Files of the edition that hold half of a solution's own lines, or what a mutant is.
+
+    The example is no secret, and what a new lab still has of it, or of the guide to labs, neither.
+    """
     answers = [(f"{lab.name}: {name}", lines) for lab in labs for name, lines in _answers(lab)]
-    secrets = [(lab.name, mutant.what) for lab in labs for mutant in lab.mutants()]
-    for file in (path for path in sorted(edition.rglob("*")) if path.is_file()):
+    known = _known_to_all()
+    mutants = ((lab.name, mutant.what) for lab in labs for mutant in lab.mutants())
+    secrets = [(lab, what) for lab, what in mutants if what not in known]
+    for name, file in sorted(_files_of(edition)):
         text = file.read_text("utf-8", "replace")
         lines = {line.strip() for line in text.splitlines()}
-        name = file.relative_to(edition)
         yield from (f"{name} holds the solution of {whose}" for whose, answer in answers
                     if len(lines & answer) > LIKE_THE_ANSWER * len(answer))  # fmt: skip
         yield from (f"{name} tells a mutant of {lab}" for lab, what in secrets if what in text)
+
+
+def _files_of(edition: Path) -> Iterator[tuple[str, Path]]:
+    """All but the example's."""
+    for file in (path for path in edition.rglob("*") if path.is_file()):
+        name = file.relative_to(edition)
+        if name.parts[0] != EXAMPLE:
+            yield name.as_posix(), file
+
+
+def _known_to_all() -> str:
+    """What the example's mutants say, and those of the guide."""
+    texts = (*(example_root() / "labs" / EXAMPLE / "mutants").glob("*.yaml"), _guide())
+    return "\n".join(path.read_text("utf-8") for path in texts if path.is_file())
+
+
+def _guide() -> Path:
+    return example_root().parent / GUIDE
 
 
 def _answers(lab: Lab) -> Iterator[tuple[str, set[str]]]:

@@ -21,6 +21,7 @@ DEFAULT_WITHIN = 0.1
 Plain = bool | int | float | str
 Expected = Kind.EXPECTED
 Stimulus = Kind.STIMULUS
+Promise = Kind.PROMISE
 Prose = Kind.PROSE
 GroupName = Annotated[str, Field(pattern=r"^[a-z][a-z0-9-]*$")]
 
@@ -70,7 +71,9 @@ class TopicContract(Contract):
     text: Annotated[str | None, Expected] = Field(
         default=None, description="The message's text; `{n}` is a counter"
     )
-    about: Annotated[str, Prose] = Field(default="", description="What the message says, in words")
+    about: Annotated[str, Promise] = Field(
+        default="", description="What the message says, in words"
+    )
     fields: Annotated[dict[str, Plain], Expected] = Field(
         default_factory=dict, description="What each message holds; a dot leads into a field"
     )
@@ -86,7 +89,7 @@ class ParameterContract(Contract):
 
     name: Annotated[str, Kind.KEY] = Field(pattern=r"^[a-z][a-z0-9_]*$")
     type: Annotated[Literal["bool", "integer", "double", "string"], Expected]
-    about: Annotated[str, Prose] = Field(
+    about: Annotated[str, Promise] = Field(
         description="What it sets, with its unit, e.g. `seconds between messages`"
     )
     default: Annotated[Plain, Expected]
@@ -120,7 +123,7 @@ class ConstantContract(Contract):
 
     name: Annotated[str, Prose]
     value: Annotated[float, Expected]
-    about: Annotated[str, Prose] = Field(description="Its unit, and what it is for")
+    about: Annotated[str, Promise] = Field(description="Its unit, and what it is for")
 
 
 class AnswerContract(Contract):
@@ -165,7 +168,7 @@ class ActionContract(Contract):
     cancels_within_s: Annotated[float | None, Kind.MOST] = Field(
         default=None, gt=0, description="From the request to cancel until all stands still"
     )
-    rules: Annotated[dict[str, str], Prose] = Field(
+    rules: Annotated[dict[str, str], Promise] = Field(
         default_factory=dict, description="What happens when: two columns of the task's table"
     )
 
@@ -173,11 +176,11 @@ class ActionContract(Contract):
 class OutcomeContract(Contract):
     """One way in which a program that has a single task can come to its end."""
 
-    when: Annotated[str, Prose]
+    when: Annotated[str, Promise]
     log: Annotated[str, Expected] = Field(
         description="A line it writes; `{text}` is something of the answer"
     )
-    log_about: Annotated[str, Prose] = Field(default="", description="What `{text}` stands for")
+    log_about: Annotated[str, Promise] = Field(default="", description="What `{text}` stands for")
     exit_code: Annotated[int, Expected]
 
 
@@ -212,12 +215,17 @@ class NodeContract(Contract):
     log: Annotated[str | None, Expected] = Field(
         default=None, description="A line it writes; `{text}` is the message"
     )
-    log_about: Annotated[str, Prose] = Field(
+    log_about: Annotated[str, Promise] = Field(
         default="the message's text", description="What `{text}` stands for"
     )
     log_examples: Annotated[tuple[str, ...], Prose] = Field(
         default=(), description="For `{text}` in the task, where no topic has a text"
     )
+
+    @property
+    def stays(self) -> bool:
+        """It runs until somebody ends it; the others have one task, and end after it."""
+        return not self.outcomes and self.gives_up is None
 
     def constant(self, name: str) -> float:
         """A number of the card. Raises KeyError where there is none of this name."""
@@ -283,6 +291,9 @@ class Card(Contract):
     )
     ends_within_s: Annotated[float, Kind.MOST] = Field(
         default=2.0, gt=0, description="After Ctrl-C"
+    )
+    soak_s: Annotated[float, Stimulus] = Field(
+        default=30.0, ge=0, le=600, description="So long the nodes run where results count; 0: not"
     )
     pictures: tuple[PictureContract, ...] = ()
     board: Annotated[bool, Prose] = Field(

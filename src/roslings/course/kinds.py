@@ -30,6 +30,8 @@ class Kind(Enum):
     """Expected, and what the grader itself may call the thing by: it gets the other word, too."""
     STIMULUS = "stimulus"
     """What the tool says, sets or tries: a mutant ignores it, and names the word."""
+    PROMISE = "promise"
+    """Says in words what the package does: `promises.yaml` names the checks that judge it."""
     PROSE = "prose"
     """For people; nothing can be judged by it."""
 

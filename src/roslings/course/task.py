@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from pathlib import PurePosixPath
 
 from roslings.course.card import (
     ActionContract,
@@ -250,12 +249,8 @@ def _all_published(card: Card) -> Iterable[TopicContract]:
 
 
 def _save_picture(lab: Lab) -> Iterable[str]:
-    package = f"~/roslings_ws/src/{lab.card.package}"
     yield "```bash"
-    for picture in lab.card.pictures:
-        file = PurePosixPath(package, picture.path)
-        yield f"mkdir -p {file.parent}"
-        yield f"./roslings graph --save {file}"
+    yield f"./roslings graph --for {lab.name}"
     yield "```"
 
 

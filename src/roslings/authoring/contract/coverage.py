@@ -14,6 +14,7 @@ from pathlib import Path
 import yaml
 
 from roslings.authoring.contract.changes import Change, changes_of
+from roslings.authoring.contract.promises import Account, not_judged_words, prove_promises
 from roslings.authoring.contract.reworded import LIFE, NOTE, Wanted
 from roslings.authoring.contract.words import Word, words_of
 from roslings.authoring.prove import Proof, Solution, graded, proof_of
@@ -31,18 +32,22 @@ MADE = shutil.ignore_patterns("solution", "starter", "mutants")
 
 @dataclass(frozen=True)
 class Coverage:
-    """How many words of a lab's card are judged."""
+    """How many words of a lab's card are judged, of those that are to be."""
 
     lab: str
     judged: int
     words: int
+    on_purpose: int = 0
+    """So many more are not judged, and the task says so."""
 
     @property
     def line(self) -> str:
         """In words."""
         part = self.judged / self.words if self.words else 1.0
+        more = f"; {self.on_purpose} more not, on purpose" if self.on_purpose else ""
         return (
-            f"{self.lab}: {self.judged} of {self.words} words of the card are judged ({part:.0%})"
+            f"{self.lab}: {self.judged} of {self.words} words of the card are judged"
+            f" ({part:.0%}){more}"
         )
 
 
@@ -89,8 +94,10 @@ def failed_in(result: Result) -> list[str]:
 
 def prove_contract(
     labs: Sequence[Lab], watcher: Watcher, jobs: int | None = None
-) -> Iterator[Proof | Coverage]:
-    """A proof for each word of each card, and how many hold."""
+) -> Iterator[Proof | Coverage | Account]:
+    """A proof for each word of each card and each sentence of each task, and how many hold."""
+    for lab in labs:
+        yield from prove_promises(lab)
     with run_folder() as scratch:
         seen = _evidence_of([Solution(lab) for lab in labs], scratch, watcher, jobs)
         unseen = [lab for lab in labs if lab.name not in seen]
@@ -125,7 +132,7 @@ def _evidence_of(
 def _changed(lab: Lab, seen: Path, folder: Path) -> Iterator[Reworded]:
     """A course for each change of the lab's card."""
     tree = read_tree(lab.folder / "card.yaml")
-    changes = [each for word in words_of(lab.folder / "card.yaml") for each in changes_of(word)]
+    changes = [each for word in _to_be_judged(lab) for each in changes_of(word)]
     for number, change in enumerate(changes):
         course = folder / f"{number}"
         shutil.copytree(lab.folder, course / "labs" / lab.name, ignore=MADE)
@@ -142,15 +149,23 @@ def _changed(lab: Lab, seen: Path, folder: Path) -> Iterator[Reworded]:
 def _proofs(
     lab: Lab, changed: Collection[Reworded], results: Mapping[str, Result]
 ) -> Iterator[Proof | Coverage]:
-    words = words_of(lab.folder / "card.yaml")
+    words = _to_be_judged(lab)
+    all_words = words_of(lab.folder / "card.yaml")
     by_mutants = mutants_by_word(lab)
     proofs = []
     for word in words:
         own = [(each, results[each.name]) for each in changed if each.change.word == word]
         proofs.append(_proof(lab, word, own, by_mutants.get(word.place, [])))
     yield from proofs
-    yield from _strange(lab, set(by_mutants) - {word.place for word in words})
-    yield Coverage(lab.name, sum(proof.holds for proof in proofs), len(words))
+    yield from _strange(lab, set(by_mutants) - {word.place for word in all_words})
+    hold = sum(proof.holds for proof in proofs)
+    yield Coverage(lab.name, hold, len(words), len(all_words) - len(words))
+
+
+def _to_be_judged(lab: Lab) -> list[Word]:
+    """Without those that the task says are not."""
+    free = not_judged_words(lab.folder)
+    return [word for word in words_of(lab.folder / "card.yaml") if word.place not in free]
 
 
 def mutants_by_word(lab: Lab) -> dict[str, list[str]]:

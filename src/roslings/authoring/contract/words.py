@@ -43,10 +43,17 @@ class Word:
 
 
 def words_of(file: Path) -> list[Word]:
-    """The words that stand in a card, in its order, without those for people alone."""
-    tree = read_tree(file)
-    found = _in_contract(Card, tree, (), "", file)
-    return [word for word in found if word.kind is not Kind.PROSE]
+    """The words that stand in a card, in its order, without those for people."""
+    return [word for word in _all_of(file) if word.kind not in (Kind.PROSE, Kind.PROMISE)]
+
+
+def texts_of(file: Path) -> list[Word]:
+    """The texts of a card that say in words what the package does."""
+    return [word for word in _all_of(file) if word.kind is Kind.PROMISE and word.value]
+
+
+def _all_of(file: Path) -> Iterator[Word]:
+    return _in_contract(Card, read_tree(file), (), "", file)
 
 
 def _in_contract(

@@ -1,0 +1,1 @@
+"""Wrong packages that are made by themselves, from a lab's solution: is each of them caught?"""

@@ -1,0 +1,136 @@
+"""Which wrong packages are made of a lab's solution: the same ones each time, spread over it.
+
+The seed is fixed, as the operators are. The order is that of hashes, so that a new operator or a
+new line of a solution moves few of the others, and no version of Python moves any.
+"""
+
+from __future__ import annotations
+
+import ast
+import difflib
+import hashlib
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+from roslings.authoring.generated.operators import OPERATORS
+from roslings.authoring.generated.source import Source, read_source
+from roslings.course import Lab
+
+SEED = 20261123
+WANTED = 100
+"""So many packages of a lab; all, where fewer can be made."""
+
+
+@dataclass(frozen=True)
+class Generated:
+    """One module of a solution, made wrong in one place."""
+
+    lab: Lab
+    operator: str
+    file: str
+    """Of the package, with `/`."""
+    line: int
+    before: str
+    after: str
+
+    @cached_property
+    def diff(self) -> str:
+        """What is changed: lines with `-` and `+`, and where they stand."""
+        before, after = self.before.splitlines(), self.after.splitlines()
+        return "\n".join(list(difflib.unified_diff(before, after, n=0, lineterm=""))[2:])
+
+    @cached_property
+    def changed(self) -> str:
+        """The changed lines alone, wherever they stand."""
+        return "\n".join(line for line in self.diff.splitlines() if not line.startswith("@@"))
+
+    @cached_property
+    def name(self) -> str:
+        """Short, and the same as long as the place and the change are."""
+        short = hashlib.sha256(self.changed.encode()).hexdigest()[:8]
+        place = f"{self.file.rpartition('/')[2]}:{self.line}"
+        return f"{self.lab.name}-{self.operator}-{place}-{short}"
+
+    @property
+    def place(self) -> tuple[str, int]:
+        """The line that was changed."""
+        return self.file, self.line
+
+
+def generated(lab: Lab) -> list[Generated]:
+    """The wrong packages of a lab, as they were drawn: the first ones are spread over it, too."""
+    return chosen(candidates(lab))
+
+
+def candidates(lab: Lab) -> list[Generated]:
+    """All that the operators make of a solution, each program once."""
+    found: dict[tuple[str, str], Generated] = {}
+    for file in modules_of(lab):
+        source = read_source(lab.solution, file)
+        found[file, _meaning(source.text)] = _none(lab)
+        for each in _changed(lab, source):
+            if meaning := _meaning(each.after):
+                found.setdefault((file, meaning), each)
+    return [each for each in found.values() if each.operator]
+
+
+def chosen(found: Iterable[Generated]) -> list[Generated]:
+    """As many as are wanted: the operators in turn, each time the line changed least so far."""
+    by_operator: dict[str, list[Generated]] = {}
+    for each in sorted(found, key=_drawn):
+        by_operator.setdefault(each.operator, []).append(each)
+    result: list[Generated] = []
+    lines: Counter[tuple[str, int]] = Counter()
+    while len(result) < WANTED and any(by_operator.values()):
+        for waiting in filter(None, by_operator.values()):
+            next_one = min(waiting, key=lambda each: lines[each.place])
+            waiting.remove(next_one)
+            lines[next_one.place] += 1
+            result.append(next_one)
+    return result[:WANTED]
+
+
+def modules_of(lab: Lab) -> Iterator[str]:
+    """The modules that a student writes: those that the starter has word for word are given."""
+    package = lab.outline.package
+    for path in sorted((lab.solution / package).glob("*.py")):
+        given = lab.starter / package / path.name
+        content = path.read_bytes()
+        if content.strip() and not (given.is_file() and given.read_bytes() == content):
+            yield path.relative_to(lab.solution).as_posix()
+
+
+def _changed(lab: Lab, source: Source) -> Iterator[Generated]:
+    for node in source.nodes():
+        for operator, change in OPERATORS.items():
+            for new in change(node, source):
+                text = source.with_new(node, new)
+                line = _first_difference(source.text, text)
+                yield Generated(lab, operator, source.file, line, source.text, text)
+
+
+def _first_difference(before: str, after: str) -> int:
+    """The line, from 1, from which on two texts differ."""
+    pairs = zip(before.splitlines(), after.splitlines(), strict=False)
+    same = next((at for at, (one, other) in enumerate(pairs) if one != other), None)
+    return (len(after.splitlines()) if same is None else same) + 1
+
+
+def _meaning(text: str) -> str:
+    """The program without comments and layout; empty where it is none."""
+    try:
+        compile(text, "generated", "exec", dont_inherit=True)
+        return ast.dump(ast.parse(text))
+    except (SyntaxError, ValueError):
+        return ""
+
+
+def _drawn(each: Generated) -> str:
+    return hashlib.sha256(f"{SEED} {each.name}".encode()).hexdigest()
+
+
+def _none(lab: Lab) -> Generated:
+    """The solution itself: who makes it again has made nothing."""
+    return Generated(lab, "", "", 0, "", "")

@@ -1,0 +1,30 @@
+"""The ways in which a solution is made wrong, each by its name. They were fixed before any run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+
+import libcst as cst
+
+from roslings.authoring.generated import flow, values
+from roslings.authoring.generated.source import New, Source
+
+Operator = Callable[[cst.CSTNode, Source], Iterator[New]]
+"""Gives all that may stand in the place of a node; nothing for most nodes."""
+
+OPERATORS: Mapping[str, Operator] = {
+    "number": values.number,
+    "unit": values.unit,
+    "sign": values.sign,
+    "arithmetic": values.arithmetic,
+    "comparison": values.comparison,
+    "condition": values.condition,
+    "name": values.name,
+    "text": values.text,
+    "drop": flow.drop,
+    "double": flow.double,
+    "early-return": flow.early_return,
+    "blocks": flow.blocks,
+    "breaks": flow.breaks,
+    "too-early": flow.too_early,
+}

@@ -1,0 +1,123 @@
+"""`./roslings prove LAB --generated`: make wrong packages, grade them, keep what came of each."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from roslings import course
+from roslings.authoring.generated.choice import Generated, generated
+from roslings.authoring.generated.explained import Explanation, explained
+from roslings.authoring.generated.kills import keep_kills
+from roslings.authoring.generated.life import LIFE
+from roslings.authoring.generated.packages import Fate, Wrong, fate_of
+from roslings.authoring.generated.table import Line, Outcome, told
+from roslings.authoring.prove import Proof, graded, mixed
+from roslings.batch.alone import alone_in
+from roslings.batch.gradebook import gradebook
+from roslings.batch.result import Result
+from roslings.batch.shift import Watcher
+from roslings.batch.trouble import BatchError
+from roslings.course import Lab
+from roslings.experiment.run_folder import run_folder
+
+BOOK = "labs"
+
+
+class AlreadyProving(BatchError):
+    """Another command keeps its results there."""
+
+    def __init__(self, folder: Path) -> None:
+        problem = f"Another ./roslings prove --generated keeps its results in {folder} now."
+        super().__init__(problem, "Wait for it, or give another folder: --keep DIR")
+
+
+@dataclass(frozen=True)
+class Keeping:
+    """Where results stay, so that an interrupted run goes on."""
+
+    folder: Path
+    kills: Path | None = None
+    """Where evidence for some kills is put, for the tests."""
+    so_far: bool = False
+    """Nothing is graded: what is known is told."""
+
+
+def usual_place() -> Path:
+    """Beside the course; git does not see it."""
+    return course.root() / ".roslings" / "generated"
+
+
+def proofs_for(
+    keep: Path | None, kills: Path | None, so_far: bool
+) -> Callable[[Sequence[Lab], Watcher, int | None], Iterator[Proof | Line]]:
+    """Proves labs as the command's options say."""
+    return partial(prove_generated, keeping=Keeping(keep or usual_place(), kills, so_far))
+
+
+def prove_generated(
+    labs: Sequence[Lab], watcher: Watcher, jobs: int | None, keeping: Keeping
+) -> Iterator[Proof | Line]:
+    """What came of the generated packages of labs.
+
+    Raises BadCourseFile before anything is run, and AlreadyProving.
+    """
+    made = {lab.name: generated(lab) for lab in labs}
+    reasons = {lab.name: explained(lab, made[lab.name]) for lab in labs}
+    packages = [Wrong(each) for lab in labs for each in made[lab.name]]
+    if keeping.so_far:
+        results = _kept_in(keeping.folder)
+        yield _how_far(packages, results)
+    else:
+        results = _graded(packages, watcher, jobs, keeping.folder)
+    known = {each.change: results[each.name] for each in packages if each.name in results}
+    yield from told([_outcome(lab, known, reasons[lab.name]) for lab in labs])
+    if keeping.kills:
+        yield from _kept_kills(labs, known, keeping.folder, keeping.kills)
+
+
+def _graded(
+    packages: Collection[Wrong], watcher: Watcher, jobs: int | None, kept: Path
+) -> Mapping[str, Result]:
+    with alone_in(kept, AlreadyProving), run_folder() as scratch:
+        return graded(
+            mixed(packages), scratch, watcher, jobs, book=str(kept.absolute()),
+            keeps_evidence=True, life=LIFE,
+        )  # fmt: skip
+
+
+def _kept_in(folder: Path) -> Mapping[str, Result]:
+    folder.mkdir(parents=True, exist_ok=True)
+    with gradebook(folder, BOOK) as book:
+        return book.latest()
+
+
+def _how_far(packages: Collection[Wrong], results: Mapping[str, Result]) -> Proof:
+    """Nothing is proven by a part of them."""
+    done = sum(each.name in results for each in packages)
+    rest = "" if done == len(packages) else "only they are counted: run it without --so-far"
+    return Proof(f"{done} of {len(packages)} packages are graded", rest, is_open=True)
+
+
+def _outcome(
+    lab: Lab, known: Mapping[Generated, Result], reasons: Mapping[str, Explanation]
+) -> Outcome:
+    """Of those that were graded."""
+    fates = {each: fate_of(result) for each, result in known.items() if each.lab == lab}
+    names = {each.name for each in fates}
+    return Outcome(lab.name, fates, {name: why for name, why in reasons.items() if name in names})
+
+
+def _kept_kills(
+    labs: Sequence[Lab], results: Mapping[Generated, Result], kept: Path, folder: Path
+) -> Iterator[Line]:
+    with gradebook(kept, BOOK) as book:
+        for lab in labs:
+            killed = [
+                (each.name, each.changed, result) for each, result in results.items()
+                if each.lab == lab and fate_of(result) is Fate.KILLED
+            ]  # fmt: skip
+            count = keep_kills(lab, killed, book, folder)
+            yield Line(f"{lab.name}: the evidence of {count} kills is in {folder / lab.name}")

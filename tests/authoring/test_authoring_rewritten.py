@@ -1,0 +1,345 @@
+"""`prove --rewritten`: what a rewrite makes does the same, is Python, and its result is told."""
+
+from __future__ import annotations
+
+import inspect
+import re
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from rclpy.action import ActionClient, ActionServer
+from rclpy.node import Node
+
+from roslings.authoring.new_lab import new_lab
+from roslings.authoring.prove import Proof
+from roslings.authoring.rewritten import Rewritten, Score, rewritten
+from roslings.authoring.rewritten.arguments import OF_ROS
+from roslings.authoring.rewritten.grading import _proofs
+from roslings.authoring.rewritten.keeping import AlreadyRewriting, kept_results
+from roslings.authoring.rewritten.source import CannotRewrite, Sources
+from roslings.authoring.rewritten.table import COMBINATIONS, REWRITES, all_at_once, made_from
+from roslings.batch.gradebook import gradebook
+from roslings.batch.result import Result
+from roslings.course import Lab, all_labs, lab
+from roslings.verdict import CheckResult, Environment, Timings, Verdict
+from roslings.workspace.inspect import inspect_package
+
+EXAMPLE = lab("example")
+HEAD = "import rclpy\nfrom rclpy.node import Node\nfrom std_msgs.msg import String\n\n"
+MAIN = """
+def main(args=None):
+    try:
+        rclpy.init(args=args)
+        rclpy.spin(Talker())
+    except KeyboardInterrupt:
+        pass
+    finally:
+        rclpy.try_shutdown()
+"""
+TALKER = (
+    HEAD
+    + """LIMIT = 3
+
+
+def short(text):
+    return text[:LIMIT]
+
+
+class Talker(Node):
+    \"\"\"It talks.\"\"\"
+
+    def __init__(self):
+        super().__init__('beacon')
+        self.declare_parameter('period', 0.5)
+        self.kept = self.declare_parameter('word', 'hello').value
+        self.publisher = self.create_publisher(String, 'alive', 10)
+        self.create_timer(0.1, self.talk)  # seconds
+
+    def talk(self):
+        message = String()
+        message.data = f'{self.kept} {1.5:.2f} %'
+        self.publisher.publish(message)
+        self.get_logger().info(short(message.data))
+
+    def period(self):
+        return self.get_parameter('period').value
+"""
+    + MAIN
+)
+
+
+def sources(**modules: str) -> Sources:
+    """The example's package with other modules."""
+    found = Sources.read(EXAMPLE.solution, EXAMPLE.card)
+    kept = {name: text for name, text in found.texts.items() if not name.endswith("/beacon.py")}
+    code = {f"beacon/{name}.py": text for name, text in modules.items()}
+    return replace(found, texts={**kept, **code})
+
+
+def changed(name: str, text: str = TALKER) -> str:
+    """What a rewrite makes of one module."""
+    return REWRITES[name](sources(beacon=text)).texts["beacon/beacon.py"]
+
+
+EXPECTED = {
+    "extracted": "self.finish_talk(message)\n\n    def finish_talk(self, message):\n",
+    "inlined": "self.get_logger().info((message.data[:LIMIT]))",
+    "values by type": "return self.get_parameter('period').get_parameter_value().double_value",
+    "read live": "f'{self.get_parameter(\"word\").value} {1.5:.2f} %'",
+    "noted by a callback": "if parameter.name == 'period':\n                self.period_now =",
+    "a rate in a thread": "self.rate = self.create_rate(1 / 0.1)",
+    "multi threaded": "rclpy.spin(Talker(), executor=MultiThreadedExecutor())",
+    "a loop of spin once": "node = Talker()\n        while rclpy.ok():\n            rclpy.spin",
+    "a with block": "try:\n        with ros(args):\n            rclpy.spin(Talker())\n    except",
+    "reentrant groups": "self.create_timer(0.1, self.talk, callback_group=group)",
+    "async callbacks": "    async def talk(self):",
+    "longer queues": "self.create_publisher(String, 'alive', QoSProfile(depth=50))",
+    "another qos that fits": "QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)",
+    "print for the logger": "        print(short(message.data))",
+    "format for f strings": "'{} {:.2f} %'.format(self.kept, 1.5)",
+    "percent for f strings": "('%s %.2f %%' % (self.kept, 1.5))",
+    "keyword arguments": "self.create_timer(timer_period_sec=0.1, callback=self.talk)",
+    "composition for inheritance": "self.node = Node('beacon')\n        self.node.declare_param",
+    "methods in another order": '    """It talks."""\n\n    def period(self):',
+    "renamed classes": "rclpy.spin(MyTalker())",
+    "renamed functions": "self.create_timer(0.1, self.do_talk)",
+    "renamed attributes": "self.my_publisher.publish(message)",
+    "renamed variables": "return the_text[:THE_LIMIT]",
+    "stripped": "class Talker(Node):\n\n    def __init__(self):",
+    "double quotes": 'super().__init__("beacon")',
+}
+
+
+@pytest.mark.parametrize("name", EXPECTED)
+def test_each_rewrite_writes_what_it_says(name: str) -> None:
+    """And what it makes is Python."""
+    new = changed(name)
+    assert EXPECTED[name] in new
+    compile(new, name, "exec")
+
+
+def test_each_rewrite_is_shown() -> None:
+    """Those of whole files below."""
+    assert set(REWRITES) - set(EXPECTED) == {"one file into three", "all files into one"}
+
+
+def test_one_file_becomes_three() -> None:
+    """Each imports what it needs, and nothing else."""
+    made = REWRITES["one file into three"](sources(beacon=TALKER)).texts
+    assert {name for name in made if name.startswith("beacon/")} == {
+        "beacon/__init__.py", "beacon/beacon.py", "beacon/beacon_class.py",
+        "beacon/beacon_parts.py",
+    }  # fmt: skip
+    assert "import" not in made["beacon/beacon_parts.py"]
+    assert "from beacon.beacon_parts import short\n" in made["beacon/beacon_class.py"]
+    assert "from beacon.beacon_class import Talker" in made["beacon/beacon.py"]
+    assert "String" not in made["beacon/beacon.py"]
+
+
+def test_all_files_become_one() -> None:
+    """What is imported comes first; each executable calls its own main."""
+    talker = "from beacon.words import WORD\n" + TALKER.replace("'hello'", "WORD")
+    made = REWRITES["all files into one"](sources(beacon=talker, words="WORD = 'hello'\n"))
+    code = made.texts["beacon/programs.py"]
+    assert code.index("WORD = 'hello'") < code.index("class Talker")
+    assert "beacon.words" not in code
+    assert made.entry_points == [("programs", "beacon_main")]
+    assert "def beacon_main(args=None):" in code
+
+
+def test_two_of_one_name_stay_in_two_files() -> None:
+    """One would hide the other."""
+    given = sources(beacon=TALKER, words="LIMIT = 5\n")
+    assert REWRITES["all files into one"](given) == given
+
+
+def test_what_ros_calls_by_name_keeps_its_name() -> None:
+    """A method that a node has, a field of a message, a keyword, a parameter's name."""
+    code = TALKER.replace("def period(self)", "def destroy_node(self)")
+    code = code.replace(
+        "message = String()", "message = String(data='')\n        self.data = message"
+    )
+    assert "def destroy_node(self)" in changed("renamed functions", code)
+    attributes = changed("renamed attributes", code)
+    assert "self.data = message" in attributes and "message.data = f" in attributes
+    assert "rclpy.init(args=args)" in changed("renamed variables", code)
+    assert "'period'" in changed("renamed variables", code)
+
+
+def test_the_entry_point_follows_the_name_of_main() -> None:
+    """`setup.py` says what the executable calls."""
+    made = REWRITES["renamed functions"](sources(beacon=TALKER))
+    assert made.entry_points == [("beacon", "do_main")]
+    assert "def do_main(" in made.texts["beacon/beacon.py"]
+
+
+def test_an_import_of_another_package_is_named_in_package_xml() -> None:
+    """Who imports SetParametersResult depends on rcl_interfaces."""
+    made = REWRITES["noted by a callback"](sources(beacon=TALKER))
+    assert made.texts["package.xml"].count("<exec_depend>rcl_interfaces</exec_depend>") == 1
+
+
+@pytest.mark.parametrize(
+    ("name", "code"),
+    [
+        ("a rate in a thread", TALKER.replace("0.1, self.talk", "0.1, self.talk, None")),
+        ("a rate in a thread", TALKER.replace("self.create_timer", "self.create_wall")),
+        ("async callbacks", TALKER.replace("return self.g", "self.talk()\n        return self.g")),
+        ("inlined", TALKER.replace("info(short(message.data))", "info(str(short))")),
+        ("reentrant groups", TALKER.replace("Talker())", "Talker(), MultiThreadedExecutor())")),
+        ("a with block", TALKER.replace("rclpy.try_shutdown()", "rclpy.try_shutdown(); print()")),
+        ("print for the logger", TALKER.replace("(message.data))", "(message.data), once=True)")),
+    ],
+)  # fmt: skip
+def test_what_would_change_what_it_does_is_left_alone(name: str, code: str) -> None:
+    """A rewrite looks before it leaps."""
+    assert changed(name, code) == code
+
+
+def test_print_only_where_the_card_allows_it() -> None:
+    """A card that asks for a log, and does not say that print is as good."""
+    given = sources(beacon=TALKER)
+    nodes = tuple(node.model_copy(update={"log": "{text}"}) for node in given.card.nodes)
+    asking = given.card.model_copy(update={"nodes": nodes, "not_judged": ()})
+    given_asking = replace(given, card=asking)
+    assert REWRITES["print for the logger"](given_asking) == given_asking
+
+
+def test_another_qos_only_where_the_card_allows_it() -> None:
+    """A card that says what ours must be, not what it must fit."""
+    given = sources(beacon=TALKER)
+    node = given.card.nodes[0]
+    topic = node.publishes[0]
+    exact = topic.model_copy(update={"qos": topic.qos.model_copy(update={"exact": True})})
+    nodes = (node.model_copy(update={"publishes": (exact,)}),)
+    strict = replace(given, card=given.card.model_copy(update={"nodes": nodes}))
+    assert REWRITES["another qos that fits"](strict) == strict
+
+
+@pytest.mark.parametrize("function", sorted(set(OF_ROS) - {"spin"}))
+def test_rclpy_calls_its_arguments_as_we_do(function: str) -> None:
+    """In the order of the table."""
+    kinds: dict[str, Callable[..., object]] = {
+        "ActionServer": ActionServer.__init__, "ActionClient": ActionClient.__init__,
+    }  # fmt: skip
+    there = list(inspect.signature(kinds.get(function) or getattr(Node, function)).parameters)
+    assert there[1 : 1 + len(OF_ROS[function])] == list(OF_ROS[function])
+
+
+# --- all labs ----------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def made() -> dict[str, list[Rewritten]]:
+    """What is made of each lab."""
+    return {one.name: rewritten(one) for one in all_labs()}
+
+
+def test_each_rewrite_applies_to_some_lab(made: dict[str, list[Rewritten]]) -> None:
+    """And each lab has a dozen at least, and its combinations."""
+    used = {each.made.name for packages in made.values() for each in packages}
+    assert set(REWRITES) <= used
+    for packages in made.values():
+        assert len(packages) >= 12 + COMBINATIONS
+        assert len({each.name for each in packages}) == len(packages)
+
+
+@pytest.mark.parametrize("one", all_labs(), ids=lambda one: one.name)
+def test_what_is_made_is_a_package(
+    one: Lab, made: dict[str, list[Rewritten]], tmp_path: Path
+) -> None:
+    """Its Python can be read, its executables exist, and package.xml names what it imports."""
+    for each in made[one.name]:
+        folder = each.make(tmp_path)
+        seen = inspect_package(folder, one.card)
+        assert not [*seen.xml_problems, *seen.missing_files, *seen.syntax_errors], each.about
+        assert set(seen.imported) <= set(seen.declared), each.about
+        for module, function in each.made.sources.entry_points:
+            code = (folder / one.card.package / f"{module}.py").read_text("utf-8")
+            assert re.search(rf"^def {function}\(", code, re.MULTILINE), each.about
+
+
+def test_chance_is_the_same_each_time() -> None:
+    """So that a problem can be looked at again."""
+    given = Sources.read(EXAMPLE.solution, EXAMPLE.card)
+    names = [each.name for each in made_from(given)]
+    assert names == [each.name for each in made_from(given)]
+    together = all_at_once(given, ["multi threaded", "renamed classes"])
+    assert together.name == "multi threaded + renamed classes"
+    assert "MyBeacon(), executor=" in together.sources.texts["beacon/beacon.py"]
+
+
+# --- what comes of it --------------------------------------------------------------------------
+
+
+def result(points: int, name: str = "it") -> Result:
+    """A result whose one check has so many of 100 points."""
+    outcome = "pass" if points == 100 else "fail"
+    check = CheckResult(
+        id="rate", title="rate", outcome=outcome, points=points, max_points=100, measured="1 Hz",
+        fault=None if points == 100 else "TooSlow",
+    )  # fmt: skip
+    verdict = Verdict(
+        lab="example", package="beacon", outcome=outcome, score=points, checks=(check,),
+        seconds=Timings(total=1.0), environment=Environment.model_construct(),
+    )  # fmt: skip
+    return Result(submission=name, digest="0", attempt=1, state="graded", verdict=verdict)
+
+
+def test_who_loses_a_point_is_shown_with_what_was_rewritten() -> None:
+    """The checks that fail, and the lines that are not as in the solution."""
+    first, second, third, *_ = rewritten(EXAMPLE)
+    broken = Result(submission=third.name, digest="0", attempt=1, state="broken", reason="no room")
+    results = {first.name: result(100), second.name: result(0), third.name: broken}
+    told = list(_proofs(EXAMPLE, [first, second, third], results))
+    proofs = [each for each in told if isinstance(each, Proof)]
+    assert [proof.holds for proof in proofs] == [True, True, False, False]
+    assert [proof.is_open for proof in proofs] == [False, False, False, True]
+    assert "0 of 100; it fails: rate (1 Hz)" in proofs[2].problem
+    assert "--- solution/beacon/beacon.py" in proofs[2].problem
+    assert told[-1] == Score("example", 1, 3)
+    assert told[-1].line == "example: 1 of 3 rewritten solutions get 100 (33%)"
+
+
+def test_a_solution_of_another_kind_is_refused(tmp_path: Path) -> None:
+    """A package without setup.py is no Python package."""
+    with pytest.raises(CannotRewrite, match=r"it has no package\.xml and no setup\.py"):
+        Sources.read(tmp_path, EXAMPLE.card)
+
+
+@pytest.mark.slow
+@pytest.mark.twice
+def test_a_new_lab_takes_every_right_package(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """For real, with the command: a lab that an instructor has just made."""
+    monkeypatch.setenv("ROSLINGS_COURSE", str(tmp_path))
+    new_lab("line-follower", package="follower", day="09-lines")
+    command = [sys.executable, "-m", "roslings", "prove", "line-follower", "--rewritten"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert re.search(r"(\d+) of \1 rewritten solutions get 100 \(100%\)", done.stdout)
+    first = kept(tmp_path)
+    subprocess.run(command, capture_output=True, check=True, cwd=tmp_path)
+    assert kept(tmp_path) == first, "a second run goes on where the first one was"
+
+
+def kept(course: Path) -> dict[str, Result]:
+    """All results that stay in a course."""
+    with gradebook(course / ".roslings" / "rewritten", "labs") as book:
+        return book.latest()
+
+
+def test_one_command_at_a_time(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Two would grade everything twice."""
+    monkeypatch.setenv("ROSLINGS_COURSE", str(tmp_path))
+    with (
+        kept_results(),
+        pytest.raises(AlreadyRewriting, match="Wait until it ends"),
+        kept_results(),
+    ):
+        pass
