@@ -10,6 +10,7 @@ import pytest
 from program import environment, run, running
 
 from roslings.devices.board import Board, Drive, LineReader, Mega, Spoiler
+from roslings.devices.board.wire import Wire
 from roslings.devices.rover import Box, Rover, World
 
 serial = pytest.importorskip("serial", reason="needs pyserial: ./roslings check serial-bridge")
@@ -84,6 +85,46 @@ def test_in_real_time_a_reader_is_woken(board: Board) -> None:
     sequence = [int(body.split(",")[1]) for body in bodies if body.startswith("W")]
     assert sequence == list(range(sequence[0], sequence[0] + len(sequence)))
     assert "board" not in [thread.name for thread in threading.enumerate()]
+
+
+# --- how fast the cable is ---------------------------------------------------------------------
+
+
+def test_on_a_slow_cable_a_line_comes_in_pieces(tmp_path: Path) -> None:
+    """A tenth of the bits a second are bytes; all of them come, in their order, cut anywhere."""
+    chip = Mega(Rover(FLOOR))
+    with Board(chip, tmp_path / "ttyTEST", bits_s=4800) as board, opened(board) as host:
+        pieces = []
+        for _ in range(200):
+            board.step(0.005)
+            pieces.append(host.read(4096))
+        told = b"".join(chunk.content for chunk in board.told)
+    came = b"".join(pieces)
+    assert max(map(len, pieces)) <= 3
+    assert any(piece and not piece.endswith(b"\n") for piece in pieces)
+    assert came == told[: len(came)]
+    assert 400 < len(came) <= 480 < len(told)
+
+
+def test_a_cable_that_is_pulled_keeps_nothing() -> None:
+    """What was under way is lost; then the whole next line comes, as fast as before."""
+    wire = Wire(bits_s=100)
+    assert wire(b"hello", 0.2) == b"he"
+    assert wire(b"", 0.15) == b"l"
+    wire.cut()
+    assert wire(b"you", 0.1) == b"y"
+    assert Wire()(b"all at once", 0.0) == b"all at once"
+
+
+def test_the_board_knows_the_speed_that_the_host_asked_for(board: Board) -> None:
+    """The pretended port carries bytes at any speed; nobody's is none."""
+    assert board.port.host_bits_s is None
+    with opened(board):
+        assert board.port.host_bits_s == 115200
+    with serial.Serial(board.name, 57600):
+        assert board.port.host_bits_s == 57600
+    board.unplug()
+    assert board.port.host_bits_s is None
 
 
 # --- what can go wrong on the cable ------------------------------------------------------------

@@ -66,6 +66,16 @@ def settled(script: Path, clock: Clock, expected: str) -> str:
     return told
 
 
+def simulated(script: Path, hz: float = RATE.hz) -> ExperimentSeen:
+    """A run in simulated time alone, which was believed; a busy computer may need another try."""
+    for _ in range(MOST_TRIES):
+        runs = watched(script, hz=hz)
+        if len(runs) == 1:
+            break
+    assert [(seen.clock, seen.not_believed) for seen in runs] == [("sim", None)]
+    return runs[0]
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("clock", CLOCKS)
 @pytest.mark.parametrize("style", STYLES, ids=lambda style: style.stem)
@@ -76,14 +86,19 @@ def test_correct_nodes_of_every_style_are_right(style: Path, clock: Clock) -> No
 
 @pytest.mark.parametrize("name", FOLLOW_THE_CLOCK)
 def test_what_follows_the_clock_is_judged_by_it(name: str) -> None:
-    """At once, and exactly, however busy the computer is."""
-    runs = watched(HERE / "styles" / f"{name}.py")
-    assert {seen.clock for seen in runs} == {"sim"}
-    seen = runs[-1]
-    assert seen.not_believed is None
+    """At once, and exactly."""
+    seen = simulated(HERE / "styles" / f"{name}.py")
     rate = ExperimentView(seen).topic(TOPIC).rate
     assert rate is not None
     assert rate.hz == pytest.approx(RATE.hz)
+
+
+def test_a_slow_node_is_judged_by_the_clock_too() -> None:
+    """Where six messages a second are asked and two come, they are watched for longer."""
+    seen = simulated(HERE / "styles" / "timer.py", hz=3 * RATE.hz)
+    rate = ExperimentView(seen).topic(TOPIC).rate
+    assert rate is not None
+    assert rate.hz == pytest.approx(RATE.hz, rel=0.02)
 
 
 @pytest.mark.slow

@@ -21,7 +21,7 @@ from roslings.evidence import ExperimentSeen
 from roslings.experiment import Scene, experiment
 from roslings.experiment.assignment import Assignment
 from roslings.experiment.declare import Clock
-from roslings.experiment.measuring import Stage
+from roslings.experiment.measuring import Stage, run_all
 
 HERE = Path(__file__).parent
 RATE = RateContract(hz=2.0, within=0.05)
@@ -59,7 +59,7 @@ def main(script: Path, clock: Clock, wall: Wall, limit: RateContract) -> None:
         order.make_folders()
         os.environ.update(ros_environment(order.wall), ROS_LOG_DIR=str(home / "log"))
         stage = Stage(installed(script, home), order, 2.0)
-        runs = stage.runs_of(talking, 0, [])
+        runs = run_all(stage, [talking])["talking"]
     print(RUNS.dump_json(runs).decode())
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from roslings.course import ActionContract, NodeContract
+from roslings.course import ActionContract, NodeContract, RateContract
 from roslings.evidence import (
     ActionEnd,
     CommandSeen,
@@ -30,6 +30,7 @@ from roslings.judge.actions import (
     hear_meanwhile,
     perform,
     refuse_each,
+    rest_in_each_turn,
     stop_in_time,
     succeed,
     tell_the_truth,
@@ -327,3 +328,32 @@ def test_feedback_of_another_goal_is_left_aside() -> None:
     view = flight(goal(id=[0] * 16), topics={"/fly/_action/feedback": told()})
     with pytest.raises(NothingToJudge):
         view.must(tell_the_truth(NODE, "first"))
+
+
+# --- the loop ----------------------------------------------------------------------------------
+
+
+def turning(hz: float) -> ExperimentView:
+    """A flight of two seconds, with a feedback in each turn of the loop."""
+    content = {"goal_id": {"uuid": NUMBER}, "feedback": {}}
+    told = [
+        MessageSeen(source_ns=round(n / hz * S), sequence=n + 1, arrival_ns=round(n / hz * S),
+                    size=9, content=content)
+        for n in range(round(2 * hz))
+    ]  # fmt: skip
+    topic = goal().feedback_topic
+    type_ = f"{FLY.type}_FeedbackMessage"
+    return flight(
+        goal(), topics={topic: TopicSeen(name=topic, type=type_, messages=told)}, stall_s=9.0
+    )
+
+
+def test_a_loop_without_a_pause_is_told_on_any_computer() -> None:
+    """None makes a loop so fast, however busy it is; a quick one is another mistake."""
+    fly = FLY.model_copy(update={"feedback": RateContract(hz=10.0, within=0.1)})
+    demand = rest_in_each_turn(NODE, fly, "first")
+    with pytest.raises(faults.NeverRests) as fault:
+        turning(800.0).must(demand)
+    assert fault.value.measured == "800 times a second: the loop never waits"
+    assert "time.sleep(0.1)" in fault.value.hint
+    turning(20.0).must(demand)

@@ -5,10 +5,38 @@ from __future__ import annotations
 import pytest
 
 from roslings.course import TopicContract
-from roslings.evidence import BoardSeen, CableLine, ExperimentSeen, MessageSeen, TopicSeen
-from roslings.judge import ExperimentView
-from roslings.judge.cable import tell_every_line
-from roslings.judge.faults.cable import LinesAndMessagesDiffer, WrongOdometry
+from roslings.devices.rover import Body
+from roslings.evidence import (
+    BoardMark,
+    BoardSeen,
+    CableLine,
+    ExperimentSeen,
+    MessageSeen,
+    MotorsSeen,
+    TopicSeen,
+)
+from roslings.judge import ExperimentView, NothingToJudge
+from roslings.judge.cable import (
+    come_so_far,
+    drive_again,
+    drive_at_most,
+    drive_by_its_settings,
+    keep_still,
+    open_its_port,
+    set_its_speed,
+    tell_every_line,
+)
+from roslings.judge.faults.cable import (
+    DeafAfterNonsense,
+    FollowedNonsense,
+    LinesAndMessagesDiffer,
+    PortNotOpened,
+    SettingIgnored,
+    TooFast,
+    WrongDrive,
+    WrongOdometry,
+    WrongSpeedOfPort,
+)
 from roslings.judge.views import TopicView
 
 TOPIC = TopicContract(topic="/speed", type="sensor_msgs/msg/JointState")
@@ -51,3 +79,78 @@ def test_a_way_is_told_in_words() -> None:
     assert fault.measured == "/odom says 0.30 m back, 0.30 m right, turned 90 degrees right"
     assert "its direction is not" in fault.hint
     assert WrongOdometry("x", (1.0, 0.0, 0.0), (2.0, 0.0, 0.0)).measured.endswith("not turned")
+
+
+# --- other settings, and commands that nobody can follow -----------------------------------------
+
+
+def mark(part: str, board_s: float = 1.0, pwm: tuple[int, int] = (0, 0)) -> BoardMark:
+    """How things stood at a moment; the rover is where it began."""
+    return BoardMark(
+        part=part, arrival_ns=0, board_s=board_s, x_m=0, y_m=0, heading_rad=0,
+        left_pwm=pwm[0], right_pwm=pwm[1],
+    )  # fmt: skip
+
+
+def seen(board: BoardSeen) -> ExperimentView:
+    """An experiment with this board."""
+    return ExperimentView(ExperimentSeen(name="x", clock="wall", board=board))
+
+
+HALF, ASKED = Body(wheel_radius_m=0.05), Body(wheel_radius_m=0.1)
+"""Rovers that drive straight on with 0.5 m/s at PWM 150, and at PWM 75."""
+
+
+@pytest.mark.parametrize(
+    ("pwm", "fault"), [((75, 75), None), ((150, 150), SettingIgnored), ((99, 99), WrongDrive)]
+)
+def test_a_setting_that_is_ignored_is_named(
+    pwm: tuple[int, int], fault: type[WrongDrive] | None
+) -> None:
+    """By the PWM that would be right for its default."""
+    demand = drive_by_its_settings("on", 0.5, 0.0, ASKED, {"wheel_radius": HALF})
+    view = seen(BoardSeen(marks=[mark("on", pwm=pwm)]))
+    if fault is None:
+        demand(view)
+        return
+    with pytest.raises(WrongDrive) as found:
+        demand(view)
+    assert type(found.value) is fault
+    assert ("wheel_radius" in f"{found.value}{found.value.hint}") is (fault is SettingIgnored)
+
+
+def test_a_command_that_is_too_fast_gets_full_pwm() -> None:
+    """The line that was sent is told; a refused one leaves the motors without power."""
+    line = CableLine(board_s=0.9, sent_ns=0, text="$M,7,1020,1020*ABCD")
+    drive_at_most("on", 2.0, 0.0)(seen(BoardSeen(marks=[mark("on", pwm=(255, 255))])))
+    with pytest.raises(TooFast, match="M,7,1020,1020"):
+        drive_at_most("on", 2.0, 0.0)(seen(BoardSeen(marks=[mark("on")], heard=[line])))
+
+
+def test_nonsense_moves_nothing_and_what_follows_does() -> None:
+    """Between the two marks, and after them."""
+    begin, end = mark("odd", 1.0), mark("odd, over", 3.0)
+    before, after = (MotorsSeen(board_s=at, left_pwm=9, right_pwm=9) for at in (0.5, 3.5))
+    during = MotorsSeen(board_s=2.0, left_pwm=0, right_pwm=-9)
+    keep_still("odd")(seen(BoardSeen(marks=[begin, end], motors=[before, after])))
+    with pytest.raises(FollowedNonsense):
+        keep_still("odd")(seen(BoardSeen(marks=[begin, end], motors=[during])))
+    marks = [begin, end, mark("on", 4.0)]
+    drive_again("on", "odd")(seen(BoardSeen(marks=marks, motors=[before, after])))
+    with pytest.raises(DeafAfterNonsense):
+        drive_again("on", "odd")(seen(BoardSeen(marks=marks, motors=[before])))
+    with pytest.raises(NothingToJudge):
+        come_so_far("odd")(seen(BoardSeen()))
+
+
+def test_a_port_is_open_where_anything_shows_it() -> None:
+    """A line, a speed, or a message; and its speed is that of the parameter."""
+    line = CableLine(board_s=0.0, sent_ns=0, text="M")
+    for board in (BoardSeen(heard=[line]), BoardSeen(host_bits_s=9600)):
+        open_its_port("port", TOPIC)(seen(board))
+    with pytest.raises(PortNotOpened):
+        open_its_port("port", TOPIC)(seen(BoardSeen()))
+    set_its_speed("baud", 9600)(seen(BoardSeen(host_bits_s=9600)))
+    for speed in (115200, None):
+        with pytest.raises(WrongSpeedOfPort):
+            set_its_speed("baud", 9600)(seen(BoardSeen(host_bits_s=speed)))

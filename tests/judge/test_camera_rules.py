@@ -13,30 +13,46 @@ from roslings.evidence import (
     Endpoint,
     ExperimentSeen,
     GraphSeen,
+    LogLine,
     MessageSeen,
     ParameterSet,
     PictureShown,
     PixelsSeen,
     ProcessSeen,
     Qos,
+    StageMark,
     TopicSeen,
 )
 from roslings.judge import ExperimentView, Fault, Inconclusive, NothingToJudge
 from roslings.judge.camera import (
+    MISSING,
+    begin_so_light,
+    come_after,
     follow_brightness,
     hold_whole_rows,
     refuse,
     show_each_once,
     show_what_the_camera_saw,
+    tell_of_trouble,
 )
 from roslings.judge.faults import camera as camera_faults
 from roslings.judge.faults import showing as faults
-from roslings.judge.showing import Screen, carry_the_header, find_nothing, find_the_ball
+from roslings.judge.showing import (
+    Screen,
+    answer_nothing,
+    answer_once,
+    begin_with_the_hue,
+    carry_the_header,
+    draw_on_each,
+    find_nothing,
+    find_the_ball,
+)
 
 IMAGE, POINT = "sensor_msgs/msg/Image", "geometry_msgs/msg/PointStamped"
 FILMED = TopicContract(topic="/eye", type=IMAGE, fields={"step": 1920})
 CAMERA = NodeContract(node="/camera", executable="camera", publishes=(FILMED,))
-SAYS, DRAWS = TopicContract(topic="/ball", type=POINT), TopicContract(topic="/drawn", type=IMAGE)
+SAYS = TopicContract(topic="/ball", type=POINT)
+DRAWS = TopicContract(topic="/drawn", type=IMAGE, fields={"encoding": "bgr8"})
 FINDER = NodeContract(node="/finder", executable="finder", publishes=(SAYS, DRAWS))
 SCREEN = Screen(FINDER, SAYS, DRAWS, within_px=3.0)
 MS, STAMP_NS = 1_000_000, 1_700_000_000_000_000_000
@@ -141,6 +157,15 @@ def test_a_film_that_stands_still_or_leaps(shown: Any, kind: type[Fault]) -> Non
     """From message to message."""
     came = [image(60 * n, n, shows=shown(n)) for n in range(1, 13)]
     assert fault_of(filmed(*came).topic(FILMED), show_each_once(16)) is kind
+
+
+def test_the_light_of_the_start() -> None:
+    """Each picture is as much lighter as the value asks for, also the first."""
+    demand = begin_so_light("bright", 81, 50, 2.55)
+    lit = [image(60 * n, n, lighter=79.0) for n in range(1, 4)]
+    filmed(*lit).topic(FILMED).must(demand)
+    kind = camera_faults.LightAtStartIgnored
+    assert fault_of(filmed(image(0, 0), *lit).topic(FILMED), demand) is kind
 
 
 def test_too_few_pictures_tell_nothing() -> None:
@@ -301,3 +326,96 @@ def test_nothing_is_there_and_something_is_found() -> None:
     looking([shown(1, part="none", ball=None)], []).must(nothing)
     false = looking([shown(1, part="none", ball=None)], [place(1, 3.0, 4.0)])
     assert fault_of(false, nothing) is faults.FoundWhereNothingIs
+
+
+def test_a_picture_has_one_answer() -> None:
+    """One that was shown twice, since it may have been lost, may have two."""
+    twice = [place(1, 100.0, 40.0), place(1, 100.0, 40.0)]
+    looking([shown(1)], twice[:1]).must(answer_once(SCREEN, ["ball"]))
+    looking([shown(1, tries=2)], twice).must(answer_once(SCREEN, ["ball"]))
+    view = looking([shown(1)], twice)
+    assert fault_of(view, answer_once(SCREEN, ["ball"])) is faults.AnsweredTwice
+    with pytest.raises(NothingToJudge):
+        looking([shown(1)], []).must(answer_once(SCREEN, ["ball"]))
+
+
+def test_the_hue_of_the_start() -> None:
+    """Whoever looks for the default hue finds the other ball."""
+    decoy = DiscShown(x_px=30.0, y_px=90.0, radius_px=12.0, hue=5)
+    picture = shown(1, decoy=decoy)
+    looking([picture], [place(1, 100.0, 40.0)]).must(begin_with_the_hue(SCREEN, "ball"))
+    view = looking([picture], [place(1, 30.0, 90.0)])
+    assert fault_of(view, begin_with_the_hue(SCREEN, "ball")) is faults.HueAtStartIgnored
+
+
+def test_a_place_in_a_picture_has_no_depth() -> None:
+    """z is 0."""
+    deep = place(1, 100.0, 40.0)
+    deep.content["point"]["z"] = 12.0
+    assert fault_of(looking([shown(1)], [deep]), FINDS) is faults.HasDepth
+
+
+def test_a_picture_without_a_ball_comes_back_too() -> None:
+    """A small one surely came; of a large one, or on a busy computer, nothing is said."""
+    view = looking([shown(1), shown(2, part="none", ball=None, answered=False)], [])
+    draws = draw_on_each(SCREEN, ["none", "drawn"])
+    with pytest.raises(NothingToJudge, match="no picture came back"):
+        view.must(draws)
+    marks = DiscShown(x_px=9.0, y_px=9.0, radius_px=3.0, hue=5)
+    drawn = drawing(3)
+    view.seen.shown.append(shown(3, part="drawn", ball=marks))
+    view.seen.topics["/drawn"] = TopicSeen(name="/drawn", type=IMAGE, messages=[drawn])
+    assert fault_of(view, draws) is faults.Unanswered
+    view.seen.shown[1].bytes = 921_600
+    view.must(draws)
+
+
+def drawing(number: int) -> MessageSeen:
+    """The picture that comes back for the n-th one, with a ring."""
+    pixels = PixelsSeen(bytes=57_600, level=1.0, spoiled=0.0, marked=0.02).model_dump()
+    sec, nanosec = divmod(STAMP_NS + number, 10**9)
+    header = {"stamp": {"sec": sec, "nanosec": nanosec}, "frame_id": f"eye_{number}"}
+    content = {
+        "header": header, "width": 160, "height": 120, "encoding": "bgr8", "step": 480,
+        "data": pixels,
+    }  # fmt: skip
+    at_ns = (number * 1000 + 300) * MS
+    return MessageSeen(source_ns=None, sequence=None, arrival_ns=at_ns, size=9, content=content)
+
+
+def test_a_bad_picture_is_answered_by_nothing() -> None:
+    """No place, no drawing."""
+    bad = shown(1, part="short", ball=None)
+    quiet = answer_nothing(SCREEN, "short", "a bad picture")
+    looking([bad], []).must(quiet)
+    assert fault_of(looking([bad], [place(1, 3.0, 4.0)]), quiet) is faults.AnswersBadPicture
+
+
+@pytest.mark.parametrize(("after_ms", "kind"), [(2900, None), (3100, camera_faults.TriesSeldom)])
+def test_a_camera_is_looked_for_often_enough(after_ms: int, kind: type[Fault] | None) -> None:
+    """Two seconds, and one until a picture is here."""
+    view = filmed(image(1000 + after_ms, 1))
+    view.seen.stages = [StageMark(part="there", at_ns=1000 * MS)]
+    demand = come_after("there", "when it is there", FILMED, 2.0)
+    if kind:
+        assert fault_of(view, demand) is kind
+    else:
+        view.must(demand)
+
+
+@pytest.mark.parametrize(("line", "is_enough"), [
+    ("No camera: [Errno 2] No such file or directory: '/run/x/camera'", True),
+    ("No camera: No such file or directory", False),
+    ("No camera: /run/x/camera", False),
+])  # fmt: skip
+def test_the_line_names_device_and_reason(line: str, is_enough: bool) -> None:
+    """Both."""
+    view = filmed()
+    view.seen.stages = [StageMark(part="missing", at_ns=0)]
+    view.seen.processes["camera"].lines = [LogLine(arrival_ns=5, source="terminal", text=line)]
+    node = CAMERA.model_copy(update={"log": "No camera: {text}"})
+    demand = tell_of_trouble(node, "missing", "no camera", MISSING)
+    if is_enough:
+        view.must(demand)
+    else:
+        assert fault_of(view, demand) is camera_faults.SilentAboutCamera

@@ -62,6 +62,11 @@ def bursts(late: Late) -> list[float]:
     return [begin + n for begin in timer(late, 2_000) for n in range(4)]
 
 
+def sent_again(times: int) -> Callable[[Late], list[float]]:
+    """A right timer, each of whose messages is sent several times."""
+    return lambda late: [begin + n for begin in timer(late, 500) for n in range(times)]
+
+
 Kind = type[faults.WrongRate] | None
 SHAPES: dict[str, tuple[Callable[[Late], Sequence[float]], Kind]] = {
     "good": (lambda late: list(timer(late, 500)), None),
@@ -70,6 +75,8 @@ SHAPES: dict[str, tuple[Callable[[Late], Sequence[float]], Kind]] = {
     "starts late": (starts_late, faults.StartsLate),
     "stalls": (stalls, faults.StallsNowAndThen),
     "bursts": (bursts, faults.Bursts),
+    "sent twice": (sent_again(2), faults.SentAgain),
+    "sent three times": (sent_again(3), faults.SentAgain),
     "works and sleeps": (lambda late: list(loop(late, [610] * 60)), faults.SleepsAfterWorking),
     "grows": (
         lambda late: list(loop(lambda: late() / 3, [500 + 30 * n for n in range(60)])),
@@ -116,3 +123,10 @@ def test_what_is_slow_is_told_nearly_always_on_a_very_busy_machine(shape: str) -
     told = kinds(shape, some_late)
     assert None not in told
     assert told.count(SHAPES[shape][1]) >= 0.95 * len(told)
+
+
+def test_what_is_sent_again_is_told_in_numbers() -> None:
+    """How many come at once, and where to look."""
+    fault = faults.SentAgain("/chatter", 2.0, 0.05, watch(sent_again(2)(lambda: 0.0)))
+    assert "each time 2 of them, one right after the other" in fault.measured
+    assert "publish() runs 2 times" in fault.hint

@@ -7,9 +7,29 @@ from typing import Any
 
 import pytest
 
-from roslings.evidence import ExperimentSeen, MessageSeen, TopicSeen
-from roslings.experiment.telling import nested
-from roslings.judge.sensing import field_of, remark, same, shown
+from roslings.course import NodeContract, TopicContract
+from roslings.evidence import (
+    Endpoint,
+    ExperimentSeen,
+    GraphSeen,
+    MessageSeen,
+    Qos,
+    Spoken,
+    StageMark,
+    TopicSeen,
+)
+from roslings.experiment.telling import TOLD, nested
+from roslings.judge import ExperimentView
+from roslings.judge.faults.sensing import MoreThanAsked, WrongAtFirst
+from roslings.judge.sensing import (
+    Shown,
+    answer_each_once,
+    field_of,
+    remark,
+    same,
+    show_at_first,
+    shown,
+)
 
 INFINITY = math.inf
 
@@ -78,3 +98,51 @@ def test_what_a_wrong_number_looks_like(found: Any, wanted: float, words: str) -
     """Units, mostly."""
     assert words in remark(found, wanted)
     assert bool(words) == bool(remark(found, wanted))
+
+
+HEAT = TopicContract(topic="/heat", type="std_msgs/msg/Float64")
+PLACE = Shown(NodeContract(node="/oven", executable="oven"), "data", HEAT, "data")
+TOLD_NS = 1000
+
+
+def oven(values: list[Any], every_ns: int = 400, told: int = 2) -> ExperimentView:
+    """A node that publishes these values; it is told some, from 1000 ns on."""
+    end = Endpoint(
+        kind="publisher", node="/oven", topic="/heat", type=HEAT.type, qos=Qos(), gid="1"
+    )
+    messages = [
+        MessageSeen(
+            source_ns=None, sequence=n, arrival_ns=n * every_ns, size=8, content={"data": value}
+        )
+        for n, value in enumerate(values)
+    ]
+    said = Spoken(
+        topic="/wood", type=HEAT.type, content={"data": 1.0}, sent_ns=TOLD_NS, matched=True,
+        offered=Qos(),
+    )  # fmt: skip
+    seen = ExperimentSeen(
+        name="x",
+        clock="wall",
+        graph=GraphSeen(nodes=["/oven"], endpoints=[end]),
+        topics={"/heat": TopicSeen(name="/heat", type=HEAT.type, messages=messages)},
+        spoken=[said] * told,
+        stages=[StageMark(part=TOLD, at_ns=TOLD_NS)],
+    )
+    return ExperimentView(seen)
+
+
+def test_what_is_shown_before_anything_is_told() -> None:
+    """Three messages come before the first value, and one after it."""
+    show_at_first(PLACE, math.nan)(oven(["NaN", "NaN", "NaN", 3.0]))
+    with pytest.raises(WrongAtFirst, match="before anything was heard"):
+        show_at_first(PLACE, math.nan)(oven(["NaN", "NaN", 0.0, 3.0]))
+
+
+@pytest.mark.parametrize(("count", "right"), [(1, True), (2, True), (3, True), (4, False)])
+def test_one_message_for_each_value(count: int, right: bool) -> None:
+    """Two values count; the first was told once before that."""
+    if right:
+        answer_each_once(PLACE)(oven([1.0] * count))
+        return
+    with pytest.raises(MoreThanAsked):
+        answer_each_once(PLACE)(oven([1.0] * count))

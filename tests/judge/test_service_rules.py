@@ -4,11 +4,19 @@ from __future__ import annotations
 
 import pytest
 
-from roslings.course import NodeContract, ServiceContract
-from roslings.evidence import CallSeen, ExperimentSeen, ProcessSeen, ServiceEnd
+from roslings.course import NodeContract, ServiceContract, TopicContract
+from roslings.evidence import (
+    CallSeen,
+    ExperimentSeen,
+    MessageSeen,
+    ProcessSeen,
+    ServiceEnd,
+    TopicSeen,
+)
 from roslings.judge import ExperimentView, Inconclusive
 from roslings.judge.faults import services as faults
-from roslings.judge.services import answer_each, answer_in_time, serve
+from roslings.judge.services import answer_each, answer_in_time, ask, say_at_first, serve
+from roslings.judge.views import TopicView
 
 LAMP = ServiceContract.model_validate(
     {
@@ -135,3 +143,32 @@ def test_another_service_is_no_slip_of_the_pen() -> None:
     with pytest.raises(faults.NoService) as fault:
         serve(LAMP)(view)
     assert "has a client of /light" in fault.value.measured
+
+
+@pytest.mark.parametrize(("times", "right"), [(1, True), (2, False)])
+def test_a_client_asks_once(times: int, right: bool) -> None:
+    """Each request does something."""
+    view = seen()
+    view.seen.served = [call(0.0)] * times
+    if right:
+        ask(NODE, LAMP)(view)
+        return
+    with pytest.raises(faults.AskedAgain, match=f"{times} times"):
+        ask(NODE, LAMP)(view)
+
+
+@pytest.mark.parametrize(("first", "right"), [(1.0, True), (0.3, False)])
+def test_the_state_of_the_start(first: float, right: bool) -> None:
+    """Each message from before the first call."""
+    topic = TopicContract(topic="/power", type="std_msgs/msg/Float64")
+    messages = [
+        MessageSeen(source_ns=None, sequence=None, arrival_ns=n, size=8, content={"data": value})
+        for n, value in enumerate((first, 1.0))
+    ]
+    heard = TopicSeen(name="/power", type=topic.type, messages=messages)
+    view = TopicView(topic, "/power", topic.type, heard, seen().seen)
+    if right:
+        say_at_first(1.0)(view)
+        return
+    with pytest.raises(faults.WrongState, match="before any call"):
+        say_at_first(1.0)(view)

@@ -5,8 +5,12 @@ from __future__ import annotations
 import pytest
 
 from roslings.course import NodeContract
+from roslings.course.card import ParameterContract
+from roslings.evidence import ExperimentSeen, GraphSeen, ParameterDeclared, ProcessSeen
 from roslings.experiment.start import PLAIN, Start
-from roslings.judge.starting import carried
+from roslings.judge import ExperimentView
+from roslings.judge.faults.starting import WrongDefault
+from roslings.judge.starting import carried, declare_its_parameters
 
 
 def test_the_words_of_the_command_line() -> None:
@@ -40,3 +44,23 @@ def test_two_of_one_program_have_two_labels() -> None:
 def test_a_topic_follows_its_node(topic: str, node: str, new: str) -> None:
     """What ROS makes of the name when the node becomes /left/first."""
     assert carried(topic, node, "/left/first") == new
+
+
+@pytest.mark.parametrize("given", [(), ("port",)])
+def test_a_default_is_seen_where_nobody_gave_a_value(given: tuple[str, ...]) -> None:
+    """What the process was started with hides the default."""
+    port = ParameterContract(name="port", type="string", about="", default="/a", tried="/b")
+    node = NodeContract(node="/it", executable="it", parameters=(port,))
+    seen = ExperimentSeen(
+        name="x",
+        clock="wall",
+        graph=GraphSeen(nodes=["/it"], endpoints=[]),
+        processes={"it": ProcessSeen(executable="it", started_ns=0, given=list(given))},
+        parameters={"/it": ["port"]},
+        declared=[ParameterDeclared(node="/it", name="port", type="string", value="/b")],
+    )
+    if given:
+        declare_its_parameters(node)(ExperimentView(seen))
+        return
+    with pytest.raises(WrongDefault):
+        declare_its_parameters(node)(ExperimentView(seen))

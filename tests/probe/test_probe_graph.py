@@ -71,3 +71,23 @@ def test_it_is_read_again_when_it_has_changed(probe: Probe, talker: Any) -> None
     assert WORD in parts(looker.read())
     talker.destroy_publisher(publisher)
     assert probe.until(lambda: WORD not in parts(look()), WITHIN_S)
+
+
+def test_what_has_gone_meanwhile_found_room(probe: Probe, talker: Any) -> None:
+    """A publisher that was counted, and is gone when its details are asked for."""
+    from std_msgs.msg import String
+
+    class Late:
+        """Counts one publisher more than there is left to read."""
+
+        def __getattr__(self, name: str) -> Any:
+            return getattr(probe.eye, name)
+
+        def count_publishers(self, topic: str) -> int:
+            """As it was a moment ago."""
+            return int(probe.eye.count_publishers(topic)) + (topic == "/word")
+
+    talker.create_publisher(String, "/word", 10)
+    looker = Looker(Late())
+    assert probe.until(lambda: WORD in parts(looker.read()), WITHIN_S)
+    assert looker.left_out == 0

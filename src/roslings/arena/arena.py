@@ -92,6 +92,10 @@ class Arena:
         """Where a device must appear for the processes to see it."""
         return self._place.devices
 
+    def sees(self, device: Path) -> bool:
+        """The processes could open this device of the computer's own."""
+        return self._place.sandbox is None and device.exists()
+
     def waited_s(self) -> float:
         """The longest time that a thread of theirs was ready to run and no processor was free."""
         waits_ns = (ns for each in self.processes for ns in each.waits_ns().values())

@@ -11,6 +11,7 @@ import fcntl
 import os
 import pwd
 import shutil
+import socket
 import stat
 import subprocess
 import sys
@@ -263,6 +264,8 @@ def _writable(path: Path) -> Lack:
 
 def _tried() -> Lack | None:
     """Prove that the kernel lets root be somebody else, and that Python starts for that user."""
+    if not _hears_itself():
+        return Lack("there is no loopback network", "Bring it up: ip link set lo up")
     try:
         tried = _run_as(USERS[-1], [sys.executable, "-c", "pass"])
     except (OSError, subprocess.SubprocessError, ValueError) as error:
@@ -271,6 +274,14 @@ def _tried() -> Lack | None:
         return None
     words = tried.stderr.strip().splitlines() or ["Python does not start for another user"]
     return Lack(words[-1], NOT_HERE)
+
+
+def _hears_itself() -> bool:
+    """A container without a network has 127.0.0.1 as a rule; without it no node hears another."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as end, suppress(OSError):
+        end.connect(("127.0.0.1", 9))
+        return True
+    return False
 
 
 NOT_HERE = "Grade on a machine, or in a container, with the usual rights of root."

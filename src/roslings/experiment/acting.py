@@ -67,6 +67,9 @@ HEARS = "whether the node hears"
 CALM_S = 0.7
 """So long a robot is watched after it stands: it must not be told to drive on."""
 
+RESTLESS, RESTLESS_AFTER_S = 5.0, 1.0
+"""Feedback that is so many times too frequent comes from a loop without a pause."""
+
 
 @dataclass
 class Director:
@@ -78,6 +81,8 @@ class Director:
     action: ActionContract
     robot: Robot
     _silent: bool = field(default=False, init=False)
+    _first_s: float = field(default=math.inf, init=False)
+    """When the first goal was given."""
 
     def __post_init__(self) -> None:
         """Waits until the node's action is there, and the node has heard where the robot is.
@@ -147,6 +152,7 @@ class Director:
         """The goal, where it was accepted."""
         if giver is None or self._silent:
             return None
+        self._first_s = min(self._first_s, time.monotonic())
         given = giver.give(dict(goal), part)
         with accounting(self.scene, answer_to(part)):
             accepted = given.await_answer(ANSWER_WITHIN_S, lambda: self.process.alive)
@@ -196,8 +202,12 @@ class Director:
         if self.scene.seen.stuck:
             return
         rest = Rest(self.robot, given.seen.goal, OwnTime(self.scene.arena))
+
+        def over() -> bool:
+            return given.ended or rest.is_over() or self._restless(given)
+
         with accounting(self.scene, given.seen.part):
-            self.scene.until(lambda: given.ended or rest.is_over(), ENDS_WITHIN_S)
+            self.scene.until(over, ENDS_WITHIN_S)
         self._silent = not given.ended
 
     def _await_way(self, given: Goal, way_m: float) -> bool:
@@ -208,8 +218,20 @@ class Director:
         def there() -> bool:
             return self.robot.distance_to(begin.x_m, begin.y_m) >= way_m
 
-        self.scene.until(lambda: there() or given.ended or rest.is_over(), ENDS_WITHIN_S)
+        def over() -> bool:
+            return there() or given.ended or rest.is_over() or self._restless(given)
+
+        self.scene.until(over, ENDS_WITHIN_S)
         return there()
+
+    def _restless(self, given: Goal) -> bool:
+        """Its loop has no pause: it takes all processors that it can get, and tells nothing new."""
+        limit = self.action.feedback
+        passed_s = time.monotonic() - self._first_s
+        if limit is None or passed_s < RESTLESS_AFTER_S:
+            return False
+        told = self.scene.probe.count(given.seen.feedback_topic)
+        return told > RESTLESS * limit.high_hz * passed_s
 
     def _cancel(self, given: Goal) -> None:
         """Ask for it, and wait for the goal's end; not for long where the node says no."""
@@ -218,7 +240,7 @@ class Director:
         self.scene.until(lambda: given.ended or given.cancel_refused, CANCELS_WITHIN_S)
         if given.cancel_refused:
             self.scene.until(lambda: given.ended, REFUSED_S)
-        given.seen.cpu_wait_s = own.waited_s()
+        given.seen.cpu_wait_s = own.waited_in_turn_s()
 
     def _watch_rest(self, given: Goal) -> None:
         """Watch until the robot stands, and a little longer."""

@@ -28,6 +28,10 @@ class Assignment(BaseModel):
     keeps_bags: bool = False
     for_others: bool = False
     """Whether somebody believes the result who did not make it."""
+    soak_s: float = 0.0
+    """How long the nodes run among themselves, beside the experiments; 0: not at all."""
+    only_soak: bool = False
+    """No experiment is made."""
     port: Path | None = None
     """Where a real board is, when it is to take the place of the one in Python."""
 

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from roslings.course import TopicContract
+from roslings.course import ParameterContract, TopicContract
 from roslings.devices.board import Board, Chunk, Mega
 from roslings.devices.board.attached import AttachedBoard
 from roslings.devices.rover import Body, Box, Rover, World
 from roslings.evidence import BoardMark, BoardSeen, CableLine, Endpoint, MotorsSeen, WaySeen
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
 from roslings.experiment.scene import Scene, hears, says
-from roslings.experiment.start import Start
+from roslings.experiment.start import PLAIN, Start
 from roslings.experiment.timing import timing
 from roslings.near import nearest_endpoint
 
@@ -29,6 +29,12 @@ SPEAKS_WITHIN_S = 8.0
 """A complete node's own time until its first message: some wait until the board has started."""
 
 COMES_BACK_WITHIN_S = 40.0
+ACTS_WITHIN_S = 0.3
+"""Of the board's time; a node repeats its command twice a second at least."""
+
+NONSENSE = [(math.nan, 0.0), (0.0, math.nan), (math.inf, 0.0), (0.0, -math.inf)]
+"""Metres and radians a second that nobody can drive, in each of both fields."""
+
 LONGEST_LINE = 200
 PORT = "ttyROVER"
 FLOOR = World(room=Box(-100.0, -100.0, 100.0, 100.0))
@@ -36,18 +42,23 @@ FLOOR = World(room=Box(-100.0, -100.0, 100.0, 100.0))
 
 @contextmanager
 def board_beside(
-    scene: Scene, plugged_in: bool = True, parameter: str = "port", body: Body | None = None
+    scene: Scene,
+    plugged_in: bool = True,
+    parameter: str = "port",
+    body: Body | None = None,
+    bits_s: float = math.inf,
 ) -> Iterator[Cable]:
     """A rover's board in real time, on an empty floor; the node finds it by a parameter.
 
-    Where the scene has the port of a real board, that one takes its place.
+    With `bits_s`, the speed of its cable, lines arrive in pieces, cut anywhere. Where the scene has
+    the port of a real board, that one takes its place.
     Raises DeviceTrouble when a board ends that should have lived.
 
     >>> with board_beside(scene) as cable, scene.run(BRIDGE, start=cable.start()):
     ...     cable.drive("straight", CMD_VEL, forward_m_s=0.3, for_s=1.5)
     """
     port = scene.arena.devices / PORT
-    with _chip(scene.port, body or Body()) as chip, Board(chip, port) as board:
+    with _chip(scene.port, body or Body()) as chip, Board(chip, port, bits_s) as board:
         if not plugged_in:
             board.unplug()
         with board.running():
@@ -58,6 +69,16 @@ def board_beside(
                 cable.write_down()
         if board.trouble:
             raise board.trouble
+
+
+def unasked(scene: Scene, parameter: ParameterContract) -> Start:
+    """How a node is started with nothing said about its board; no board is there.
+
+    A real one that the default leads to is not touched: then the node gets a name of nothing.
+    """
+    if scene.arena.sees(Path(str(parameter.default))):
+        return Start(parameters={parameter.name: str(scene.arena.devices / PORT)})
+    return PLAIN
 
 
 @contextmanager
@@ -83,9 +104,9 @@ class Cable:
         """Lines that the board told before the node was there."""
         scene.seen.board = self.seen
 
-    def start(self) -> Start:
-        """How the node is started: with the name of this port."""
-        return Start(parameters={self._parameter: self.board.name})
+    def start(self, settings: Mapping[str, bool | int | float | str] | None = None) -> Start:
+        """How the node is started: with the name of this port, and with other settings."""
+        return Start(parameters={**(settings or {}), self._parameter: self.board.name})
 
     def drive(
         self,
@@ -183,10 +204,16 @@ class Cable:
         content = {"linear": {"x": forward_m_s}, "angular": {"z": turn_rad_s}}
         return self._scene.probe.say(ear, content, FIRST_MESSAGE_WITHIN_S).matched
 
-    def say_nonsense(self, topic: TopicContract) -> None:
-        """Say a motion that is no number."""
-        if ear := self._ear(topic):
-            self.say(ear, math.nan, math.inf)
+    def say_nonsense(self, part: str, topic: TopicContract) -> None:
+        """Say motions that are no numbers, one after the other, and give each its time to act."""
+        ear = self._ear(topic)
+        if ear is None or not self._lives():
+            return
+        self.mark(part)
+        for forward_m_s, turn_rad_s in NONSENSE:
+            if self.say(ear, forward_m_s, turn_rad_s):
+                self.live(for_s=ACTS_WITHIN_S)
+        self.mark(f"{part}, over")
 
     def _goes_on(self) -> bool:
         """Never the end of a wait: only a moment to note where the rover is."""
@@ -205,6 +232,7 @@ class Cable:
         self.seen.heard = [each for each in lines_of(self.board.heard) if keeps("requests", each)]
         self.seen.rejected = self._chip.counts.rejected
         self.seen.lost_bytes = self.board.lost_bytes
+        self.seen.host_bits_s = self.board.port.host_bits_s
         self.seen.motors = [
             MotorsSeen(board_s=a.time_s, left_pwm=a.left_pwm, right_pwm=a.right_pwm)
             for a in self._chip.applied

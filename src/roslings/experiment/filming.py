@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import os
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 
 from roslings.arena import Process
@@ -22,6 +22,9 @@ from roslings.probe.calling import set_parameter
 
 PICTURES = 16
 """In a film that begins again; each is told from all others."""
+
+CAMERA = "camera"
+"""The last part of the path at which the node finds it."""
 
 GRAIN = 6.0
 """Noise, in levels: it tells two pictures apart where they show the same."""
@@ -48,7 +51,7 @@ def camera_beside(
     film = _film(scene)
     looker = FilmLooker(film)
     scene.probe.read_as_it_comes(IMAGE, looker.read)
-    path = scene.arena.devices / "camera"
+    path = scene.arena.devices / CAMERA
     with SocketCamera(path, lambda number: film[number % PICTURES]) as camera:
         if plugged_in:
             camera.plug_in()
@@ -77,9 +80,9 @@ class Filming:
         self._speechless, self._part = False, "film"
         """It did not tell of the last trouble."""
 
-    def start(self) -> Start:
-        """How the node is started: with the name of this camera."""
-        return Start(parameters={self._parameter: str(self.camera.path)})
+    def start(self, settings: Mapping[str, bool | int | float | str] | None = None) -> Start:
+        """How the node is started: with the name of this camera, and with other settings."""
+        return Start(parameters={**(settings or {}), self._parameter: str(self.camera.path)})
 
     def begin(self, part: str) -> None:
         """A part of the experiment begins."""

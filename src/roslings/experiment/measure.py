@@ -52,6 +52,10 @@ class Choices:
     """Whether somebody else's package is graded: then the wall for strangers' code is taken."""
     for_others: bool = False
     """Whether somebody else believes the result, trusted package or not."""
+    soak_s: float = 0.0
+    """How long the nodes run among themselves, beside the experiments; 0: not at all."""
+    only_soak: bool = False
+    """Whether nothing else is made."""
 
 
 class Measuring:
@@ -105,7 +109,8 @@ def measuring_process(lab: str, choices: Choices) -> Iterator[Measuring]:
             clock=choices.clock, folder=folder, keeps_bags=choices.bags is not None,
             port=choices.port, hidden=choices.hidden, user=user,
             builds=None if user else choices.builds, builds_as_kin=choices.builds_as_kin,
-            for_others=choices.for_others,
+            for_others=choices.for_others, only_soak=choices.only_soak,
+            soak_s=0.0 if choices.port else choices.soak_s,
         )  # fmt: skip
         assignment.make_folders()
         with assignment.errors.open("wb") as errors:

@@ -10,13 +10,13 @@ import os
 import shutil
 import signal
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass, field, replace
 from types import FrameType
 from typing import Literal
 
-from roslings.arena import CannotStart, Installed, opened, ros_environment
+from roslings.arena import CannotStart, Installed, Place, opened, ros_environment
 from roslings.course import Card, lab
 from roslings.devices.trouble import DeviceTrouble
 from roslings.endings import must_end_again
@@ -37,6 +37,7 @@ from roslings.experiment.packets import Tap, tapped
 from roslings.experiment.presence import Absences
 from roslings.experiment.scene import Scene
 from roslings.experiment.simulated import clock_publishers
+from roslings.experiment.soaking import SOAKING, Soak, soaking
 from roslings.experiment.turns import Turns
 from roslings.experiment.unobserved import Unobserved
 from roslings.probe import Probe
@@ -93,20 +94,64 @@ def measure_here(assignment: Assignment, package: PackageSeen) -> Evidence:
         stage = Stage(installed, assignment, task.card.ends_within_s, timeline, paced)
         declared = [each for file in task.graders for each in experiments_of(load_grader(file))
                     if assignment.for_others or not each.unobserved]  # fmt: skip
-        _run_all(stage, declared, evidence)
+        _carry_out(
+            stage, [] if assignment.only_soak else declared, evidence, _soak(stage, task.card)
+        )
     evidence.timeline = timeline
     evidence.advice.extend(advice_on_clocks(evidence))
     return evidence
 
 
-def _run_all(stage: Stage, declared: Sequence[Experiment], evidence: Evidence) -> None:
-    """Run the experiments side by side; the evidence has them in their order."""
+def _soak(stage: Stage, card: Card) -> Soak | None:
+    """What runs on in real time beside the experiments, where that was asked for."""
+    for_s = stage.assignment.soak_s
+    return Soak(card, stage.installed, stage.place, stage.turns, for_s) if for_s else None
+
+
+def _carry_out(
+    stage: Stage, declared: Sequence[Experiment], evidence: Evidence, soak: Soak | None
+) -> None:
+    """All experiments, and what runs on beside them; the evidence has them in their order."""
+    with soaking(soak) as soaked:
+        for name, (*attempts, believed) in run_all(stage, declared).items():
+            evidence.experiments[name] = believed
+            evidence.attempts.extend(attempts)
+        if soaked:
+            say(SOAKING)
+            evidence.soak = soaked.result()
+
+
+def run_all(stage: Stage, declared: Sequence[Experiment]) -> dict[str, list[ExperimentSeen]]:
+    """All runs of each experiment, side by side; the one to be believed comes last.
+
+    What is doubtful is made once more, when all are over.
+    """
     with Alongside(stage.runs_of, stage.call_off, stage.at_once) as alongside:
         for number, each in enumerate(declared):
             alongside.begin(each, number)
-        for each in declared:
-            *attempts, evidence.experiments[each.name] = alongside.runs_of(each)
-            evidence.attempts.extend(attempts)
+        runs = {each.name: [*alongside.runs_of(each)] for each in declared}
+        again = doubtful(declared, runs, stage.ends_within_s)
+        for each in again:
+            say("A node did not end well; once more, to be sure")
+            alongside.begin(each, declared.index(each))
+        for each in again:
+            runs[each.name] += alongside.runs_of(each)
+    return runs
+
+
+def doubtful(
+    declared: Sequence[Experiment], runs: Mapping[str, Sequence[ExperimentSeen]], limit_s: float
+) -> list[Experiment]:
+    """Those in which a node ended badly, and in no other run did its program.
+
+    Asked when all are over: most programs run in several experiments, and those agree.
+    """
+    every = [seen for each in runs.values() for seen in each]
+
+    def is_alone(last: ExperimentSeen) -> bool:
+        return must_end_again(last, [seen for seen in every if seen is not last], limit_s)
+
+    return [each for each in declared if is_alone(runs[each.name][-1])]
 
 
 def carries_pictures(card: Card) -> bool:
@@ -177,6 +222,11 @@ class Stage:
         """How many experiments run side by side: a real board is there for one at a time."""
         return MOST_AT_ONCE if self.assignment.port is None else 1
 
+    @property
+    def place(self) -> Place:
+        """Where the nodes of each experiment live."""
+        return replace(self.assignment.place, paced=self.paced)
+
     def call_off(self) -> None:
         """Make all that watch end soon."""
         self.turns.call_off()
@@ -186,16 +236,9 @@ class Stage:
     def runs_of(
         self, each: Experiment, number: int, earlier: Sequence[ExperimentSeen]
     ) -> list[ExperimentSeen]:
-        """Run an experiment until one run is to be believed; that one comes last.
-
-        Where a node ended badly in it, all that once more.
-        """
+        """Run an experiment until one run is to be believed; that one comes last."""
         say(f"Watching: {each.about}")
-        runs = [*self._until_believed(each, number, earlier)]
-        if must_end_again(runs[-1], [*earlier, *runs[:-1]], self.ends_within_s):
-            say("A node did not end well; once more, to be sure")
-            runs += self._until_believed(each, number, earlier)
-        return runs
+        return [*self._until_believed(each, number, earlier)]
 
     def _until_believed(
         self, each: Experiment, number: int, earlier: Sequence[ExperimentSeen]
@@ -220,17 +263,16 @@ class Stage:
     ) -> ExperimentSeen:
         """Run an experiment once, in a fresh arena."""
         seen = ExperimentSeen(name=each.name, clock=clock)
-        place = replace(self.assignment.place, paced=self.paced)
         if each.unobserved:
             with (
-                opened(self.installed, place) as arena,
+                opened(self.installed, self.place) as arena,
                 self._reading_along(arena.domain_id) as tap,
             ):
                 each.function(Unobserved(arena, seen, self.ends_within_s, tap), *earlier)
             return seen
         large_bytes = LARGE_BYTES if self.assignment.keeps_bags else 0
         with (
-            opened(self.installed, place) as arena,
+            opened(self.installed, self.place) as arena,
             Probe(
                 arena.domain_id,
                 seen,

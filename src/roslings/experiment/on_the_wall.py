@@ -72,8 +72,9 @@ class WallWatch:
         with singing(self.limit.hz, self.arena.domain_id):
             self.probe.listen_to_canary(self.limit.hz)
             with self.turns.busy():
-                self.until(self._canary_sings, CANARY_WITHIN_S)
-            self.until_heard()
+                self.until_heard()  # meanwhile the canary starts; beside silence nobody needs it
+                if self._count():
+                    self.until(self._canary_sings, CANARY_WITHIN_S)
             if self._count():
                 with self.turns.timed():
                     self._watch_rate()

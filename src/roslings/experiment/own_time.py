@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from roslings.arena import LONGEST_WAIT_S, Arena, Process
 from roslings.experiment.on_the_wall import longest_wait_s
+from roslings.rates import NS_PER_S
 
 PATIENCE_S = LONGEST_WAIT_S
 """Who waits longer than this for a processor is not waited for, and not judged."""
@@ -30,6 +31,20 @@ class OwnTime:
         """The longest time that one of their threads was ready, and no processor was free."""
         return waited_s(self._arena.processes, self._before)
 
+    def waited_in_turn_s(self) -> float:
+        """What all of their threads waited, added up.
+
+        An answer goes through several, one after the other: who receives, who decides, who works.
+        """
+        return (
+            sum(
+                max(0, now_ns - self._before.get(process, {}).get(thread, 0))
+                for process in self._arena.processes
+                for thread, now_ns in _waits_ns(process).items()
+            )
+            / NS_PER_S
+        )
+
 
 def waited_s(processes: Sequence[Process], before: dict[Process, dict[str, int]]) -> float:
     """The longest that one thread of these waited for a processor, since `before`.
@@ -40,5 +55,10 @@ def waited_s(processes: Sequence[Process], before: dict[Process, dict[str, int]]
 
 
 def _waited_s(process: Process, before_ns: dict[str, int]) -> float:
-    now_ns = process.waits_ns() if process.alive else process.last_waits_ns
+    now_ns = _waits_ns(process)
     return longest_wait_s(before_ns, now_ns) if now_ns else 0.0
+
+
+def _waits_ns(process: Process) -> dict[str, int]:
+    """Thread to what it has waited; empty where the kernel tells nothing."""
+    return process.waits_ns() if process.alive else process.last_waits_ns

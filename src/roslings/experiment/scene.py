@@ -137,6 +137,7 @@ class Scene:
     def _started(self, run: Run) -> Iterator[Process]:
         words = run.start.arguments(run.remaps, simulated=self._simulated)
         with self._arena.run(run.node.executable, words) as process:
+            process.seen.given = [*run.start.parameters]
             self.seen.processes[run.start.label(run.node)] = process.seen
             yield process
 

@@ -83,6 +83,8 @@ class SimulatedWatch:
         first = self._stretch(step_ns, FIRST_PERIODS * self.period_s)
         while self._too_coarse(first):
             first = self._again(first)
+        if self._too_few(first):
+            first = self._for_slow(first)
         if 1 < (group := self._largest_group(first)) <= LARGEST_GROUP:
             self.probe.seen.segments.clear()
             first = self._stretch(first.step_ns, group * self._length_s(first))
@@ -158,9 +160,19 @@ class SimulatedWatch:
         """More than one message in four steps: steps this long can swallow some."""
         return 4 * self._heard(segment) > segment.last - segment.first
 
+    def _too_few(self, segment: Segment) -> bool:
+        """It is slower than asked: the shorter second stretch could not tell its rate."""
+        return 0 < self._heard(segment) * SECOND_PERIODS <= FEWEST_INTERVALS * FIRST_PERIODS
+
+    def _for_slow(self, segment: Segment) -> Segment:
+        """A first stretch as long as for a node of which this rate is asked."""
+        hz = self._hz(segment)
+        self.probe.seen.segments.clear()
+        return self._stretch(round(NS_PER_S / hz / FIRST_STEPS), FIRST_PERIODS / hz)
+
     def _again(self, segment: Segment) -> Segment:
         """A first stretch with shorter steps."""
-        hz = self._heard(segment) / self._length_s(segment)
+        hz = self._hz(segment)
         step_ns = round(NS_PER_S / hz / REFINED_STEPS)
         if step_ns < SHORTEST_STEP_NS:
             raise NotBelieved(f"{hz:.0f} messages a second are too many for simulated time")
@@ -192,6 +204,9 @@ class SimulatedWatch:
 
     def _length_s(self, segment: Segment) -> float:
         return (segment.last - segment.first) * segment.step_ns / NS_PER_S
+
+    def _hz(self, segment: Segment) -> float:
+        return self._heard(segment) / self._length_s(segment)
 
     def _heard(self, segment: Segment) -> int:
         return len(self._in(segment))

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Mapping
 from typing import Any
 
 from roslings.arena import Process
 from roslings.course import TopicContract
-from roslings.evidence import Endpoint, Spoken
+from roslings.evidence import Endpoint, Spoken, StageMark
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
-from roslings.experiment.scene import Scene, hears
+from roslings.experiment.scene import Scene, hears, publishes
 from roslings.near import nearest_endpoint
 
 TURNS_WITHIN_S = 3.0
@@ -19,6 +20,10 @@ SILENT_TIMES, SILENT_WITHIN_S = 2, 0.3
 
 BY_A_TIMER = 3
 """Messages to wait for: the first one may have been under way before the value was heard."""
+
+
+TOLD = "told"
+"""The stage of an experiment in which the node is told values: before it, it knows none."""
 
 
 class Teller:
@@ -44,6 +49,7 @@ class Teller:
         """
         if not self._is_heard:
             self._is_heard = True
+            self._scene.seen.stages.append(StageMark(part=TOLD, at_ns=time.monotonic_ns()))
             told = len(self._scene.seen.spoken)
             way(fields)
             del self._scene.seen.spoken[told:]
@@ -68,6 +74,10 @@ class Teller:
             turned = self._turns()
             spoken.settled = self._shows(self._count() + BY_A_TIMER) and turned
 
+    def rest(self, for_s: float) -> None:
+        """Say nothing for so long, by the node's own time."""
+        self._scene.until_own(lambda: False, for_s)
+
     def _say(self, fields: Mapping[str, Any]) -> Spoken | None:
         """Say it; None where nobody is there to hear it."""
         ear = self._ear()
@@ -88,11 +98,16 @@ class Teller:
 
         One that shows some is always told its values in the same pace: that is judged, too.
         """
-        known_as_silent = self._silent >= SILENT_TIMES and not self._count()
-        within_s = SILENT_WITHIN_S if known_as_silent else SHOWS_WITHIN_S
+        within_s = SILENT_WITHIN_S if self._known_as_silent() else SHOWS_WITHIN_S
         shown = self._scene.until_own(lambda: self._count() >= count, within_s)
         self._silent = 0 if shown else self._silent + 1
         return shown
+
+    def _known_as_silent(self) -> bool:
+        """It has said nothing where it could, or has no publisher, as an experiment has found."""
+        if self._publisher() is None and self._scene.is_missed(publishes(self._shown)):
+            return True
+        return self._silent >= SILENT_TIMES and not self._count()
 
     def _ear(self) -> Endpoint | None:
         return nearest_endpoint(
@@ -100,10 +115,13 @@ class Teller:
         )
 
     def _count(self) -> int:
-        publisher = nearest_endpoint(
+        publisher = self._publisher()
+        return self._scene.probe.count(publisher.topic) if publisher else 0
+
+    def _publisher(self) -> Endpoint | None:
+        return nearest_endpoint(
             self._scene.seen.graph, "publisher", self._shown.topic, self._shown.type
         )
-        return self._scene.probe.count(publisher.topic) if publisher else 0
 
 
 def nested(fields: Mapping[str, Any]) -> dict[str, Any]:

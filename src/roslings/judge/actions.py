@@ -16,6 +16,7 @@ from roslings.experiment.acting import (
     HEARS,
     HEARS_WITHIN_S,
     IDLE_S,
+    RESTLESS,
     answer_to,
     cancelled_after_s,
     stopped_after_s,
@@ -211,6 +212,20 @@ def refuse_each(node: NodeContract, impossible: Mapping[str, str]) -> Demand[Exp
 
 
 # --- feedback ----------------------------------------------------------------------------------
+
+
+def rest_in_each_turn(
+    node: NodeContract, action: ActionContract, part: str
+) -> Demand[ExperimentView]:
+    """The loop that tells feedback has a pause: no computer makes one so much faster."""
+    limit: RateContract = written(action.feedback, action.action)
+
+    def demand(experiment: ExperimentView) -> None:
+        rate = measure_rate(feedback_of(experiment, trip(experiment, node, part)))
+        if rate and rate.hz > RESTLESS * limit.high_hz:
+            raise faults.NeverRests(rate.hz, limit.hz)
+
+    return demand
 
 
 def tell_at_its_rate(
@@ -539,6 +554,8 @@ def send_goal(
         for name, wanted in goal.items():
             if (sent := float(found[name])) != wanted:
                 raise faults.SentAnotherGoal(node.executable, name, f"{wanted:g}", f"{sent:g}")
+        if len(experiment.seen.orders) > 1:
+            raise faults.GoalSentAgain(node.executable, action.action, len(experiment.seen.orders))
 
     return demand
 

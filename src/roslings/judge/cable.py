@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from roslings.course import TopicContract
 from roslings.devices.board import BadLine, Drive, Speeds, unframed
 from roslings.devices.rover import Body, Motion
-from roslings.evidence import BoardMark, BoardSeen, CableLine, MessageSeen
+from roslings.evidence import BoardMark, BoardSeen, CableLine, MessageSeen, TopicSeen
 from roslings.experiment.cable import STANDS_WITHIN_S
 from roslings.judge import faults
 from roslings.judge.demands import require_its_time, require_steady
@@ -200,21 +200,84 @@ def _told_place(topic: TopicView, mark: BoardMark) -> Place:
 # --- what the node makes of commands -----------------------------------------------------------
 
 
-def drive_as_told(part: str, forward_m_s: float, turn_rad_s: float) -> Demand[ExperimentView]:
+def drive_as_told(
+    part: str, forward_m_s: float, turn_rad_s: float, body: Body | None = None
+) -> Demand[ExperimentView]:
     """At the mark `part`, the motors had the PWM of this motion."""
-    wheels = Body().wheels_for(Motion(forward_m_s, turn_rad_s))
-    full = FULL_PWM / Body().fastest_wheel_rad_s
-    wanted = (round(wheels.left_rad_s * full), round(wheels.right_rad_s * full))
+    wanted = pwm_for(body or Body(), forward_m_s, turn_rad_s)
 
     def demand(experiment: ExperimentView) -> None:
-        mark = _mark(experiment, part)
-        got = (mark.left_pwm, mark.right_pwm)
-        if max(abs(g - w) for g, w in zip(got, wanted, strict=True)) > PWM_WITHIN:
-            require_steady(experiment.seen.stall_s)
-            require_its_time(experiment.seen, part, LATE_COMMAND_S, "a command")
+        got = _pwm_at(experiment, part)
+        if not _alike(got, wanted):
+            _require_its_command(experiment, part)
             raise _drive_fault((forward_m_s, turn_rad_s), wanted, got)
 
     return demand
+
+
+def drive_by_its_settings(
+    part: str, forward_m_s: float, turn_rad_s: float, body: Body, without: Mapping[str, Body]
+) -> Demand[ExperimentView]:
+    """The same, of a node that was started with the measures of `body`.
+
+    `without` is parameter's name to the rover that a node has in mind which does not read it.
+    """
+    drive = drive_as_told(part, forward_m_s, turn_rad_s, body)
+
+    def demand(experiment: ExperimentView) -> None:
+        try:
+            drive(experiment)
+        except cable_faults.WrongDrive as fault:
+            for name, other in without.items():
+                if _alike(fault.got, pwm_for(other, forward_m_s, turn_rad_s)):
+                    raise cable_faults.SettingIgnored(
+                        fault.motion, fault.wanted, fault.got, name
+                    ) from fault
+            raise
+
+    return demand
+
+
+def drive_at_most(part: str, forward_m_s: float, turn_rad_s: float) -> Demand[ExperimentView]:
+    """At the mark `part`, both motors had full PWM: the motion is too fast, on both sides alike."""
+    wanted = pwm_for(Body(), forward_m_s, turn_rad_s)
+
+    def demand(experiment: ExperimentView) -> None:
+        got = _pwm_at(experiment, part)
+        if not _alike(got, wanted):
+            _require_its_command(experiment, part)
+            sent = _last_sent(experiment, _mark(experiment, part))
+            raise cable_faults.TooFast((forward_m_s, turn_rad_s), wanted, got, sent)
+
+    return demand
+
+
+def pwm_for(body: Body, forward_m_s: float, turn_rad_s: float) -> tuple[int, int]:
+    """The PWM, left and right, with which such a rover makes this motion."""
+    wheels = body.wheels_for(Motion(forward_m_s, turn_rad_s))
+    full = FULL_PWM / body.fastest_wheel_rad_s
+    return round(wheels.left_rad_s * full), round(wheels.right_rad_s * full)
+
+
+def _pwm_at(experiment: ExperimentView, part: str) -> tuple[int, int]:
+    mark = _mark(experiment, part)
+    return mark.left_pwm, mark.right_pwm
+
+
+def _alike(got: tuple[int, int], wanted: tuple[int, int]) -> bool:
+    return max(abs(g - w) for g, w in zip(got, wanted, strict=True)) <= PWM_WITHIN
+
+
+def _require_its_command(experiment: ExperimentView, part: str) -> None:
+    """Before the motors are held against the student: this computer did not hold it up."""
+    require_steady(experiment.seen.stall_s)
+    require_its_time(experiment.seen, part, LATE_COMMAND_S, "a command")
+
+
+def _last_sent(experiment: ExperimentView, mark: BoardMark) -> str:
+    """The last line that the node sent before a mark, good or not."""
+    before = [line.text for line in _board(experiment).heard if line.board_s <= mark.board_s]
+    return before[-1] if before else ""
 
 
 def _drive_fault(
@@ -256,11 +319,87 @@ def send_good_lines(experiment: ExperimentView) -> None:
             raise cable_faults.RejectedLine(line.text, _why_rejected(line.text))
 
 
-def keep_still(experiment: ExperimentView) -> None:
-    """The motors never ran."""
-    for motors in _board(experiment).motors:
-        if motors.left_pwm or motors.right_pwm:
-            raise cable_faults.FollowedNonsense((motors.left_pwm, motors.right_pwm))
+def keep_still(part: str) -> Demand[ExperimentView]:
+    """From the mark `part` until that of its end, the motors did not run."""
+
+    def demand(experiment: ExperimentView) -> None:
+        begin_s, end_s = (_mark(experiment, each).board_s for each in (part, f"{part}, over"))
+        for motors in _board(experiment).motors:
+            runs = motors.left_pwm or motors.right_pwm
+            if runs and begin_s < motors.board_s < end_s:
+                raise cable_faults.FollowedNonsense((motors.left_pwm, motors.right_pwm))
+
+    return demand
+
+
+def drive_again(part: str, after: str) -> Demand[ExperimentView]:
+    """After the end of the part `after`, the motors ran: in the part `part`, it was told to."""
+
+    def demand(experiment: ExperimentView) -> None:
+        _mark(experiment, part)
+        begin_s = _mark(experiment, f"{after}, over").board_s
+        later = [each for each in _board(experiment).motors if each.board_s >= begin_s]
+        if not any(each.left_pwm or each.right_pwm for each in later):
+            _require_its_command(experiment, part)
+            raise cable_faults.DeafAfterNonsense((0, 0))
+
+    return demand
+
+
+def come_so_far(part: str) -> Demand[ExperimentView]:
+    """The experiment has the mark `part`; else what happened before it is told elsewhere."""
+
+    def demand(experiment: ExperimentView) -> None:
+        _mark(experiment, part)
+
+    return demand
+
+
+# --- how the node is started -------------------------------------------------------------------
+
+
+def open_its_port(name: str, topic: TopicContract) -> Demand[ExperimentView]:
+    """The node has opened the port that its parameter `name` gives it."""
+
+    def demand(experiment: ExperimentView) -> None:
+        board = _board(experiment)
+        told = any(seen.messages for seen in _heard_on(experiment, topic))
+        if not (board.heard or told or board.host_bits_s):
+            require_steady(experiment.seen.stall_s)
+            raise cable_faults.PortNotOpened(name)
+
+    return demand
+
+
+def _heard_on(experiment: ExperimentView, topic: TopicContract) -> Iterable[TopicSeen]:
+    return (seen for seen in experiment.seen.topics.values() if seen.type == topic.type)
+
+
+def set_its_speed(name: str, bits_s: int) -> Demand[ExperimentView]:
+    """The node has set the port to the speed that its parameter `name` gives, or to its default."""
+
+    def demand(experiment: ExperimentView) -> None:
+        found = _board(experiment).host_bits_s
+        if found != bits_s:
+            raise cable_faults.WrongSpeedOfPort(name, bits_s, found)
+
+    return demand
+
+
+def reckon_by_its_settings(
+    experiment: ExperimentView, before: str, after: str, settings: Mapping[str, object]
+) -> Demand[TopicView]:
+    """As `know_the_way`, of a node that was started with these settings."""
+    know = know_the_way(experiment, before, after)
+
+    def demand(topic: TopicView) -> None:
+        try:
+            know(topic)
+        except cable_faults.WrongOdometry as fault:
+            words = " ".join(f"-p {name}:={value}" for name, value in settings.items())
+            raise cable_faults.OtherOdometry(fault.part, fault.really, fault.told, words) from fault
+
+    return demand
 
 
 # --- reading the evidence ----------------------------------------------------------------------

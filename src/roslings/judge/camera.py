@@ -10,6 +10,7 @@ from itertools import chain, pairwise
 
 from roslings.course import NodeContract, ParameterContract, TopicContract
 from roslings.evidence import LogLine, MessageSeen, ParameterSet, PixelsSeen, StageMark
+from roslings.experiment.filming import CAMERA
 from roslings.experiment.own_time import PATIENCE_S
 from roslings.judge.demands import most_similar, require_its_time, require_steady, written
 from roslings.judge.faults import Fault, NothingToJudge
@@ -21,6 +22,9 @@ SAME_LEVELS = 2.5
 
 MOST_STRAY = 0.05
 FEWEST = 5
+FIRST_PICTURE_S = 1.0
+"""From a try that succeeds to the picture that comes here."""
+
 AFTER_A_CHANGE = 4
 """Pictures to leave aside after a parameter was set: they may have been under way."""
 
@@ -149,6 +153,20 @@ def follow_brightness(
     return demand
 
 
+def begin_so_light(name: str, value: int, neutral: float, levels: float) -> Demand[TopicView]:
+    """Every picture is as much lighter as the value asks for that the node was started with."""
+
+    def demand(topic: TopicView) -> None:
+        pixels = tuple(pixels_of(message) for message in _images(topic))
+        if not _is_lit(Lit(value, pixels), neutral, levels):
+            wanted = (value - neutral) * levels
+            found = [each.lighter for each in pixels if _fits(each)]
+            lighter = min(found, default=0.0)
+            raise faults.LightAtStartIgnored(name, int(neutral), value, wanted, lighter)
+
+    return demand
+
+
 def require_set(said: ParameterSet) -> None:
     """The node took the value. Raises ParameterNotSet."""
     if not said.accepted:
@@ -237,7 +255,7 @@ def _unanswered(
 def tell_of_trouble(
     node: NodeContract, part: str, when: str, numbers: Sequence[int]
 ) -> Demand[ExperimentView]:
-    """In this part, the node wrote the card's line, with the system's words for an error."""
+    """In this part, the node wrote the card's line: the device, the system's words for an error."""
     reasons = [os.strerror(number) for number in numbers]
     before, after = written(node.log, node.node).split("{text}")
 
@@ -245,7 +263,8 @@ def tell_of_trouble(
         process = experiment.process(node)
         lines = _lines_in(experiment, node, part)
         for line in lines:
-            if before in line and after in line and any(reason in line for reason in reasons):
+            told = before in line and after in line and f"/{CAMERA}" in line
+            if told and any(reason in line for reason in reasons):
                 return
         words = (when, f"{before}...{after}", reasons[0])
         if process.seen.ended_by_itself:
@@ -257,16 +276,24 @@ def tell_of_trouble(
     return demand
 
 
-def come_after(part: str, when: str, topic: TopicContract) -> Demand[ExperimentView]:
-    """In this part, pictures came."""
+def come_after(
+    part: str, when: str, topic: TopicContract, retries_within_s: float
+) -> Demand[ExperimentView]:
+    """In this part, pictures came, as soon as who tries again so often has them."""
+    within_s = retries_within_s + FIRST_PICTURE_S
 
     def demand(experiment: ExperimentView) -> None:
         begin_ns, end_ns = _span_of(experiment, part)
-        heard = experiment.topic(topic).messages
-        if not any(begin_ns < message.arrival_ns < end_ns for message in heard):
+        heard = [m.arrival_ns for m in experiment.topic(topic).messages]
+        first_ns = min((at for at in heard if begin_ns < at < end_ns), default=None)
+        if first_ns is None:
             require_steady(experiment.seen.stall_s)
             require_its_time(experiment.seen, part, PATIENCE_S, "a picture")
             raise faults.NoPictureAfter(when, topic.topic)
+        if (took_s := (first_ns - begin_ns) / 1e9) > within_s:
+            require_steady(experiment.seen.stall_s)
+            require_its_time(experiment.seen, part, took_s - within_s, "a picture")
+            raise faults.TriesSeldom(when, topic.topic, retries_within_s, took_s)
 
     return demand
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise
 from typing import TypeVar
@@ -11,6 +12,7 @@ from roslings.course import CourseError, NodeContract, RateContract, TopicContra
 from roslings.endings import is_late, is_unclean, tracebacks
 from roslings.evidence import Ending, ExperimentSeen, ProcessSeen, Spoken
 from roslings.judge import faults
+from roslings.judge.remarks import remark
 from roslings.judge.views import (
     Demand,
     EndpointView,
@@ -161,6 +163,37 @@ def stay_up(process: ProcessView) -> None:
                 run.seen.executable, run.ran_s, describe_end(run.seen),
                 simulated=run.is_simulated, log=run.last_lines(),
             )  # fmt: skip
+    remark(how_long(process))
+
+
+def outlast_the_soak(process: ProcessView) -> None:
+    """It also runs on where nodes are left running for as long as the card promises.
+
+    Nothing is demanded where no soak was made: a student's own check makes none.
+    """
+    soaked = process.soaked
+    if soaked is None:
+        remark(how_long(process))
+        return
+    if soaked.ended_by_itself:
+        raise faults.EndedInTheSoak(
+            soaked.executable, lifetime_s(soaked), describe_end(soaked),
+            log=tuple(line.text for line in soaked.lines),
+        )  # fmt: skip
+    remark(f"{lifetime_s(soaked):.0f} s left alone")
+
+
+def how_long(process: ProcessView) -> str:
+    """How long it ran in this experiment, and by which clock: `ran 12 s simulated`."""
+    if process.is_simulated:
+        return f"ran {process.ran_s:.0f} s simulated"
+    return f"ran {lifetime_s(process.seen):.0f} s"
+
+
+def lifetime_s(seen: ProcessSeen) -> float:
+    """Seconds of real time from its start until it was asked to end, or ended."""
+    ended_ns = seen.asked_to_end_ns or seen.ended_ns or seen.started_ns
+    return (ended_ns - seen.started_ns) / 1e9
 
 
 def end_within(limit_s: float) -> Demand[ProcessView]:
@@ -208,31 +241,53 @@ def agreed(process: ProcessView, bad: Callable[[ProcessSeen], bool], what: str) 
 
 
 def log_each(node: NodeContract, texts: Sequence[str]) -> Demand[ProcessView]:
-    """It writes the card's line for one of `texts` at least."""
+    """It writes the card's line for each of `texts`, once. The last may come after its end."""
     template = written(node.log, node.node)
 
     def demand(process: ProcessView) -> None:
-        wanted = [template.format(text=text) for text in texts]
+        wanted = [spellings(template, text) for text in texts]
         if not wanted:
             raise faults.NothingToJudge("there was no message to write about")
-        if not any(line in written for written in process.texts for line in wanted):
-            near = most_similar(wanted[0], process.texts)
-            raise faults.NotLogged(process.seen.executable, wanted[0], near)
+        for spelled in wanted[:-1] or wanted:
+            if not any(map(process.wrote, spelled)):
+                near = most_similar(spelled[0], process.texts)
+                raise faults.NotLogged(process.seen.executable, spelled[0], near)
+        _insist_on_once(process, wanted)
 
     return demand
 
 
+def _insist_on_once(process: ProcessView, wanted: Sequence[tuple[str, ...]]) -> None:
+    """Of messages that differ; who publishes one text again and again may write it as often.
+
+    A line may be printed, and logged besides.
+    """
+    counts = Counter((line.plain, line.plain != line.text) for line in process.seen.lines)
+    for spelled, times in Counter(wanted).items():
+        found = max(sum(counts[line, logged] for line in spelled) for logged in (True, False))
+        if times < found:
+            raise faults.LoggedAgain(process.seen.executable, spelled[0], found)
+
+
+def spellings(template: str, text: str) -> tuple[str, ...]:
+    """The card's line for `text`; a text in quotes may be in single or double ones."""
+    written = (template, template.replace("'{text}'", '"{text}"'))
+    return tuple(each.format(text=text) for each in dict.fromkeys(written))
+
+
 def repeat(node: NodeContract, spoken: Sequence[Spoken]) -> Demand[ProcessView]:
-    """It writes the card's line for every sentence that was said to it."""
+    """It writes the card's line for every sentence that was said to it, once."""
     template = written(node.log, node.node)
 
     def demand(process: ProcessView) -> None:
         if not spoken:
             raise faults.NothingToJudge("nothing could be said to it")
-        for each in spoken:
-            said = str(each.content["data"])
-            if not any(template.format(text=said) in line for line in process.texts):
-                raise _echo_fault(template, said, process.texts)
+        said = [str(each.content["data"]) for each in spoken]
+        wanted = [spellings(template, text) for text in said]
+        for text, spelled in zip(said, wanted, strict=True):
+            if not any(map(process.wrote, spelled)):
+                raise _echo_fault(template, text, process.texts)
+        _insist_on_once(process, wanted)
 
     return demand
 
@@ -342,7 +397,7 @@ def have_rate(contract: TopicContract) -> Demand[TopicView]:
             require_steady(topic.experiment.stall_s)
             raise faults.NoMessages(topic.name, len(topic.messages), topic.experiment.watching_s)
         kind = faults.rate_fault(rate, limit.low_hz, limit.high_hz)
-        if kind is not faults.Bursts:
+        if kind not in (faults.Bursts, faults.SentAgain):
             require_enough(topic, rate, limit)
         if kind:
             if topic.experiment.clock == "wall" and not rate.far_above(limit.high_hz):
@@ -401,11 +456,13 @@ def be_a_picture(picture: PictureView) -> None:
     contract, seen = picture.contract, picture.seen
     wanted = f"a {contract.format} of at least {contract.min_width_px} x {contract.min_height_px}"
     if seen is None:
-        raise faults.NoPicture(contract.path, wanted, "there is no such file")
+        raise faults.NoPicture(contract.path, wanted, "there is no such file", picture.lab)
     if seen.format != contract.format:
-        raise faults.NotAPicture(contract.path, wanted, f"it is {seen.format or 'no image'}")
+        raise faults.NotAPicture(
+            contract.path, wanted, f"it is {seen.format or 'no image'}", picture.lab
+        )
     if seen.width < contract.min_width_px or seen.height < contract.min_height_px:
         size = f"it has {seen.width} x {seen.height} pixels"
-        raise faults.PictureTooSmall(contract.path, wanted, size)
+        raise faults.PictureTooSmall(contract.path, wanted, size, picture.lab)
     if seen.colours < 2:
-        raise faults.OneColour(contract.path, wanted, "all pixels have one colour")
+        raise faults.OneColour(contract.path, wanted, "all pixels have one colour", picture.lab)

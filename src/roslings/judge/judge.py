@@ -78,6 +78,7 @@ def judge_later(lab: Lab, bring: Callable[[], tuple[Evidence, int | None]]) -> V
         score=score_of(results),
         checks=results,
         advice=tuple(evidence.advice),
+        soak_s=evidence.soak.for_s if evidence.soak else 0.0,
         seconds=_timings(timeline, began_ns),
         environment=_environment(evidence),
     )

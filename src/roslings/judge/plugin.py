@@ -15,6 +15,7 @@ from roslings.judge.check import check_of
 from roslings.judge.dropped import Looks
 from roslings.judge.faults import Fault, Inconclusive, NothingToJudge, Unmet
 from roslings.judge.faults.python_words import hint_for
+from roslings.judge.remarks import begin_remarks, remarks
 from roslings.judge.sheet import title_of
 from roslings.judge.unrecorded import NotRecordedView
 from roslings.judge.views import View
@@ -28,6 +29,8 @@ class Collector:
         self.results: list[CheckResult] = []
         self.problems: list[str] = []
         self._roots: dict[str, str] = {}
+        self._open: set[str] = set()
+        """Checks that do not pass, and keep no other from being judged."""
         self._lab, self._looks = lab, looks
 
     def pytest_addoption(self, parser: pytest.Parser) -> None:
@@ -37,6 +40,7 @@ class Collector:
     def pytest_runtest_setup(self, item: pytest.Item) -> None:
         """Skip a check whose need has not passed."""
         self._looks.begin()
+        begin_remarks()
         for need in check_of(_function(item)).needs:
             root = self._root_of(need)
             if root is not None:
@@ -61,14 +65,17 @@ class Collector:
     def _root_of(self, need: str) -> str | None:
         """The check to mend first: what `need` itself waits for, else `need`; None if it passed."""
         passed = any(r.id == need and r.outcome == "pass" for r in self.results)
-        return None if passed else self._roots.get(need, need)
+        return None if passed or need in self._open else self._roots.get(need, need)
 
     def _explained(self, item: pytest.Item, error: BaseException | None) -> BaseException | None:
-        """The same, or where an earlier check found this mistake already: that it is the same."""
-        if not isinstance(error, Fault):
+        """The same, or where an earlier check found this mistake already: that it is the same.
+
+        What could not be told beside such a mistake needs no telling either.
+        """
+        if not isinstance(error, Fault | Inconclusive):
             return error
-        for name, kind in check_of(_function(item)).explained_by.items():
-            if any(r.id == name and r.fault == kind for r in self.results):
+        for name, kinds in check_of(_function(item)).explained_by.items():
+            if any(r.id == name and r.fault in kinds for r in self.results):
                 self._roots[check_name(item)] = name
                 return NothingToJudge(f"first mend: {self._title_of(name)}")
         return error
@@ -90,6 +97,8 @@ class Collector:
             "hidden": name in self._lab.hidden_checks,
             **_words_for(error, title_of(_function(item))),
         }
+        if isinstance(error, Fault) and not error.blocks:
+            self._open.add(name)
         if words["outcome"] == "fail" and hint:
             words["hints"] = hint.steps
         return CheckResult(**words)
@@ -98,7 +107,7 @@ class Collector:
 def _words_for(error: BaseException | None, title: str) -> dict[str, Any]:
     """Outcome and sentences for what a check raised."""
     if error is None:
-        return {"outcome": "pass"}
+        return {"outcome": "pass", "measured": remarks()}
     if isinstance(error, AssertionError):
         error = Unmet(f"{title} ({_first_line(error)})")
     if isinstance(error, Fault):

@@ -9,6 +9,7 @@ from typing import Any
 
 from roslings.course import NodeContract, TopicContract
 from roslings.evidence import MessageSeen, Spoken
+from roslings.experiment.telling import TOLD
 from roslings.judge.demands import most_similar, written
 from roslings.judge.faults import Inconclusive, NothingToJudge, NotLogged
 from roslings.judge.faults import sensing as faults
@@ -114,6 +115,40 @@ def show(place: Shown, wanted: Wanted) -> Demand[ExperimentView]:
                 _judge(process, turn, place, value)
         if not judged:  # the topic or the subscription is missing, and another check says so
             raise NothingToJudge(f"{place.node.executable} could not be told this")
+
+    return demand
+
+
+def show_at_first(place: Shown, wanted: Any) -> Demand[ExperimentView]:
+    """Before the first value is told, the place shows this."""
+
+    def demand(experiment: ExperimentView) -> None:
+        began_ns = [stage.at_ns for stage in experiment.seen.stages if stage.part == TOLD]
+        heard = experiment.topic(place.topic)
+        if not began_ns or heard.type != place.topic.type:
+            raise NothingToJudge(f"{place.node.executable} could not be told anything")
+        for message in heard.messages:
+            found = field_of(message.content, place.name)
+            if message.arrival_ns < began_ns[0] and not same(found, wanted):
+                words = (place.topic.topic, place.name, "", shown(wanted), shown(found))
+                raise faults.WrongAtFirst(*words)
+
+    return demand
+
+
+def answer_each_once(place: Shown) -> Demand[ExperimentView]:
+    """No more messages than values were told.
+
+    The first value is told once before it counts. Too few are the fault of another check.
+    """
+
+    def demand(experiment: ExperimentView) -> None:
+        told = len(experiment.seen.spoken)
+        came = len(experiment.topic(place.topic).before_ctrl_c)
+        if not told:
+            raise NothingToJudge(f"{place.node.executable} could not be told anything")
+        if came > told + 1:
+            raise faults.MoreThanAsked(place.topic.topic, told, came)
 
     return demand
 

@@ -116,6 +116,19 @@ def show_each(services: Sequence[ServiceContract], topic: TopicContract) -> Dema
     return demand
 
 
+def say_at_first(state: Any) -> Demand[TopicView]:
+    """Before anybody asks for anything, each message says this."""
+
+    def demand(topic: TopicView) -> None:
+        contents = [m.content for m in topic.messages if isinstance(m.content, dict)]
+        for found in (content.get("data") for content in contents):
+            if not _same(found, state):
+                words = "the start, before any call", f"{state}", f"{found}"
+                raise faults.WrongState(topic.name, *words)
+
+    return demand
+
+
 def _same(found: Any, wanted: Any) -> bool:
     """Equal, as far as a number of 32 bits can be."""
     if isinstance(found, float) and isinstance(wanted, float):
@@ -278,6 +291,8 @@ def ask(node: NodeContract, service: ServiceContract) -> Demand[ExperimentView]:
         if found != wanted:
             shown = (", ".join(f"{n}: {_shown(v)}" for n, v in d.items()) for d in (wanted, found))
             raise faults.AskedOtherwise(node.executable, *shown)
+        if len(experiment.seen.served) > 1:
+            raise faults.AskedAgain(node.executable, service.service, len(experiment.seen.served))
 
     return demand
 

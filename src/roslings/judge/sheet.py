@@ -21,7 +21,7 @@ class CheckLine:
     id: str
     title: str
     needs: tuple[str, ...]
-    explained_by: Mapping[str, str]
+    explained_by: Mapping[str, tuple[str, ...]]
     """Earlier checks to the faults there that are the same mistake."""
 
 

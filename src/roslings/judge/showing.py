@@ -149,9 +149,17 @@ def _require_place(screen: Screen, look: Look, message: MessageSeen) -> None:
     x, y = (as_number(field_of(message.content, f"point.{axis}")) for axis in "xy")
     found = (math.nan if x is None else x, math.nan if y is None else y)
     if _near(found, (ball.x_px, ball.y_px), screen.within_px):
+        _require_flat(screen, look, message)
         return
     kind = _kind_of_slip(look.shown, ball, found)
     raise kind(screen.says.topic, look.words, (ball.x_px, ball.y_px), found, screen.within_px)
+
+
+def _require_flat(screen: Screen, look: Look, message: MessageSeen) -> None:
+    """A picture has no depth."""
+    z = as_number(field_of(message.content, "point.z"))
+    if z != 0:
+        raise faults.HasDepth(screen.says.topic, look.words, math.nan if z is None else z)
 
 
 def _near(found: tuple[float, float], wanted: tuple[float, float], within_px: float) -> bool:
@@ -239,6 +247,24 @@ def follow_the_hue(screen: Screen, part: str, across: str) -> Demand[ExperimentV
     return demand
 
 
+def begin_with_the_hue(screen: Screen, part: str) -> Demand[ExperimentView]:
+    """Started with another ball_hue, balls of that colour are found; one of the default is there.
+
+    Whoever looks for the default finds that one.
+    """
+    find = find_the_ball(screen, part)
+
+    def demand(experiment: ExperimentView) -> None:
+        try:
+            find(experiment)
+        except faults.FoundTheDecoy as slip:
+            raise faults.HueAtStartIgnored(
+                slip.topic, slip.picture, slip.wanted, slip.found, slip.within
+            ) from slip
+
+    return demand
+
+
 # --- what comes back ---------------------------------------------------------------------------
 
 
@@ -284,6 +310,28 @@ def _stamp_words(found_ns: int, wanted_ns: int) -> str:
     )
 
 
+def answer_once(screen: Screen, parts: Sequence[str]) -> Demand[ExperimentView]:
+    """No picture has two answers on one topic.
+
+    A picture that was shown again, as it may have been lost, is not counted.
+    """
+
+    def demand(experiment: ExperimentView) -> None:
+        found = _looks(experiment, screen, parts)
+        if not any(look.places or look.drawings for look in found):
+            raise NothingToJudge("nothing was published after a picture")
+        for look in found:
+            _require_one_each(screen, look)
+
+    return demand
+
+
+def _require_one_each(screen: Screen, look: Look) -> None:
+    for topic, answers in ((screen.says, look.places), (screen.draws, look.drawings)):
+        if look.shown.tries == 1 and len(answers) > 1:
+            raise faults.AnsweredTwice(topic.topic, look.words, len(answers))
+
+
 def draw_on_each(screen: Screen, parts: Sequence[str]) -> Demand[ExperimentView]:
     """Each picture comes back, in the card's encoding, with a ring around the ball."""
 
@@ -294,10 +342,22 @@ def draw_on_each(screen: Screen, parts: Sequence[str]) -> Demand[ExperimentView]
         for look in found:
             for message in look.drawings:
                 _require_drawing(screen, look, message)
-            if not look.drawings and look.shown.answered:
+            if not look.drawings and (look.shown.answered or _surely_came(experiment, look)):
                 raise faults.Unanswered(screen.draws.topic, look.words)
 
     return demand
+
+
+def _surely_came(experiment: ExperimentView, look: Look) -> bool:
+    """No answer is the node's doing: the picture was not lost, and the node had its time.
+
+    Raises Inconclusive where this computer was too busy.
+    """
+    if not look.shown.turned or look.shown.bytes > SURELY_COMES_BYTES:
+        return False
+    require_steady(experiment.seen.stall_s)
+    require_its_time(experiment.seen, look.shown.part, PATIENCE_S, "the answer to a picture")
+    return True
 
 
 def _require_drawing(screen: Screen, look: Look, message: MessageSeen) -> None:
@@ -352,5 +412,17 @@ def survive(screen: Screen, part: str, words: str, must_say: bool) -> Demand[Exp
         if must_say and not shown[-1].answered:
             require_steady(experiment.seen.stall_s)
             raise faults.SilentAboutPicture(words, line, most_similar(line, process.texts))
+
+    return demand
+
+
+def answer_nothing(screen: Screen, part: str, words: str) -> Demand[ExperimentView]:
+    """Nothing is published after a bad picture."""
+
+    def demand(experiment: ExperimentView) -> None:
+        for look in _looks(experiment, screen, [part]):
+            for topic, answers in ((screen.says, look.places), (screen.draws, look.drawings)):
+                if answers:
+                    raise faults.AnswersBadPicture(words, topic.topic)
 
     return demand

@@ -46,20 +46,27 @@ def has_parameter(node: NodeContract, parameter: ParameterContract) -> Demand[Ex
 def declare_its_parameters(node: NodeContract, *given: str) -> Demand[ExperimentView]:
     """Each parameter of the card is there, of its type and with its default.
 
-    `given` are those that the node was started with: their defaults cannot be seen.
+    `given` are those that the node was started with, besides what its process says: their
+    defaults cannot be seen.
     """
 
     def demand(experiment: ExperimentView) -> None:
+        unseen = {*given, *_given(experiment, node)}
         for parameter in node.parameters:
             experiment.must(has_parameter(node, parameter))
             found = _declared(experiment, node, parameter)
             if found.type != parameter.type:
                 raise WrongParameterType(found.node, found.name, parameter.type, found.type)
-            if parameter.name not in given and not _same(found.value, parameter.default):
+            if parameter.name not in unseen and not _same(found.value, parameter.default):
                 wanted, is_ = repr(parameter.default), repr(found.value)
                 raise WrongDefault(found.node, found.name, wanted, is_)
 
     return demand
+
+
+def _given(experiment: ExperimentView, node: NodeContract) -> Sequence[str]:
+    process = experiment.seen.processes.get(node.executable)
+    return process.given if process else ()
 
 
 def _declared(

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import string
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
 from typing import Literal, TypeVar
 
 from roslings.course import NodeContract, PictureContract, TopicContract
@@ -45,10 +45,11 @@ class PackageView(View):
 
     files: PackageSeen
     built: BuildSeen | None
+    lab: str
 
     def picture(self, contract: PictureContract) -> PictureView:
         """One of the card's pictures."""
-        return PictureView(contract, self.files.pictures.get(contract.path))
+        return PictureView(contract, self.files.pictures.get(contract.path), self.lab)
 
 
 @dataclass(frozen=True)
@@ -57,6 +58,7 @@ class PictureView(View):
 
     contract: PictureContract
     seen: PictureSeen | None
+    lab: str
 
 
 @dataclass(frozen=True)
@@ -78,11 +80,18 @@ class ProcessView(View):
     """As it ended in earlier runs of the experiment, which were made again for its end alone."""
     doubted: tuple[tuple[ProcessSeen, ExperimentSeen], ...] = ()
     """It in runs of the experiment whose times were not believed."""
+    soaked: ProcessSeen | None = None
+    """The same executable in the soak; None where none was made, or others tell of its end."""
 
     @property
     def texts(self) -> list[str]:
         """Everything it wrote: to the terminal and to the log, without logger's decorations."""
         return [line.plain for line in self._lines() if line.text.strip()]
+
+    def wrote(self, text: str) -> bool:
+        """It wrote a line that is `text`, or holds it."""
+        texts = self.texts
+        return text in texts or any(text in line for line in texts)
 
     def last_lines(self, count: int = LAST_LINES) -> tuple[str, ...]:
         """The end of what it wrote to the terminal."""
@@ -221,6 +230,8 @@ class ExperimentView(View):
     """Earlier runs that were believed, and made again to see a second time how they end."""
     doubted: tuple[ExperimentSeen, ...] = ()
     """Earlier runs whose times were not believed: what a node did there, it did."""
+    soaked: Mapping[str, ProcessSeen] = field(default_factory=dict)
+    """Executable to its process in the soak."""
 
     def process(self, node: NodeContract) -> ProcessView:
         """The process of a node. Raises NothingToJudge where it was never started."""
@@ -235,7 +246,8 @@ class ExperimentView(View):
         doubted = tuple(
             (each.processes[label], each) for each in self.doubted if label in each.processes
         )
-        return ProcessView(self.seen.processes[label], self.seen, before, doubted)
+        seen = self.seen.processes[label]
+        return ProcessView(seen, self.seen, before, doubted, self.soaked.get(seen.executable))
 
     def node(self, node: NodeContract) -> NodeView:
         """The node, or the nearest to it. Raises NothingToJudge where there is none."""
@@ -320,11 +332,21 @@ def text_pattern(template: str) -> TextPattern:
 
 def views_of(evidence: Evidence) -> dict[str, View]:
     """What a check can ask for by name: `package`, and each experiment."""
+    soaked = _soaked(evidence)
     experiments = {
-        name: ExperimentView(seen, *_runs_before(name, evidence))
+        name: ExperimentView(seen, *_runs_before(name, evidence), soaked)
         for name, seen in evidence.experiments.items()
     }
-    return {"package": PackageView(evidence.package, evidence.build), **experiments}
+    return {"package": PackageView(evidence.package, evidence.build, evidence.lab), **experiments}
+
+
+def _soaked(evidence: Evidence) -> dict[str, ProcessSeen]:
+    """Without what ended by itself in an experiment as well: checks that look there tell it."""
+    runs = (*evidence.experiments.values(), *evidence.attempts)
+    told = {each.executable for run in runs for each in run.processes.values()
+            if each.ended_by_itself}  # fmt: skip
+    soaked = evidence.soak.processes if evidence.soak else {}
+    return {name: seen for name, seen in soaked.items() if name not in told}
 
 
 def _runs_before(

@@ -32,6 +32,18 @@ class Outline(NamedTuple):
         return len(self.nodes) + len(self.services) + sum(map(sum, self.counts))
 
 
+class Room(Budget):
+    """A budget that remembers whether it had to refuse something."""
+
+    refused = False
+
+    def take(self, size: int) -> bool:
+        """Take `size` bytes, where as much is left."""
+        fits = super().take(size)
+        self.refused = self.refused or not fits
+        return fits
+
+
 class Looker:
     """Reads the graph again when something in it has changed.
 
@@ -58,14 +70,16 @@ class Looker:
 
     def _read(self, outline: Outline) -> GraphSeen:
         """`outline` is older: what comes meanwhile is seen next time."""
-        room = Budget(self._most_bytes)
+        room = Room(self._most_bytes)
         names = (join(space, name) for name, space in outline.nodes)
         nodes = list(_fitting(names, room))
         found = list(_fitting(_endpoints(self._eye, outline), room))
         services = dict(_fitting(((name, list(types)) for name, types in outline.services), room))
         self._outline = outline
         self._all_named = all(each.node.rpartition("/")[2] != UNNAMED for each in found)
-        self.left_out = max(0, outline.size - len(nodes) - len(found) - len(services))
+        kept = len(nodes) + len(found) + len(services)
+        # Where all had room, what is fewer than in the outline has gone since.
+        self.left_out = max(0, outline.size - kept) if room.refused else 0
         return GraphSeen(
             nodes=sorted(name for name in nodes if not is_hidden(name)),
             endpoints=[each for each in found if not is_hidden(each.node)],

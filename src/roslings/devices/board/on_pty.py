@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import tempfile
 import threading
@@ -14,9 +15,10 @@ from pathlib import Path
 from roslings.devices.board.chip import Chip
 from roslings.devices.board.port import Port
 from roslings.devices.board.spoil import Spoiler
+from roslings.devices.board.wire import Wire
 from roslings.devices.trouble import DeviceTrouble
 
-TURN_EVERY_S = 0.002
+TURN_EVERY_S = 0.004
 LONGEST_PAUSE_S = 0.1
 """Time that a busy computer withheld is not made up for: the board's clock then runs late."""
 
@@ -38,10 +40,14 @@ class Board:
     `with board.running():` lets it live in real time.
     """
 
-    def __init__(self, chip: Chip, name: Path | None = None) -> None:
-        """`name` is the path of the port; a new one in a folder of its own without it."""
+    def __init__(self, chip: Chip, name: Path | None = None, bits_s: float = math.inf) -> None:
+        """`name` is the path of the port; a new one in a folder of its own without it.
+
+        `bits_s` is the speed of the cable to the host: lines then arrive in pieces.
+        """
         self.chip = chip
         self.to_host, self.to_board = Spoiler(), Spoiler()
+        self._wire = Wire(bits_s)
         self.heard: list[Chunk] = []
         self.told: list[Chunk] = []
         self.sent_bytes = self.lost_bytes = 0
@@ -77,7 +83,7 @@ class Board:
             self.chip.receive(self.to_board(heard))
             told = self.chip.step(dt_s)
             self._note(self.told, told)
-            outgoing = self.to_host(told)
+            outgoing = self._wire(self.to_host(told), dt_s)
             written = self.port.write(outgoing)
             self.sent_bytes += written
             self.lost_bytes += len(outgoing) - written
@@ -90,6 +96,7 @@ class Board:
         """Pull the cable. The board lives on."""
         with self._lock:
             self.port.unplug()
+            self._wire.cut()
             self._notice()
 
     def plug_in(self) -> None:

@@ -5,12 +5,21 @@ from __future__ import annotations
 import errno
 import os
 import select
+import termios
 import tty
 from pathlib import Path
 
 from roslings.devices.lent import lend
 
 MOST_AT_ONCE = 4096
+SPEEDS = {
+    value: int(name[1:])
+    for name, value in vars(termios).items()
+    if name.startswith("B") and name[1:].isdigit()
+}
+"""The kernel's number for a speed to bits a second."""
+OUTPUT_SPEED = 5
+"""Where `tcgetattr` tells it."""
 
 
 class Port:
@@ -19,6 +28,8 @@ class Port:
     def __init__(self, name: Path) -> None:
         self.name = name
         self._ours = self._theirs = -1
+        self._unset = -1
+        """The speed that it has before anybody has asked for one."""
 
     def __enter__(self) -> Port:
         self.plug_in()
@@ -32,6 +43,19 @@ class Port:
         """The cable is in."""
         return self._ours >= 0
 
+    @property
+    def host_bits_s(self) -> int | None:
+        """The speed to which the host has set its end; None where it has set none.
+
+        A pseudo-terminal carries bytes at any speed, and remembers what was asked for.
+        """
+        speed = self._speed() if self.plugged_in else self._unset
+        return None if speed == self._unset else SPEEDS.get(speed)
+
+    def _speed(self) -> int:
+        speed: int = termios.tcgetattr(self._theirs)[OUTPUT_SPEED]
+        return speed
+
     def plug_in(self) -> None:
         """Make the port appear. Raises OSError where its name cannot be made."""
         if self.plugged_in:
@@ -39,6 +63,7 @@ class Port:
         self._ours, self._theirs = os.openpty()
         tty.setraw(self._theirs)  # bytes pass as they are, and nothing is echoed
         os.set_blocking(self._ours, False)
+        self._unset = self._speed()
         lend(Path(os.ttyname(self._theirs)), self.name.parent)
         self.name.unlink(missing_ok=True)
         self.name.symlink_to(os.ttyname(self._theirs))

@@ -49,6 +49,7 @@ from roslings.judge.faults.pictures import (
 from roslings.judge.faults.processes import (
     DidNotComeUp,
     DoesNotEnd,
+    EndedInTheSoak,
     EndedWithError,
     LeavesProcesses,
     StoppedByItself,
@@ -57,6 +58,7 @@ from roslings.judge.faults.processes import (
 from roslings.judge.faults.rhythm import (
     Bursts,
     Drifts,
+    SentAgain,
     SleepsAfterWorking,
     StallsNowAndThen,
     StartsLate,
@@ -69,6 +71,7 @@ from roslings.judge.faults.writing import (
     AlmostRepeats,
     DoesNotRepeat,
     FixedText,
+    LoggedAgain,
     NotLogged,
 )
 
@@ -84,12 +87,14 @@ __all__ = [
     "DoesNotEnd",
     "DoesNotRepeat",
     "Drifts",
+    "EndedInTheSoak",
     "EndedWithError",
     "Fault",
     "FixedText",
     "Inconclusive",
     "InvalidPackageXml",
     "LeavesProcesses",
+    "LoggedAgain",
     "MissingFile",
     "NoExecutable",
     "NoMessages",
@@ -104,6 +109,7 @@ __all__ = [
     "OneColour",
     "PictureTooSmall",
     "QosCannotMatch",
+    "SentAgain",
     "SleepsAfterWorking",
     "StallsNowAndThen",
     "StartsLate",

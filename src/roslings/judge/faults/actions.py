@@ -223,8 +223,9 @@ class BlocksTheNode(Fault):
         " hears nothing: not where the rover is, and no request to cancel."
     )
     hint = (
-        "Give the node several threads: rclpy.spin(node, executor=MultiThreadedExecutor()). And"
-        " put the action server and the subscription into a ReentrantCallbackGroup."
+        "Give the node several threads:"
+        " rclpy.spin(node, executor=MultiThreadedExecutor(num_threads=4)). The threads are what"
+        " counts: a callback group alone changes nothing."
     )
 
     @property
@@ -318,6 +319,38 @@ class WrongFeedbackRate(Fault):
         return (
             f"{self.rhythm.wanted_hz:g} Hz means one feedback every {period_s:g} s. Publish it in"
             f" each turn of the loop, and let a turn take so long: time.sleep({period_s:g})."
+        )
+
+
+@dataclass(eq=False)
+class NeverRests(Fault):
+    """The loop of the execute callback has no pause: it turns as fast as the processor can."""
+
+    hz: float
+    wanted_hz: float
+    was_seen = True
+    why = (
+        "A loop without a pause takes a whole processor. The node's other callbacks hardly run:"
+        " it drives by old places, and hears no request to cancel in time."
+    )
+
+    @property
+    def expected(self) -> str:
+        """A loop that waits in each turn."""
+        return f"feedback at {self.wanted_hz:g} Hz: the loop waits in each turn"
+
+    @property
+    def measured(self) -> str:
+        """How often it turns."""
+        return f"{self.hz:.0f} times a second: the loop never waits"
+
+    @property
+    def hint(self) -> str:
+        """The missing line."""
+        period_s = 1 / self.wanted_hz
+        return (
+            f"Is there a time.sleep({period_s:g}) in the execute callback, and inside of its loop?"
+            " It is the last line of each turn."
         )
 
 
@@ -773,3 +806,24 @@ class SentAnotherGoal(Fault):
             f"Declare the parameter '{self.field_name}' in __init__, and set"
             f" goal.{self.field_name} = self.get_parameter('{self.field_name}').value"
         )
+
+
+@dataclass(eq=False)
+class GoalSentAgain(Fault):
+    """One goal was asked for, and more came."""
+
+    executable: str
+    action: str
+    count: int
+    why = "A second goal is another journey: the server refuses it, or the rover drives twice."
+    hint = "Call send_goal_async(goal) once. Is it in a loop, or in a timer that goes on?"
+
+    @property
+    def expected(self) -> str:
+        """One goal."""
+        return f"{self.executable} sends one goal to {self.action}"
+
+    @property
+    def measured(self) -> str:
+        """How many came."""
+        return f"it sent {self.count} goals"

@@ -13,6 +13,8 @@ class Fault(Exception):
     why: ClassVar[str] = ""
     was_seen: ClassVar[bool] = False
     """What is wrong was seen, not missed: it stands even where other evidence was dropped."""
+    blocks: ClassVar[bool] = True
+    """Nothing can be said by the checks that need this one."""
     log: tuple[str, ...] = field(default=(), kw_only=True)
 
     @property

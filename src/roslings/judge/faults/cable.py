@@ -256,6 +256,111 @@ class WheelsSwapped(WrongDrive):
 
 
 @dataclass(eq=False)
+class SettingIgnored(WrongDrive):
+    """The node has the parameter, and drives as if nobody had set it."""
+
+    name: str
+    why = "The next robot has other wheels: who uses your node changes a parameter, not your code."
+    hint = (
+        "Read the parameter with self.get_parameter(NAME).value, and reckon with that value."
+        " Does main() say rclpy.init(args=args)?"
+    )
+
+    @property
+    def measured(self) -> str:
+        """What reached the motors, and what that means."""
+        return (
+            f"PWM left {self.got[0]} and right {self.got[1]}: right for the default of"
+            f" {self.name!r}, and the node was started with another value"
+        )
+
+
+@dataclass(eq=False)
+class TooFast(WrongDrive):
+    """A command beyond what the wheels can do."""
+
+    sent: str
+    why = "A PWM beyond 255 is no command: the board refuses it, and the robot stops on its way."
+    hint = "Where a wheel would need more than 255, make both PWM smaller by the same factor."
+
+    @property
+    def measured(self) -> str:
+        """What reached the motors, and the line that was sent."""
+        sent = f"; the last line was {self.sent[:40]!r}" if self.sent else ""
+        return f"the motors had PWM left {self.got[0]} and right {self.got[1]}{sent}"
+
+
+@dataclass(eq=False)
+class OtherOdometry(WrongOdometry):
+    """The odometry does not reckon with the parameters."""
+
+    settings: str
+
+    @property
+    def expected(self) -> str:
+        """The true way, of a rover with these measures."""
+        return f"started with {self.settings}: {super().expected}"
+
+    @property
+    def hint(self) -> str:
+        """Where the values are needed."""
+        return "The odometry needs the values of the parameters, too: not the numbers of the card."
+
+
+@dataclass(eq=False)
+class PortNotOpened(Fault):
+    """Nobody has opened the port that the parameter names."""
+
+    name: str
+    why = "The board has another name on each computer: /dev/ttyACM0 here, /dev/ttyUSB0 there."
+
+    @property
+    def expected(self) -> str:
+        """The port of the parameter."""
+        return f"started with `-p {self.name}:=PORT`, the node opens this port"
+
+    @property
+    def measured(self) -> str:
+        """Nothing happened there."""
+        return "nobody opened it, and no message came from it"
+
+    @property
+    def hint(self) -> str:
+        """Where the name is to be read."""
+        return (
+            f"Give self.get_parameter({self.name!r}).value to serial.Serial()."
+            " Does main() say rclpy.init(args=args)?"
+        )
+
+
+@dataclass(eq=False)
+class WrongSpeedOfPort(Fault):
+    """The port has another speed than the board."""
+
+    name: str
+    wanted: int
+    found: int | None
+    why = "Nothing on a cable tells its speed: where the two ends differ, each reads nonsense."
+
+    @property
+    def expected(self) -> str:
+        """The card's speed, or that of the parameter."""
+        return (
+            f"with {self.name} {self.wanted}, the port is opened with {self.wanted} bits a second"
+        )
+
+    @property
+    def measured(self) -> str:
+        """Its own."""
+        return f"it has {self.found or 'no speed that anybody has set'}"
+
+    @property
+    def hint(self) -> str:
+        """Where the number is to be read."""
+        return f"Give self.get_parameter({self.name!r}).value to serial.Serial() as the baud rate."
+
+
+@dataclass(eq=False)
 class DoesNotStop(Fault):
     """It goes on with an old command."""
 
@@ -320,3 +425,21 @@ class FollowedNonsense(Fault):
     def measured(self) -> str:
         """What happened."""
         return f"the motors had PWM left {self.got[0]} and right {self.got[1]}"
+
+
+@dataclass(eq=False)
+class DeafAfterNonsense(FollowedNonsense):
+    """It lives, and follows no command any more."""
+
+    why = "One wrong message must not end the work of the day."
+    hint = "Leave the command aside, and nothing else: keep no NaN in what you remember."
+
+    @property
+    def expected(self) -> str:
+        """It goes on."""
+        return "after commands with NaN and infinity, the node follows the next good one"
+
+    @property
+    def measured(self) -> str:
+        """It does not."""
+        return "the motors stood"

@@ -258,6 +258,30 @@ def _change(levels: float) -> str:
 
 
 @dataclass(eq=False)
+class LightAtStartIgnored(WrongBrightness):
+    """The node was started with a value, and its pictures have another light."""
+
+    why = "Who starts the robot chooses its settings then: nobody is there to set them later."
+    hint = (
+        "Read the parameter for each picture: self.get_parameter(NAME).value. A variable that only"
+        " a change sets does not know the value of the start."
+    )
+
+    @property
+    def expected(self) -> str:
+        """The light from the first picture on."""
+        return (
+            f"started with `-p {self.name}:={self.after}`, each value of each picture is"
+            f" {_change(self.wanted)} than the camera's"
+        )
+
+    @property
+    def measured(self) -> str:
+        """The light that it had."""
+        return f"there were pictures that are {_change(self.found)}"
+
+
+@dataclass(eq=False)
 class BrightnessIgnored(WrongBrightness):
     """Nothing happens."""
 
@@ -304,7 +328,7 @@ class SilentAboutCamera(Fault):
     @property
     def expected(self) -> str:
         """The line."""
-        return f"{self.when}: a line {self.line!r} with {self.reason!r} in it"
+        return f"{self.when}: a line {self.line!r} with the device and {self.reason!r} in it"
 
     @property
     def measured(self) -> str:
@@ -348,3 +372,25 @@ class NoPictureAfter(Fault):
     def measured(self) -> str:
         """None."""
         return "none came"
+
+
+@dataclass(eq=False)
+class TriesSeldom(Fault):
+    """Pictures come again, and late."""
+
+    when: str
+    topic: str
+    within_s: float
+    took_s: float
+    why = "A robot that stands for want of a picture stands in somebody's way."
+    hint = "Open the camera from a timer of its own, with a period below two seconds."
+
+    @property
+    def expected(self) -> str:
+        """How soon somebody looks again."""
+        return f"{self.when}: a new try within {self.within_s:g} s, so pictures on {self.topic}"
+
+    @property
+    def measured(self) -> str:
+        """When the first one came."""
+        return f"the first one came after {self.took_s:.1f} s"

@@ -14,7 +14,10 @@ class BadPicture(Fault):
     path: str
     wanted: str
     found: str
+    lab: str
     why = "The picture shows that you have looked at your own graph."
+    again = " --force"
+    """What stands there must be replaced."""
 
     @property
     def expected(self) -> str:
@@ -28,13 +31,18 @@ class BadPicture(Fault):
 
     @property
     def hint(self) -> str:
-        """How to make it."""
-        return f"Run both nodes. In the package's folder: roslings graph --save {self.path}"
+        """How to make it: one command, which finds the package as `check` does."""
+        return (
+            "Run your nodes. Then, in one more terminal, in the roslings folder:"
+            f" ./roslings graph --for {self.lab}{self.again}"
+        )
 
 
 @dataclass(eq=False)
 class NoPicture(BadPicture):
     """There is no such file."""
+
+    again = ""
 
 
 @dataclass(eq=False)

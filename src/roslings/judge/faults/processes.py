@@ -81,7 +81,6 @@ class StoppedByItself(Fault):
     """The seconds are of simulated time, which ran faster than ours."""
     was_seen = True
     why = "A robot's node runs until somebody stops it."
-    hint = READ_THE_LINES
 
     @property
     def expected(self) -> str:
@@ -93,6 +92,29 @@ class StoppedByItself(Fault):
         """When it ended, and how."""
         time = " of simulated time" if self.simulated else ""
         return f"it ended by itself after {self.after_s:.1f} s{time} ({self.how})"
+
+    @property
+    def hint(self) -> str:
+        """What to try."""
+        return READ_THE_LINES
+
+
+@dataclass(eq=False)
+class EndedInTheSoak(StoppedByItself):
+    """The node did all that was asked of it, and ended later, with nobody near it."""
+
+    blocks = False
+    why = "A robot's node runs until somebody stops it, not only for the first seconds."
+
+    @property
+    def hint(self) -> str:
+        """What to try."""
+        if any(line.startswith("Traceback") for line in self.log):
+            return READ_THE_LINES
+        return (
+            f"Start it by hand with `ros2 run`, and wait {self.after_s + 5:.0f} s. What counts up, "
+            "fills up or runs out while it runs?"
+        )
 
 
 @dataclass(eq=False)

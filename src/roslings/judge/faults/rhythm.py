@@ -12,6 +12,12 @@ from roslings.rates import MOST_UNEVEN, STANDARD_ERRORS, Rate
 STALL = 1.5
 """A period that is longer than the usual one by this factor holds a stall."""
 
+NEXT_TO = 0.3
+"""Part of the mean period: so soon after each other, two messages belong together."""
+
+ABOUT = 0.9
+"""So few groups of messages tell their rate no better."""
+
 STEADY = 0.1
 """Periods are steady where half of them differ from their median by less than this part of it."""
 
@@ -85,6 +91,34 @@ class Bursts(WrongRate):
         """The shape of the intervals."""
         shortest, longest = min(self.rate.periods_s), max(self.rate.periods_s)
         return f"groups: pauses from {shortest:.3f} s to {longest:.2f} s between two messages"
+
+
+@dataclass(eq=False)
+class SentAgain(TooFast):
+    """Each message is sent several times, one right after the other."""
+
+    why = "Who counts messages, or waits for the next one, is told the same again."
+
+    @property
+    def times(self) -> int:
+        """How often each comes."""
+        return max(2, round(self.rate.hz / self.wanted_hz))
+
+    @property
+    def measured(self) -> str:
+        """How many come at once."""
+        return (
+            f"{self.rate.hz:.1f} messages a second: each time {self.times} of them, one right"
+            " after the other"
+        )
+
+    @property
+    def hint(self) -> str:
+        """One call for each."""
+        return (
+            f"The period is right, and publish() runs {self.times} times in it. Look for a second"
+            " publish(), a loop around it, or a function that is called twice."
+        )
 
 
 @dataclass(eq=False)
@@ -177,6 +211,8 @@ def rate_fault(rate: Rate, low_hz: float, high_hz: float) -> type[WrongRate] | N
     The shape of the intervals tells the likely reason.
     """
     right = low_hz <= rate.hz <= high_hz
+    if not right and _comes_again(rate, low_hz, high_hz):
+        return SentAgain
     if rate.hz < low_hz and (pauses := _pauses(rate, low_hz, high_hz)):
         return pauses
     if _drifts(rate) and not right:
@@ -186,6 +222,14 @@ def rate_fault(rate: Rate, low_hz: float, high_hz: float) -> type[WrongRate] | N
     if right:
         return None
     return TooFast if rate.hz > high_hz else _slow(rate, low_hz, high_hz)
+
+
+def _comes_again(rate: Rate, low_hz: float, high_hz: float) -> bool:
+    """Groups of messages, and the groups come at about the right rate."""
+    next_to = [p for p in rate.periods_s if p < NEXT_TO * rate.period_s]
+    groups = len(rate.periods_s) - len(next_to)
+    groups_hz = groups / sum(rate.periods_s)
+    return len(next_to) > 0.9 * groups and ABOUT * low_hz <= groups_hz <= high_hz / ABOUT
 
 
 def _pauses(rate: Rate, low_hz: float, high_hz: float) -> type[TooSlow] | None:

@@ -135,3 +135,37 @@ class EndedWhileHearing(WrongReaction):
     def measured(self) -> str:
         """That it ended."""
         return "the node ended with an error"
+
+
+@dataclass(eq=False)
+class WrongAtFirst(WrongReaction):
+    """The node shows a value before it has been told any."""
+
+    why = "A number means that something was measured. Before that, the sensor knows nothing."
+    hint = "What do you put into your variable in __init__? It is published until a value comes."
+
+    @property
+    def expected(self) -> str:
+        """The value for nothing."""
+        return f"before anything was heard: {self.field_name} {self.wanted} on {self.topic}"
+
+
+@dataclass(eq=False)
+class MoreThanAsked(Fault):
+    """More is published than the card asks for."""
+
+    topic: str
+    told: int
+    came: int
+    why = "Who hears a message takes it for news: twice the same message is a wrong one."
+    hint = "Call publish() once, in the function that hears a message, and in no timer."
+
+    @property
+    def expected(self) -> str:
+        """One for each."""
+        return f"one message on {self.topic} for each that is heard ({self.told} were told)"
+
+    @property
+    def measured(self) -> str:
+        """More."""
+        return f"{self.came} messages came"

@@ -429,3 +429,24 @@ class WrongExitCode(Fault):
         if self.wanted:
             return f"Let main() return {self.wanted} in that case. setup.py hands it on."
         return "Read the last lines below. Does main() return something other than None or 0?"
+
+
+@dataclass(eq=False)
+class AskedAgain(Fault):
+    """One request was asked for, and more came."""
+
+    executable: str
+    service: str
+    count: int
+    why = "Each request does something: what is asked twice is done twice."
+    hint = "Call call_async(request) once. Is it in a loop, or in a timer that goes on?"
+
+    @property
+    def expected(self) -> str:
+        """One request."""
+        return f"{self.executable} calls {self.service} once"
+
+    @property
+    def measured(self) -> str:
+        """How many came."""
+        return f"it called {self.count} times, and each call was answered at once"

@@ -147,6 +147,26 @@ class HueIgnored(FoundTheDecoy):
 
 
 @dataclass(eq=False)
+class HueAtStartIgnored(FoundTheDecoy):
+    """The node was started with another hue, and looks for that of the card."""
+
+    hint = (
+        "Read the parameter for each picture: self.get_parameter('ball_hue').value. A variable that"
+        " only a change sets does not know the value of the start."
+    )
+
+    @property
+    def expected(self) -> str:
+        """Where the ball of that colour is."""
+        return f"started with another ball_hue, {super().expected}"
+
+    @property
+    def measured(self) -> str:
+        """What it found."""
+        return f"{self._place}: the ball of the default colour"
+
+
+@dataclass(eq=False)
 class NotFound(Fault):
     """There is a ball, and the node says nothing."""
 
@@ -342,3 +362,65 @@ class SilentAboutPicture(Fault):
     def measured(self) -> str:
         """What it wrote."""
         return f"it wrote {self.similar!r}" if self.similar else "it wrote no such line"
+
+
+@dataclass(eq=False)
+class AnsweredTwice(Fault):
+    """One picture has several answers."""
+
+    topic: str
+    picture: str
+    count: int
+    why = "Who hears an answer takes it for news: one ball becomes two."
+    hint = "Call publish() once for each picture, in the function that hears it, and in no timer."
+
+    @property
+    def expected(self) -> str:
+        """One."""
+        return f"{self.picture}: one message on {self.topic}"
+
+    @property
+    def measured(self) -> str:
+        """Several."""
+        return f"{self.count} messages"
+
+
+@dataclass(eq=False)
+class AnswersBadPicture(Fault):
+    """Something is published after a picture that is none."""
+
+    picture: str
+    topic: str
+    why = "Who gets the answer believes it, and cannot know that the picture was broken."
+    hint = "After the line in the log, return: no place, and no drawing."
+
+    @property
+    def expected(self) -> str:
+        """Silence."""
+        return f"{self.picture}: nothing on {self.topic}"
+
+    @property
+    def measured(self) -> str:
+        """That something came."""
+        return "a message came"
+
+
+@dataclass(eq=False)
+class HasDepth(Fault):
+    """The place has a z."""
+
+    topic: str
+    picture: str
+    found: float
+    why = "A place in a picture has a column and a row. z is free, so it stays 0."
+    hint = "Fill point.x and point.y only. The radius of the ball is no part of its place."
+
+    @property
+    def expected(self) -> str:
+        """A place in the picture."""
+        return f"{self.picture}: on {self.topic} z 0"
+
+    @property
+    def measured(self) -> str:
+        """What came."""
+        return f"z {self.found:g}"

@@ -44,6 +44,28 @@ class NotLogged(Fault):
         return f"Write it with self.get_logger().info(...) {self.place}."
 
 
+@dataclass(eq=False)
+class LoggedAgain(Fault):
+    """The node writes the same line more often than it had something to write."""
+
+    executable: str
+    line: str
+    times: int
+    why = "Who reads the log counts the lines: two lines mean that two things happened."
+    hint = "Is the line logged in two places? One message is one call of get_logger().info(...)."
+    was_seen = True
+
+    @property
+    def expected(self) -> str:
+        """Once."""
+        return f"{self.executable} writes each line once for each message"
+
+    @property
+    def measured(self) -> str:
+        """More often."""
+        return f"it wrote {self.line!r} {self.times} times"
+
+
 def _are_alike(wanted: str, found: str) -> bool:
     """`found` is the wanted line with a slip in it, and no other line."""
     return difflib.SequenceMatcher(None, wanted, found).ratio() >= ALIKE

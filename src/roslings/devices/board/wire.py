@@ -1,0 +1,34 @@
+"""How long bytes take on a cable: what was sent in one go arrives in pieces."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+BITS_A_BYTE = 10
+"""A start bit, eight bits, a stop bit."""
+
+
+@dataclass
+class Wire:
+    """One direction of a cable. Without a speed, all arrives at once."""
+
+    bits_s: float = math.inf
+    _waiting: bytes = field(default=b"", init=False, repr=False)
+    _part: float = field(default=0.0, init=False, repr=False)
+    """What is already through of the next byte, 0 to 1."""
+
+    def __call__(self, sent: bytes, dt_s: float) -> bytes:
+        """What arrives in this time; the rest waits. Only a wire that is busy makes headway."""
+        waiting = self._waiting + sent
+        if math.isinf(self.bits_s):
+            return waiting
+        through = self._part + dt_s * self.bits_s / BITS_A_BYTE
+        count = min(len(waiting), int(through))
+        self._waiting = waiting[count:]
+        self._part = through - count if self._waiting else 0.0
+        return waiting[:count]
+
+    def cut(self) -> None:
+        """What was under way is lost."""
+        self._waiting, self._part = b"", 0.0
