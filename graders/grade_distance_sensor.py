@@ -28,11 +28,20 @@ from roslings.judge import (
     install,
     list_what_it_imports,
     match_qos,
+    outlast_the_soak,
     stay_up,
 )
 from roslings.judge.demands import written
 from roslings.judge.launching import start_all
-from roslings.judge.sensing import Shown, carry_its_time, hold_its_fields, show, write_each
+from roslings.judge.sensing import (
+    Shown,
+    answer_each_once,
+    carry_its_time,
+    hold_its_fields,
+    show,
+    show_at_first,
+    write_each,
+)
 
 CARD = lab("distance-sensor").card
 SENSOR, SUBSCRIBER = CARD.node("distance_sensor"), CARD.node("distance_subscriber")
@@ -43,6 +52,10 @@ SPEED = SENSOR.constant("speed_of_sound")
 NEAREST, FARTHEST = (float(DISTANCE.fields[name]) for name in ("min_range", "max_range"))
 NEAR, CLEAR = SUBSCRIBER.constant("near"), SUBSCRIBER.constant("clear")
 NAN, INFINITY = math.nan, math.inf
+BESIDE = (0.005, 0.03)
+"""So many metres beside a limit: just beyond it, and beyond doubt."""
+
+SILENCE_S = 0.6
 MEASURED = Shown(SENSOR, "data", DISTANCE, "range")
 WARNED = Shown(SUBSCRIBER, "range", OBSTACLE, "data", remembers=True)
 
@@ -51,9 +64,17 @@ WARNED = Shown(SUBSCRIBER, "range", OBSTACLE, "data", remembers=True)
 
 
 def echoes(scene: Scene) -> list[float]:
-    """Seconds until the echo: in range, too near, too far, not understood, in range again."""
-    metres = [scene.between(0.5, 1.5), scene.between(2.0, 3.5), NEAREST / 4, FARTHEST * 1.5, NAN]
-    return [2 * each / SPEED for each in (*metres, scene.between(0.1, 0.4))]
+    """Seconds until the echo: in range, just beyond each end, not understood, just in again."""
+    metres = [
+        scene.between(0.5, 1.5),
+        scene.between(FARTHEST - 0.1, FARTHEST - 0.02),
+        scene.between(NEAREST * 0.6, NEAREST * 0.9),
+        scene.between(FARTHEST + 0.02, FARTHEST + 0.1),
+        NAN,
+        INFINITY,
+        scene.between(NEAREST * 1.1, NEAREST * 1.5),
+    ]
+    return [2 * each / SPEED for each in metres]
 
 
 def range_after(echo: dict[str, Any]) -> float:
@@ -75,11 +96,16 @@ def odd_range(number: int, echo: dict[str, Any]) -> float | None:
 
 
 def distances(scene: Scene) -> list[float]:
-    """Metres, for the steps of `STEPS`."""
+    """Metres, for the steps of `STEPS`; on both sides of each limit, some are just beside it."""
     far, near = scene.between(1.0, 2.0), scene.between(NEAREST, NEAR - 0.05)
-    between = scene.between(NEAR + 0.02, CLEAR - 0.02)
-    clear = scene.between(CLEAR + 0.05, 0.9)
-    return [far, between, near, between, clear, near, NAN, INFINITY, -INFINITY]
+    below, above = beside(scene, NEAR)
+    within, clear = beside(scene, CLEAR)
+    return [far, above, below, within, clear, near, NAN, INFINITY, -INFINITY]
+
+
+def beside(scene: Scene, limit: float) -> tuple[float, float]:
+    """A number just below the limit, and one just above."""
+    return limit - scene.between(*BESIDE), limit + scene.between(*BESIDE)
 
 
 STEPS: list[tuple[str, bool]] = [
@@ -129,6 +155,7 @@ def hearing(scene: Scene) -> None:
         teller = Teller(scene, process, HEARD, OBSTACLE)
         for metres in distances(scene):
             teller.tell({**DISTANCE.fields, "range": metres})
+        teller.rest(SILENCE_S)
 
 
 @experiment
@@ -164,8 +191,8 @@ def test_builds(package: PackageView) -> None:
 
 @check(needs=["builds"])
 def test_sensor_runs(sensing: ExperimentView) -> None:
-    """The sensor starts and makes a node."""
-    sensing.process(SENSOR).must(come_up)
+    """The sensor starts, makes a node and runs on."""
+    sensing.process(SENSOR).must(come_up, outlast_the_soak)
 
 
 @check(needs=["sensor_runs"])
@@ -214,7 +241,7 @@ def test_distance(sensing: ExperimentView) -> None:
 @check(needs=["sensor_runs"], explained_by={"distance": "WrongReaction"})
 def test_out_of_range(sensing: ExperimentView) -> None:
     """Too near is -infinity, too far +infinity, NaN is NaN (REP 117)."""
-    sensing.must(show(MEASURED, odd_range))
+    sensing.must(show_at_first(MEASURED, NAN), show(MEASURED, odd_range))
 
 
 # --- the subscriber ----------------------------------------------------------------------------
@@ -222,8 +249,8 @@ def test_out_of_range(sensing: ExperimentView) -> None:
 
 @check(needs=["builds"])
 def test_subscriber_runs(hearing: ExperimentView) -> None:
-    """The subscriber starts and makes a node."""
-    hearing.process(SUBSCRIBER).must(come_up)
+    """The subscriber starts, makes a node and runs on."""
+    hearing.process(SUBSCRIBER).must(come_up, outlast_the_soak)
 
 
 @check(needs=["subscriber_runs"])
@@ -236,7 +263,8 @@ def test_subscriber_name(hearing: ExperimentView) -> None:
 def test_subscriber_topics(hearing: ExperimentView) -> None:
     """It hears {HEARD.topic}, and publishes {OBSTACLE.topic}."""
     hearing.subscription(SUBSCRIBER, HEARD).must(be_there, carry_its_type, match_qos)
-    hearing.publisher(SUBSCRIBER, OBSTACLE).must(be_there, be_the_only_one, carry_its_type)
+    publisher = hearing.publisher(SUBSCRIBER, OBSTACLE)
+    publisher.must(be_there, be_the_only_one, carry_its_type, match_qos)
 
 
 @check(needs=["subscriber_runs"])
@@ -246,6 +274,12 @@ def test_millimetres(hearing: ExperimentView) -> None:
 
 
 @check(needs=["subscriber_runs"])
+def test_one_each(hearing: ExperimentView) -> None:
+    """It publishes once for each distance, and at no other time."""
+    hearing.must(answer_each_once(WARNED))
+
+
+@check(needs=["subscriber_runs"], explained_by={"one_each": "MoreThanAsked"})
 def test_obstacle(hearing: ExperimentView) -> None:
     """Nearer than {NEAR:g} m is an obstacle, farther than {CLEAR:g} m is none."""
     hearing.must(show(WARNED, lambda number, _: warning("obstacle", number)))

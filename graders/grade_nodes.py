@@ -27,6 +27,7 @@ from roslings.judge import (
     list_what_it_imports,
     log_each,
     match_qos,
+    outlast_the_soak,
     say_its_text,
     stay_up,
 )
@@ -104,7 +105,7 @@ def test_runs(alone: ExperimentView) -> None:
 @check(needs=["runs"])
 def test_stays(alone: ExperimentView) -> None:
     """The node runs until Ctrl-C."""
-    alone.process(NODE).must(stay_up)
+    alone.process(NODE).must(stay_up, outlast_the_soak)
 
 
 @check(needs=["runs"])
@@ -145,7 +146,7 @@ def test_counting(alone: ExperimentView) -> None:
 
 @check(needs=["type"])
 def test_logs(alone: ExperimentView) -> None:
-    """The node writes what it publishes."""
+    """The node writes each message that it publishes, once."""
     texts = alone.topic(STATUS).texts
     alone.process(NODE).must(log_each(NODE, texts))
 

@@ -4,12 +4,15 @@ The numbers, names and points stand in labs/pi-camera/card.yaml. Experiments run
 nodes beside a camera, or show them pictures, and watch; checks read what was seen.
 """
 
+from dataclasses import replace
+
 from roslings.course import lab
 from roslings.devices.camera import Encoding, Light
 from roslings.devices.rover import Disc
 from roslings.experiment import Scene, experiment
 from roslings.experiment.filming import PICTURES, camera_beside, change_parameter
 from roslings.experiment.showing import Projector, Shot, place_ball
+from roslings.experiment.start import Start
 from roslings.experiment.starting import list_parameters
 from roslings.judge import (
     ExperimentView,
@@ -29,6 +32,7 @@ from roslings.judge import (
     install,
     list_what_it_imports,
     match_qos,
+    outlast_the_soak,
     stay_up,
 )
 from roslings.judge.camera import (
@@ -36,6 +40,7 @@ from roslings.judge.camera import (
     FORBIDDEN,
     GONE,
     MISSING,
+    begin_so_light,
     come_after,
     follow_brightness,
     hold_whole_rows,
@@ -48,6 +53,9 @@ from roslings.judge.camera import (
 from roslings.judge.sensing import carry_its_time, hold_its_fields
 from roslings.judge.showing import (
     Screen,
+    answer_nothing,
+    answer_once,
+    begin_with_the_hue,
     carry_the_header,
     cut_its_rows,
     draw_on_each,
@@ -62,13 +70,18 @@ CARD = lab("pi-camera").card
 CAMERA, FINDER = CARD.node("camera"), CARD.node("ball_finder")
 IMAGE, SEEN = CAMERA.publishes[0], FINDER.subscribes[0]
 BALL, DRAWN = FINDER.publishes
-DEVICE = CAMERA.parameter("device")
 BRIGHTNESS, HUE = CAMERA.parameter("brightness"), FINDER.parameter("ball_hue")
 NEUTRAL, LEVELS = CAMERA.constant("neutral_brightness"), CAMERA.constant("levels")
 SMALLEST, WITHIN = FINDER.constant("smallest_ball"), FINDER.constant("within")
+WINDOW = FINDER.constant("hue_window")
+BESIDE = 3
+"""A colour that lies so many hues inside of the window is found, and one so far outside is not."""
+
+RETRIES_WITHIN_S = 2.0
 SCREEN = Screen(FINDER, BALL, DRAWN, WITHIN)
 RED, GREEN, BLUE = int(HUE.default), int(HUE.tried), 115
-LIT = (51, int(BRIGHTNESS.tried), *BRIGHTNESS.ends)
+LIGHT = int(BRIGHTNESS.tried)
+LIT = (51, LIGHT, *BRIGHTNESS.ends)
 """The brightnesses that are tried, one after the other."""
 
 FIRST_HUE, LAST_HUE = HUE.ends
@@ -116,6 +129,18 @@ def ball(scene: Scene, size: Size, hue: int, away_from: Disc | None = None) -> D
     return place_ball(scene, size, hue + shade, SMALLEST, away_from)
 
 
+def smallest(scene: Scene) -> Shot:
+    """A picture with a ball that is as small as one may be."""
+    shown = shot(scene)
+    return replace(shown, ball=replace(ball(scene, SMALL, RED), radius_px=SMALLEST))
+
+
+def at_the_window(scene: Scene, hues: float) -> Shot:
+    """A picture with a ball whose colour is so far from the one that is looked for."""
+    shown = shot(scene)
+    return replace(shown, ball=replace(ball(scene, SMALL, GREEN), hue=round(GREEN + hues)))
+
+
 def some_light(scene: Scene) -> Light:
     """Lighter or darker, with more or less noise."""
     return Light(brightness=round(scene.between(42, 68)), noise=scene.between(1.0, 8.0))
@@ -133,12 +158,18 @@ def filming(scene: Scene) -> None:
 
 
 @experiment
+def untold(scene: Scene) -> None:
+    """The camera node, and nobody tells it where its camera is."""
+    with scene.run(CAMERA):
+        list_parameters(scene, CAMERA)
+
+
+@experiment
 def lighting(scene: Scene) -> None:
     """The camera node, while its brightness is changed."""
     with camera_beside(scene) as camera, scene.run(CAMERA, start=camera.start()):
         for value in LIT:
             camera.expect_lighter((value - NEUTRAL) * LEVELS)
-        list_parameters(scene, CAMERA)
         camera.await_pictures(IMAGE, 2)
         for value in LIT:
             if change_parameter(scene, CAMERA, BRIGHTNESS.name, value):
@@ -151,8 +182,9 @@ def lighting(scene: Scene) -> None:
 def unplugged(scene: Scene) -> None:
     """A camera that is missing, forbidden, busy, there, gone, and there again."""
     with camera_beside(scene, plugged_in=False) as beside:
+        beside.expect_lighter((LIGHT - NEUTRAL) * LEVELS)
         beside.begin("missing")
-        with scene.run(CAMERA, start=beside.start()) as process:
+        with scene.run(CAMERA, start=beside.start({BRIGHTNESS.name: LIGHT})) as process:
             beside.await_trouble(process, *MISSING)
             for part, numbers in (("forbidden", FORBIDDEN), ("busy", BUSY)):
                 beside.begin(part)
@@ -177,6 +209,7 @@ def looking(scene: Scene) -> None:
         screen.begin()
         for size in (SMALL, LARGE, SMALL, SMALL):
             screen.show("ball", shot(scene, size))
+        screen.show("ball", smallest(scene))
         screen.show("ball", with_decoy(scene, RED, GREEN))
         for decoy in (None, ball(scene, SMALL, GREEN), ball(scene, SMALL, BLUE)):
             screen.show("none", without_ball(scene, decoy))
@@ -199,6 +232,8 @@ def retuning(scene: Scene) -> None:
         change_parameter(scene, FINDER, HUE.name, GREEN)
         screen.show("hue", with_decoy(scene, GREEN, RED))
         screen.show("hue", shot(scene, hue=GREEN))
+        screen.show("hue", at_the_window(scene, WINDOW - BESIDE))
+        screen.show("other hue", at_the_window(scene, WINDOW + BESIDE))
         change_parameter(scene, FINDER, HUE.name, LAST_HUE)
         screen.show("across", shot(scene, hue=0))
         change_parameter(scene, FINDER, HUE.name, FIRST_HUE)
@@ -210,13 +245,13 @@ def retuning(scene: Scene) -> None:
 @experiment
 def spoiled(scene: Scene) -> None:
     """The ball finder, while pictures come that are none."""
-    with scene.run(FINDER) as process:
+    with scene.run(FINDER, start=Start(parameters={HUE.name: GREEN})) as process:
         screen = Projector(scene, process, SEEN, BALL, DRAWN)
         screen.begin()
-        screen.show("before", shot(scene))
+        screen.show("before", with_decoy(scene, GREEN, RED))
         screen.show_spoiled("short", "bgr8", missing=160 * 3 * 20, words=BAD_PICTURE)
         screen.show_spoiled("unknown", "16UC1", missing=0, words=BAD_PICTURE)
-        screen.show("after", shot(scene))
+        screen.show("after", shot(scene, hue=GREEN))
 
 
 # --- the package -------------------------------------------------------------------------------
@@ -246,7 +281,7 @@ def test_builds(package: PackageView) -> None:
 @check(needs=["builds"])
 def test_camera_runs(filming: ExperimentView) -> None:
     """The camera node starts and runs until Ctrl-C."""
-    filming.process(CAMERA).must(come_up, stay_up)
+    filming.process(CAMERA).must(come_up, stay_up, outlast_the_soak)
 
 
 @check(needs=["camera_runs"])
@@ -286,7 +321,7 @@ def test_picture(filming: ExperimentView) -> None:
     filming.topic(IMAGE).must(show_what_the_camera_saw)
 
 
-@check(needs=["picture"])
+@check(needs=["picture"], explained_by={"rate": ("SentAgain", "Bursts")})
 def test_every_picture(filming: ExperimentView) -> None:
     """Each picture that is read is published, once."""
     filming.topic(IMAGE).must(show_each_once(PICTURES))
@@ -306,10 +341,16 @@ def test_no_camera(unplugged: ExperimentView) -> None:
         tell_of_trouble(CAMERA, "missing", "no camera at the start", MISSING),
         tell_of_trouble(CAMERA, "forbidden", "a camera that you may not use", FORBIDDEN),
         tell_of_trouble(CAMERA, "busy", "a camera that another program uses", BUSY),
-        come_after("there", "when the camera is free", IMAGE),
+        come_after("there", "when the camera is free", IMAGE, RETRIES_WITHIN_S),
         tell_of_trouble(CAMERA, "gone", "a camera that was pulled out", GONE),
-        come_after("there again", "when the camera is plugged in again", IMAGE),
+        come_after("there again", "when the camera is plugged in again", IMAGE, RETRIES_WITHIN_S),
     )
+
+
+@check(needs=["brightness", "no_camera"])
+def test_light_at_start(unplugged: ExperimentView) -> None:
+    """A {BRIGHTNESS.name} that is given at the start counts from the first picture."""
+    unplugged.topic(IMAGE).must(begin_so_light(BRIGHTNESS.name, LIGHT, NEUTRAL, LEVELS))
 
 
 # --- the ball finder ---------------------------------------------------------------------------
@@ -317,8 +358,8 @@ def test_no_camera(unplugged: ExperimentView) -> None:
 
 @check(needs=["builds"])
 def test_finder_runs(looking: ExperimentView) -> None:
-    """The ball finder starts and makes a node."""
-    looking.process(FINDER).must(come_up)
+    """The ball finder starts, makes a node and runs on."""
+    looking.process(FINDER).must(come_up, outlast_the_soak)
 
 
 @check(needs=["finder_runs"])
@@ -365,6 +406,12 @@ def test_carries(looking: ExperimentView) -> None:
     looking.must(carry_the_header(SCREEN, PARTS))
 
 
+@check(needs=["finder_runs"])
+def test_one_answer(looking: ExperimentView) -> None:
+    """Each picture is answered once on each topic."""
+    looking.must(answer_once(SCREEN, PARTS))
+
+
 @check(needs=["ball"])
 def test_ball_image(looking: ExperimentView) -> None:
     """Each picture comes back, with a ring around the ball."""
@@ -374,14 +421,21 @@ def test_ball_image(looking: ExperimentView) -> None:
 @check(needs=["ball"])
 def test_hue(retuning: ExperimentView) -> None:
     """The parameter {HUE.name} acts while the node runs."""
-    retuning.must(follow_the_hue(SCREEN, "hue", "across"))
+    retuning.must(follow_the_hue(SCREEN, "hue", "across"), find_nothing(SCREEN, "other hue"))
 
 
-@check(needs=["ball"])
+@check(needs=["hue"])
+def test_hue_at_start(spoiled: ExperimentView) -> None:
+    """A {HUE.name} that is given at the start counts from the first picture."""
+    spoiled.must(begin_with_the_hue(SCREEN, "before"))
+
+
+@check(needs=["ball", "hue_at_start"])
 def test_bad_pictures(spoiled: ExperimentView) -> None:
     """A picture with too few bytes is told in the log, and the node goes on."""
     spoiled.must(
         survive(SCREEN, "short", "a picture with fewer bytes than its header says", must_say=True),
+        answer_nothing(SCREEN, "short", "a picture with fewer bytes than its header says"),
         survive(SCREEN, "unknown", "a picture in an unknown encoding (16UC1)", must_say=False),
         find_the_ball(SCREEN, "after"),
     )
@@ -391,9 +445,10 @@ def test_bad_pictures(spoiled: ExperimentView) -> None:
 
 
 @check(needs=["camera_runs", "finder_runs"])
-def test_parameters(lighting: ExperimentView, retuning: ExperimentView) -> None:
+def test_parameters(untold: ExperimentView, retuning: ExperimentView) -> None:
     """Both nodes have the parameters of the card, with their types and defaults."""
-    lighting.must(declare_its_parameters(CAMERA, DEVICE.name))
+    untold.process(CAMERA).must(during("when nobody sets a parameter", come_up))
+    untold.must(declare_its_parameters(CAMERA))
     retuning.must(declare_its_parameters(FINDER))
 
 

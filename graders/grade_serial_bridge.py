@@ -5,8 +5,9 @@ node beside a board and watch both; checks read what was seen and run nothing.
 """
 
 from roslings.course import lab
+from roslings.devices.rover import Body
 from roslings.experiment import Scene, experiment
-from roslings.experiment.cable import board_beside
+from roslings.experiment.cable import board_beside, unasked
 from roslings.experiment.starting import list_parameters
 from roslings.judge import (
     ExperimentView,
@@ -25,16 +26,24 @@ from roslings.judge import (
     install,
     list_what_it_imports,
     match_qos,
+    outlast_the_soak,
     stay_up,
 )
 from roslings.judge.cable import (
     come_back,
+    come_so_far,
+    drive_again,
     drive_as_told,
+    drive_at_most,
+    drive_by_its_settings,
     hold_its_fields,
     keep_still,
     know_the_way,
+    open_its_port,
     outlast_silence,
+    reckon_by_its_settings,
     send_good_lines,
+    set_its_speed,
     stop_by_itself,
     tell_every_line,
     tell_nothing_else,
@@ -44,12 +53,34 @@ from roslings.judge.starting import declare_its_parameters
 
 CARD = lab("serial-bridge").card
 BRIDGE = CARD.node("serial_bridge")
-PORT = BRIDGE.parameter("port")
+PORT, BAUD = BRIDGE.parameter("port"), BRIDGE.parameter("baud")
+MEASURES = [BRIDGE.parameter(each) for each in ("wheel_radius", "wheel_separation")]
+FASTEST = BRIDGE.parameter("max_wheel_speed")
 WHEELS, ODOM = BRIDGE.publishes
 CMD_VEL = BRIDGE.subscribes[0]
 STRAIGHT, TURN, ARC = (0.3, 0.0), (0.0, 1.2), (0.25, -0.8)
 """The motions of the test drive: metres a second forward, radians a second to the left."""
+DRIVE = {"straight": STRAIGHT, "turn": TURN, "arc": ARC}
+TOO_FAST = {"backward": (-2.0, 0.0), "round": (0.0, 12.0)}
+"""Motions for which both wheels would have to turn faster than they can."""
+
 SILENCE_S = 30.0
+
+
+def rover(**given: object) -> Body:
+    """The rover that the parameters describe: those given, and the defaults of the others."""
+    radius, separation, fastest = (
+        float(str(given.get(each.name, each.default))) for each in (*MEASURES, FASTEST)
+    )
+    return Body(radius, separation, fastest_wheel_rad_s=fastest)
+
+
+SETTINGS = {each.name: each.tried for each in (BAUD, *MEASURES, FASTEST)}
+USUAL, OTHER = rover(), rover(**SETTINGS)
+WITHOUT = {
+    each.name: rover(**{**SETTINGS, each.name: each.default}) for each in (*MEASURES, FASTEST)
+}
+"""Parameter's name to the rover that a node has in mind which does not read this parameter."""
 
 
 # --- experiments: run the node beside a board --------------------------------------------------
@@ -58,12 +89,13 @@ SILENCE_S = 30.0
 @experiment
 def driving(scene: Scene) -> None:
     """A drive: straight on, a turn on the spot, an arc."""
-    with board_beside(scene) as cable, scene.run(BRIDGE, start=cable.start()):
+    with board_beside(scene, body=USUAL) as cable, scene.run(BRIDGE, start=cable.start()):
         cable.begin(ODOM)
-        for part, motion in (("straight", STRAIGHT), ("turn", TURN), ("arc", ARC)):
+        list_parameters(scene, BRIDGE)
+        for part, motion in DRIVE.items():
             cable.drive(f"{part}, driving", CMD_VEL, *motion)
             cable.rest(part, ODOM)
-        cable.flood(CMD_VEL, [(n / 100 - 0.3, 0.0) for n in range(100)])
+        cable.flood(CMD_VEL, [(n / 200 - 0.3, 0.0) for n in range(100)])
         cable.drive("after many", CMD_VEL, *STRAIGHT, for_s=0.4)
 
 
@@ -113,13 +145,28 @@ def unplugged(scene: Scene) -> None:
 
 
 @experiment
-def nonsense(scene: Scene) -> None:
-    """A command that is no number."""
-    with board_beside(scene) as cable, scene.run(BRIDGE, start=cable.start()):
-        if cable.await_messages(WHEELS, 10):
-            list_parameters(scene, BRIDGE)
-        cable.say_nonsense(CMD_VEL)
-        cable.await_messages(WHEELS, 25)
+def otherwise(scene: Scene) -> None:
+    """Another rover on a slower cable, as the parameters say; too fast; and no numbers at all."""
+    with (
+        board_beside(scene, body=OTHER, bits_s=int(BAUD.tried)) as cable,
+        scene.run(BRIDGE, start=cable.start(SETTINGS)),
+    ):
+        cable.begin(ODOM)
+        for part in ("straight", "turn"):
+            cable.drive(f"{part}, driving", CMD_VEL, *DRIVE[part], for_s=0.8)
+            cable.rest(part, ODOM)
+        for part, motion in TOO_FAST.items():
+            cable.drive(part, CMD_VEL, *motion, for_s=0.5)
+        cable.rest("too fast", ODOM)
+        cable.say_nonsense("nonsense", CMD_VEL)
+        cable.drive("after nonsense", CMD_VEL, *STRAIGHT, for_s=0.5)
+
+
+@experiment
+def unset(scene: Scene) -> None:
+    """The node with no word about its parameters."""
+    with scene.run(BRIDGE, start=unasked(scene, PORT)):
+        list_parameters(scene, BRIDGE)
 
 
 # --- the package -------------------------------------------------------------------------------
@@ -149,7 +196,7 @@ def test_builds(package: PackageView) -> None:
 @check(needs=["builds"])
 def test_runs(driving: ExperimentView) -> None:
     """The node starts and runs until Ctrl-C."""
-    driving.process(BRIDGE).must(come_up, stay_up)
+    driving.process(BRIDGE).must(come_up, stay_up, outlast_the_soak)
 
 
 @check(needs=["runs"])
@@ -159,9 +206,28 @@ def test_name(driving: ExperimentView) -> None:
 
 
 @check(needs=["runs"])
-def test_parameters(nonsense: ExperimentView) -> None:
+def test_parameters(driving: ExperimentView) -> None:
     """It has the parameters of the card, with their types and defaults."""
-    nonsense.must(declare_its_parameters(BRIDGE, PORT.name))
+    driving.must(declare_its_parameters(BRIDGE))
+
+
+@check(needs=["parameters"])
+def test_default_port(unset: ExperimentView) -> None:
+    """With no word about it, the port is {PORT.default}."""
+    unset.must(declare_its_parameters(BRIDGE))
+
+
+@check(needs=["runs"], explained_by={"parameters": "NoParameter"})
+def test_port(driving: ExperimentView) -> None:
+    """It opens the port that its parameter {PORT.name} names."""
+    driving.must(open_its_port(PORT.name, WHEELS))
+
+
+@check(needs=["port", "parameters"])
+def test_baud(driving: ExperimentView, otherwise: ExperimentView) -> None:
+    """It opens the port with the speed that its parameter {BAUD.name} says."""
+    driving.must(set_its_speed(BAUD.name, int(BAUD.default)))
+    otherwise.must(set_its_speed(BAUD.name, int(BAUD.tried)))
 
 
 @check(needs=["runs"])
@@ -185,7 +251,7 @@ def test_cmd_topic(driving: ExperimentView) -> None:
 # --- from ROS to the board ---------------------------------------------------------------------
 
 
-@check(needs=["cmd_topic"])
+@check(needs=["cmd_topic", "port"])
 def test_checksums(driving: ExperimentView) -> None:
     """The board can use every line of the node."""
     driving.must(send_good_lines)
@@ -195,10 +261,8 @@ def test_checksums(driving: ExperimentView) -> None:
 def test_drives(driving: ExperimentView) -> None:
     """The motors do what {CMD_VEL.topic} says."""
     driving.must(
-        drive_as_told("straight, driving", *STRAIGHT),
-        drive_as_told("turn, driving", *TURN),
-        drive_as_told("arc, driving", *ARC),
-        drive_as_told("after many", *STRAIGHT),
+        *(drive_as_told(f"{part}, driving", *motion, USUAL) for part, motion in DRIVE.items()),
+        drive_as_told("after many", *STRAIGHT, USUAL),
     )
 
 
@@ -211,19 +275,32 @@ def test_stops(driving: ExperimentView) -> None:
 # --- from the board to ROS ---------------------------------------------------------------------
 
 
-@check(needs=["wheel_topic"])
+@check(needs=["wheel_topic", "port"])
 def test_every_line(driving: ExperimentView) -> None:
-    """Each line of wheel speeds becomes one message."""
+    """Each line of wheel speeds becomes one message on {WHEELS.topic}."""
     driving.topic(WHEELS).must(tell_every_line(driving))
 
 
-@check(needs=["wheel_topic"])
+@check(needs=["odom_topic", "port"], explained_by={"every_line": "LinesAndMessagesDiffer"})
+def test_every_place(driving: ExperimentView) -> None:
+    """Each line of wheel speeds becomes one message on {ODOM.topic}, too."""
+    driving.topic(ODOM).must(tell_every_line(driving))
+
+
+@check(needs=["every_line", "parameters"])
+def test_pieces(otherwise: ExperimentView) -> None:
+    """On a slow cable lines come in pieces: none is lost."""
+    otherwise.process(BRIDGE).must(during("with other values of its parameters", come_up))
+    otherwise.topic(WHEELS).must(tell_every_line(otherwise))
+
+
+@check(needs=["wheel_topic", "port"])
 def test_wheel_speeds(driving: ExperimentView) -> None:
     """The messages carry the board's wheel speeds, left and right, in rad/s."""
     driving.topic(WHEELS).must(tell_the_speeds(driving))
 
 
-@check(needs=["wheel_topic", "odom_topic"])
+@check(needs=["wheel_topic", "odom_topic", "port"])
 def test_frames(driving: ExperimentView) -> None:
     """The messages name the wheels and the frames as the card does."""
     driving.topic(WHEELS).must(hold_its_fields(WHEELS))
@@ -248,6 +325,25 @@ def test_arc(driving: ExperimentView) -> None:
     driving.topic(ODOM).must(know_the_way(driving, "turn", "arc"))
 
 
+# --- another rover -----------------------------------------------------------------------------
+
+
+@check(needs=["drives", "straight", "turn", "pieces"])
+def test_settings(otherwise: ExperimentView) -> None:
+    """With other wheels and motors, it drives and reckons by its parameters."""
+    for part in ("straight", "turn"):
+        otherwise.must(drive_by_its_settings(f"{part}, driving", *DRIVE[part], OTHER, WITHOUT))
+    known = {each.name: each.tried for each in MEASURES}
+    for before, after in (("start", "straight"), ("straight", "turn")):
+        otherwise.topic(ODOM).must(reckon_by_its_settings(otherwise, before, after, known))
+
+
+@check(needs=["drives", "parameters"])
+def test_too_fast(otherwise: ExperimentView) -> None:
+    """A command that is too fast for the wheels gets full PWM, 255, and no more."""
+    otherwise.must(*(drive_at_most(part, *motion) for part, motion in TOO_FAST.items()))
+
+
 # --- when something is wrong -------------------------------------------------------------------
 
 
@@ -258,14 +354,14 @@ def test_bad_lines(noisy: ExperimentView) -> None:
     noisy.topic(WHEELS).must(tell_nothing_else(noisy))
 
 
-@check(needs=["wheel_topic"])
+@check(needs=["wheel_topic", "port"])
 def test_silence(silent: ExperimentView) -> None:
     """When the board was silent for {SILENCE_S:g} s, the node goes on with its next line."""
     silent.process(BRIDGE).must(during("beside a silent board", come_up, stay_up))
     silent.topic(WHEELS).must(outlast_silence(silent, "speaks again", SILENCE_S))
 
 
-@check(needs=["wheel_topic"])
+@check(needs=["wheel_topic", "port"])
 def test_reconnects(unplugged: ExperimentView) -> None:
     """The node waits for its board, and finds it again when its cable was pulled."""
     unplugged.process(BRIDGE).must(
@@ -276,11 +372,12 @@ def test_reconnects(unplugged: ExperimentView) -> None:
     unplugged.must(come_back("came back", "the cable was pulled and put back", WHEELS))
 
 
-@check(needs=["cmd_topic", "checksums"])
-def test_not_a_number(nonsense: ExperimentView) -> None:
-    """A command that is no number (NaN) moves nothing."""
-    nonsense.process(BRIDGE).must(during("after a command with NaN", stay_up))
-    nonsense.must(keep_still)
+@check(needs=["cmd_topic", "checksums"], explained_by={"drives": "DoesNotDrive"})
+def test_not_a_number(otherwise: ExperimentView) -> None:
+    """A command with NaN or infinity moves nothing, and the next one counts again."""
+    otherwise.must(come_so_far("nonsense"))
+    otherwise.process(BRIDGE).must(during("after a command with NaN or infinity", stay_up))
+    otherwise.must(keep_still("nonsense"), drive_again("after nonsense", "nonsense"))
 
 
 @check(needs=["runs"])

@@ -23,6 +23,7 @@ from roslings.judge import (
     install,
     list_what_it_imports,
     match_qos,
+    outlast_the_soak,
 )
 from roslings.judge.demands import written
 from roslings.judge.services import (
@@ -32,6 +33,7 @@ from roslings.judge.services import (
     before_the_calls,
     end_by_itself,
     give_up,
+    say_at_first,
     serve,
     serve_their_types,
     show_each,
@@ -45,6 +47,8 @@ SET_MAX_SPEED, RESET = SERVER.serves
 ASKED = CLIENT.calls[0]
 RESET_AGAIN = RESET.whatever_it_answers
 IN_A_ROW, CLIENTS, TIMES, RESETS = 100, 4, 25, 20
+FREE = RESET.answers[-1].state
+"""What the state says while there is no limit."""
 GIVES_UP = written(CLIENT.gives_up, CLIENT.node)
 
 
@@ -106,8 +110,8 @@ def test_builds(package: PackageView) -> None:
 
 @check(needs=["builds"])
 def test_server_runs(serving: ExperimentView) -> None:
-    """The server starts and makes a node."""
-    serving.process(SERVER).must(come_up)
+    """The server starts, makes a node and runs on."""
+    serving.process(SERVER).must(come_up, outlast_the_soak)
 
 
 @check(needs=["server_runs"])
@@ -152,7 +156,8 @@ def test_reset(serving: ExperimentView) -> None:
 
 @check(needs=["server_runs"], explained_by={"set_max_speed": "WrongAnswer", "reset": "WrongAnswer"})
 def test_state(serving: ExperimentView) -> None:
-    """The state is kept: {STATE.topic} says what was set."""
+    """The state is kept: {STATE.topic} says what was set, and {FREE} before that."""
+    before_the_calls(serving, STATE).must(say_at_first(FREE))
     serving.must(show_each(SERVER.serves, STATE))
 
 

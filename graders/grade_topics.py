@@ -28,6 +28,7 @@ from roslings.judge import (
     list_what_it_imports,
     log_each,
     match_qos,
+    outlast_the_soak,
     repeat,
     say_its_text,
     speak_unobserved,
@@ -109,7 +110,7 @@ def test_talker_runs(talking: ExperimentView) -> None:
 @check(needs=["talker_runs"])
 def test_talker_stays(talking: ExperimentView) -> None:
     """The talker runs until Ctrl-C."""
-    talking.process(TALKER).must(stay_up)
+    talking.process(TALKER).must(stay_up, outlast_the_soak)
 
 
 @check(needs=["talker_runs"])
@@ -157,7 +158,7 @@ def test_counting(talking: ExperimentView) -> None:
 
 @check(needs=["talker_type"])
 def test_talker_logs(talking: ExperimentView) -> None:
-    """The talker writes what it publishes."""
+    """The talker writes each message that it publishes, once."""
     texts = talking.topic(CHATTER).texts
     talking.process(TALKER).must(log_each(TALKER, texts))
 
@@ -168,7 +169,7 @@ def test_talker_logs(talking: ExperimentView) -> None:
 @check(needs=["builds"])
 def test_listener_runs(hearing: ExperimentView) -> None:
     """The listener starts, makes a node and runs until Ctrl-C."""
-    hearing.process(LISTENER).must(come_up, stay_up)
+    hearing.process(LISTENER).must(come_up, stay_up, outlast_the_soak)
 
 
 @check(needs=["listener_runs"])
@@ -185,7 +186,7 @@ def test_listener_topic(hearing: ExperimentView) -> None:
 
 @check(needs=["listener_runs"])
 def test_hears(hearing: ExperimentView) -> None:
-    """The listener writes every sentence said on {HEARD.topic}."""
+    """The listener writes every sentence said on {HEARD.topic}, once."""
     hearing.process(LISTENER).must(repeat(LISTENER, hearing.seen.spoken))
 
 
