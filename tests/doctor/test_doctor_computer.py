@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 from roslings.doctor.machine import Interpreter
+from roslings.doctor.surroundings import in_short
 
 from clinic import TODAY, Clinic, assert_absent, assert_ill, assert_well, ordinary_user
 
@@ -120,6 +121,21 @@ def test_ill_container(clinic: Clinic, path: str, text: str, name: str) -> None:
     assert_ill(clinic.look("container"), "advice", name, "--network=host")
 
 
+def test_ill_container__work_that_would_be_lost(clinic: Clinic) -> None:
+    clinic.file("/.dockerenv")
+    clinic.file("/proc/self/mounts", "overlay / overlay rw 0 0\nproc /proc proc rw 0 0\n")
+    assert_ill(clinic.look("container"), "advice", "is gone when", "-v roslings:")
+    volume = f"/dev/sda1 {clinic.machine.workspace} ext4 rw 0 0\n"
+    clinic.file("/proc/self/mounts", f"overlay / overlay rw 0 0\n{volume}")
+    assert "gone" not in clinic.look("container").found
+
+
+def test_ill_container__a_codespace(clinic: Clinic) -> None:
+    finding = clinic.file("/.dockerenv") and clinic.look("container", CODESPACES="true")
+    assert_ill(finding, "advice", "a codespace", "./roslings lab --no-browser")
+    assert "GitHub Codespaces" in in_short(clinic.machine)
+
+
 def test_well_container(clinic: Clinic) -> None:
     clinic.file("/proc/1/cgroup", "0::/init.scope")
     assert_well(clinic.look("container"))
@@ -129,6 +145,12 @@ def test_ill_wsl(clinic: Clinic) -> None:
     clinic.file("/proc/sys/kernel/osrelease", "4.4.0-19041-Microsoft\n")
     finding = clinic.look("wsl", WSL_DISTRO_NAME="Ubuntu-24.04")
     assert_ill(finding, "fault", "WSL 1", "wsl --set-version Ubuntu-24.04 2")
+
+
+def test_ill_wsl__on_the_disk_of_windows(clinic: Clinic) -> None:
+    clinic.file("/proc/sys/kernel/osrelease", "5.15.153.1-microsoft-standard-WSL2\n")
+    finding = clinic.change(clone=Path("/mnt/c/Users/Sam/roslings")).look("wsl")
+    assert_ill(finding, "advice", "many times slower", "cp -r /mnt/c/Users/Sam/roslings")
 
 
 def test_well_wsl(clinic: Clinic) -> None:

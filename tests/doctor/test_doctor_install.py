@@ -211,6 +211,12 @@ def test_ill_colcon(clinic: Clinic) -> None:
     assert_ill(finding, "fault", "not installed", "python3-colcon-common-extensions")
 
 
+def test_ill_colcon__only_that_of_the_course(clinic: Clinic) -> None:
+    clinic.apt(sourced=True).program("colcon", folder="/course/.venv-apt/bin")
+    finding = clinic.look("colcon")
+    assert_ill(finding, "advice", "colcon of its own", "python3-colcon-common-extensions")
+
+
 def test_ill_colcon__without_its_ros_part(clinic: Clinic) -> None:
     (clinic.packages() / "colcon_ros/__init__.py").unlink()
     (clinic.packages() / "colcon_ros").rmdir()

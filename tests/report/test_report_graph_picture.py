@@ -175,9 +175,16 @@ def test_the_name_says_png(name: str, tmp_path: Path) -> None:
         draw_graph(written.two(), tmp_path / name)
 
 
-def test_a_folder_that_is_not_there_is_told(tmp_path: Path) -> None:
-    """With the command that makes it."""
-    with pytest.raises(CannotWrite, match="mkdir -p"):
+def test_a_folder_that_is_not_there_is_made(tmp_path: Path) -> None:
+    """One command is enough."""
+    draw_graph(written.two(), tmp_path / "new" / "figures" / "graph.png")
+    assert (tmp_path / "new" / "figures" / "graph.png").is_file()
+
+
+def test_a_folder_that_cannot_be_made_is_told(tmp_path: Path) -> None:
+    """A file has its name."""
+    (tmp_path / "figures").touch()
+    with pytest.raises(CannotWrite, match="give a place where you may write"):
         draw_graph(written.two(), tmp_path / "figures" / "graph.png")
 
 

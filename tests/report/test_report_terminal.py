@@ -26,6 +26,8 @@ def shown(
     terminal: bool = False,
     hint_step: int | None = None,
     only: str | None = None,
+    whole: bool = False,
+    before: Verdict | None = None,
 ) -> str:
     """What the console writes, decoded."""
     raw = io.BytesIO()
@@ -38,7 +40,9 @@ def shown(
         color_system="standard" if terminal else None,
         legacy_windows=False,
     )
-    print_verdict(verdict, console=console, hint_step=hint_step, only=only)
+    print_verdict(
+        verdict, console=console, hint_step=hint_step, only=only, whole=whole, before=before
+    )
     stream.flush()
     return raw.getvalue().decode(encoding)
 
@@ -91,6 +95,32 @@ def test_three_failures_fit_a_screen_of_40_lines() -> None:
     text = without_colours(shown(written.three_faults(), height=40, terminal=True))
     assert text.count("\n") <= 39
     assert "well_formed 5/5, depends 5/5" in text
+
+
+def test_a_screen_has_the_first_failure_on_top_and_folds_the_others() -> None:
+    """Of the others there is one line each; `--all`, a file and a pipe have them whole."""
+    verdict = written.three_faults()
+    first, *others = verdict.failed()
+    screen = without_colours(shown(verdict, terminal=True))
+    assert screen.index(f"{first.id}: ") < screen.index("pass")
+    assert screen.count("  expected  ") == 1
+    assert screen.endswith("All       See every check whole: ./roslings check topics --all\n")
+    for text in (shown(verdict, terminal=True, whole=True), shown(verdict)):
+        assert text.count("  expected  ") == 1 + len(others)
+        assert "--all" not in text
+
+
+def test_a_screen_says_what_has_turned_green_and_what_is_green_no_more() -> None:
+    """Since the check before; where nothing changed, or nothing was before, nothing is said."""
+    before, now = written.three_faults(), written.too_slow()
+    green = without_colours(shown(now, terminal=True, before=before))
+    new = [check.id for check in before.failed() if check.id != "rate"]
+    assert f"New       Green since your last check: {', '.join(new)}.\n" in green
+    assert "Lost" not in green
+    lost = without_colours(shown(before, terminal=True, before=now))
+    assert f"Lost      Green before, and not now: {', '.join(new)}.\n" in lost
+    for same in (now, None):
+        assert "your last check" not in shown(now, terminal=True, before=same)
 
 
 def test_failure_says_expected_measured_why_what_to_try_and_what_is_next() -> None:

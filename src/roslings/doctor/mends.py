@@ -10,6 +10,7 @@ from roslings.doctor.machine import Machine, read_text
 from roslings.doctor.ros import APT_PREFIX, Ros, find_ros
 from roslings.doctor.surroundings import release
 
+X86 = ("x86_64", "AMD64")
 OLDEST_GLIBC = (2, 28)  # the wheels on PyPI are manylinux_2_28, x86-64 only
 OLDEST_PYTHON = (3, 10)
 NEWEST_PYTHON = (3, 13)
@@ -95,7 +96,7 @@ def wheels_fit(machine: Machine) -> bool:
     """Tell whether ROS can come as wheels here: Linux, x86-64, glibc 2.28, Python 3.10-3.13."""
     return (
         machine.linux
-        and machine.architecture in ("x86_64", "AMD64")
+        and machine.architecture in X86
         and machine.glibc >= OLDEST_GLIBC
         and OLDEST_PYTHON <= machine.interpreter.version[:2] <= NEWEST_PYTHON
     )
@@ -117,8 +118,13 @@ def install_ros(machine: Machine) -> tuple[Step, ...]:
 
 def container_way(machine: Machine) -> tuple[Step, ...]:
     """Return how to run the course in a container."""
+    on = "" if machine.architecture in X86 else " --build-arg BASE=ros:jazzy"
     return (
-        say("Install Docker: a container has ROS 2 Jazzy ready."),
+        say("Install Docker. A container has all that the course needs."),
+        do(
+            f"docker build -t roslings -f .devcontainer/Containerfile{on} .",
+            "In the course's folder, once:",
+        ),
         container_with(),
     )
 
@@ -161,9 +167,12 @@ INSTALLERS = {
 
 def container_with(*options: str) -> Step:
     """Return the command that starts the course's container with these options."""
-    lines = ["docker run -it --rm", *options, '-v "$PWD":/roslings -w /roslings', "ros:jazzy bash"]
-    why = "Outside, in the course's folder, start the container like this:"
-    return do(" \\\n  ".join(lines), why)
+    port = [] if any("--network" in option for option in options) else ["-p 8888:8888"]
+    work = "-v roslings:/work roslings"
+    return do(
+        " \\\n  ".join(["docker run -it --rm", *port, *options, work]),
+        "Outside, start the container like this. Your work is kept in the volume `roslings`:",
+    )
 
 
 def new_terminal() -> Step:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from pathlib import Path
 
 from roslings.doctor.machine import Machine, exists
 
@@ -38,6 +39,8 @@ def release(machine: Machine) -> Release:
 
 def container(machine: Machine) -> str:
     """Return the kind of container that this is (`Docker`, `Podman`), or ""."""
+    if codespace(machine):
+        return CODESPACE
     if exists(machine.path("/.dockerenv")):
         return "Docker"
     if exists(machine.path("/run/.containerenv")):
@@ -47,6 +50,21 @@ def container(machine: Machine) -> str:
     return CONTAINERS.get(kind, kind) or (CONTAINERS[inside.group()] if inside else "")
 
 
+def codespace(machine: Machine) -> bool:
+    """Tell whether this is a container on a computer of GitHub's.
+
+    https://docs.github.com/en/codespaces, "Default environment variables for your codespace".
+    """
+    return machine.env.get("CODESPACES") == "true"
+
+
+def outlives(machine: Machine, folder: Path) -> bool:
+    """Tell whether a folder lies outside of the container: on a volume, or a folder of the host."""
+    mounts = [line.split()[1] for line in machine.read("/proc/self/mounts").splitlines() if line]
+    return any(Path(mount) in (folder, *folder.parents) for mount in mounts if mount != "/")
+
+
+CODESPACE = "GitHub Codespaces"
 CONTAINERS = {
     "docker": "Docker",
     "podman": "Podman",

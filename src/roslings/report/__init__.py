@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from roslings.report.check50 import write_check50
+    from roslings.report.classroom import write_classroom
     from roslings.report.evidence_file import BadEvidence, read_evidence
     from roslings.report.evidence_folder import CannotKeepThere
     from roslings.report.gradescope import write_gradescope
@@ -18,9 +19,11 @@ if TYPE_CHECKING:
     from roslings.report.graph_words import describe_graph, graph_text
     from roslings.report.json_file import BadVerdictFile, read_json, write_json
     from roslings.report.junit import write_junit
+    from roslings.report.prairielearn import write_prairielearn
     from roslings.report.progress import Progress
     from roslings.report.refusal import Refusal
     from roslings.report.terminal import NoSuchCheck, print_verdict
+    from roslings.report.vpl import write_vpl
     from roslings.report.whole_file import CannotWrite
 
 __all__ = [
@@ -38,9 +41,12 @@ __all__ = [
     "read_evidence",
     "read_json",
     "write_check50",
+    "write_classroom",
     "write_gradescope",
     "write_json",
     "write_junit",
+    "write_prairielearn",
+    "write_vpl",
 ]
 
 _HOMES = {
@@ -58,9 +64,12 @@ _HOMES = {
     "print_verdict": "terminal",
     "read_json": "json_file",
     "write_check50": "check50",
+    "write_classroom": "classroom",
     "write_gradescope": "gradescope",
     "write_json": "json_file",
     "write_junit": "junit",
+    "write_prairielearn": "prairielearn",
+    "write_vpl": "vpl",
 }
 
 

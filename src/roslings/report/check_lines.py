@@ -38,7 +38,10 @@ def points_of(check: CheckResult) -> str:
 
 def put_line(page: Page, check: CheckResult, points_width: int = 0) -> None:
     """One check on one line; its end is cut off where the line is too short."""
-    page.headed_line(_head(page, check, points_width), _title(check), style=STYLES[check.outcome])
+    text = _title(check)
+    if check.outcome == "pass" and check.measured:
+        text = f"{text.removesuffix('.')} ({check.measured})"
+    page.headed_line(_head(page, check, points_width), text, style=STYLES[check.outcome])
 
 
 def put_heading(page: Page, check: CheckResult, points_width: int = 0) -> None:
@@ -66,7 +69,7 @@ def put_details(page: Page, check: CheckResult, package: str) -> None:
     }
     for label, text in parts.items():
         if text:
-            page.labelled(label, text, indent=INDENT)
+            page.labelled(label, page.typed.told(text), indent=INDENT)
     _put_log(page, check.log, package)
 
 

@@ -13,7 +13,7 @@ from roslings.evidence import GraphSeen
 from roslings.report.graph_shape import shape_of
 from roslings.report.graph_words import describe_graph, graph_text
 from roslings.report.safe_text import harmless
-from roslings.report.whole_file import already_there, write_whole
+from roslings.report.whole_file import already_there, make_folder_of, write_whole
 
 __all__ = ["NotAPng", "describe_graph", "draw_graph", "graph_text"]
 
@@ -37,7 +37,7 @@ def draw_graph(
     show_hidden: bool = False,
     overwrite: bool = False,
 ) -> None:
-    """Draw `graph` into the PNG `path`, with its description as metadata.
+    """Draw `graph` into the PNG `path`, with its description as metadata; make its folder.
 
     Raises FileExistsError without `overwrite`, NotAPng, CannotWrite; ModuleNotFoundError where
     matplotlib (the group `graph`) is not installed.
@@ -47,6 +47,7 @@ def draw_graph(
     if path.exists() and not overwrite:
         raise already_there(path)
     picture = _png(graph, title, show_hidden)
+    make_folder_of(path)
     write_whole(path, picture, overwrite=overwrite)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from roslings.report.check_lines import INDENT, put_heading, put_title
 from roslings.report.page import Page
+from roslings.report.typed import Typed
 from roslings.verdict import CheckResult, Verdict
 
 STEPS = ("where to look", "which idea", "the same idea in other code")
@@ -14,11 +15,11 @@ def first_failed(verdict: Verdict) -> CheckResult | None:
     return next(iter(verdict.failed()), None)
 
 
-def hint_command(verdict: Verdict, check: CheckResult, step: int) -> str:
+def hint_command(typed: Typed, verdict: Verdict, check: CheckResult, step: int) -> str:
     """What the student types for step `step` (1 to 3) of the hint for `check`."""
-    only = "" if check == first_failed(verdict) else f" --only {check.id}"
-    number = "" if step == 1 else f" {step}"
-    return f"./roslings check {verdict.lab}{only} --hint{number}"
+    only = () if check == first_failed(verdict) else ("--only", check.id)
+    number = () if step == 1 else (str(step),)
+    return typed.check(*only, "--hint", *number)
 
 
 def put_hint(page: Page, verdict: Verdict, check: CheckResult | None, step: int) -> None:
@@ -27,7 +28,7 @@ def put_hint(page: Page, verdict: Verdict, check: CheckResult | None, step: int)
         raise ValueError(f"A hint has the steps 1 to {len(STEPS)}; there is no step {step}.")
     put_title(page, verdict)
     if check is None:
-        _put_none_failed(page, verdict)
+        _put_none_failed(page)
         return
     put_heading(page, check)
     if check.outcome == "fail":
@@ -44,7 +45,7 @@ def _put_step(page: Page, verdict: Verdict, check: CheckResult, step: int) -> No
         page.line("This check has no such hint.")
     else:
         page.line(f"Hint {step} of {len(check.hints)}: {STEPS[step - 1]}", "bold")
-        page.text(check.hints[step - 1], indent=INDENT)
+        page.text(page.typed.told(check.hints[step - 1]), indent=INDENT)
     page.blank()
     _put_after(page, verdict, check, step)
 
@@ -53,13 +54,13 @@ def _put_after(page: Page, verdict: Verdict, check: CheckResult, step: int) -> N
     if check.lesson:
         page.labelled("Read", check.lesson)
     if step < len(check.hints):
-        page.command("More", "The next hint:", hint_command(verdict, check, step + 1))
-    page.command("Next", "Mend it, then check again:", f"./roslings check {verdict.lab}")
+        page.command("More", "The next hint:", hint_command(page.typed, verdict, check, step + 1))
+    page.command("Next", "Mend it, then check again:", page.typed.check())
 
 
-def _put_none_failed(page: Page, verdict: Verdict) -> None:
+def _put_none_failed(page: Page) -> None:
     page.line("No check failed, so there is nothing to give a hint for.")
-    page.command("Next", "See all checks:", f"./roslings check {verdict.lab}")
+    page.command("Next", "See all checks:", page.typed.check())
 
 
 def _put_no_hint(page: Page, verdict: Verdict, check: CheckResult) -> None:
@@ -69,7 +70,7 @@ def _put_no_hint(page: Page, verdict: Verdict, check: CheckResult) -> None:
     page.blank()
     if first is None:
         page.line("This check did not fail, so it needs no hint.")
-        page.command("Next", "See all checks:", f"./roslings check {verdict.lab}")
+        page.command("Next", "See all checks:", page.typed.check())
     else:
         page.line("This check did not fail. Hints are for checks that failed.")
-        page.command("Next", f"A hint for {first.id}:", hint_command(verdict, first, 1))
+        page.command("Next", f"A hint for {first.id}:", hint_command(page.typed, verdict, first, 1))

@@ -13,6 +13,7 @@ from rich.panel import Panel
 from rich.text import Text
 
 from roslings.report.safe_text import can_show, cut_to, filled, harmless, in_encoding, wrapped
+from roslings.report.typed import Typed
 
 MARKS = {"pass": "✓", "fail": "✗", "skip": "○", "inconclusive": "?"}
 ASCII_MARKS = {"pass": "+", "fail": "x", "skip": "-", "inconclusive": "?"}
@@ -25,8 +26,10 @@ NARROWEST = 24
 class Page:
     """Lines for one console: as wide as it is, in characters that its encoding has."""
 
-    def __init__(self, console: Console) -> None:
+    def __init__(self, console: Console, typed: Typed) -> None:
+        """`typed` is how the verdict was asked for: what is to be typed next is said like that."""
         self._console = console
+        self.typed = typed
         self._parts: list[RenderableType] = []
         self.width = max(console.width, NARROWEST)
         self.marks = MARKS if self._shows("".join(MARKS.values()) + "…╭") else ASCII_MARKS

@@ -16,10 +16,14 @@ from roslings.report.check_lines import (
     put_title,
     put_together,
 )
+from roslings.report.groups import by_reason, of_outcome
 from roslings.report.hint_page import first_failed, hint_command, put_hint
 from roslings.report.page import Page
+from roslings.report.screen_page import put_screen
+from roslings.report.typed import Typed
 from roslings.verdict import CheckOutcome, CheckResult, Verdict
 
+UNSOAKED = "Your nodes ran for some seconds here. `pack` lets them run for longer."
 NOT_JUDGED: tuple[CheckOutcome, ...] = ("skip", "inconclusive")
 
 
@@ -39,20 +43,29 @@ def print_verdict(
     console: Console,
     hint_step: int | None = None,
     only: str | None = None,
+    whole: bool = False,
+    before: Verdict | None = None,
+    typed: Typed | None = None,
 ) -> None:
     """Show `verdict` on `console`; with `hint_step` (1 to 3) a hint and not the whole verdict.
 
+    A screen gets the first failed check whole and the others folded, unless `whole` is asked for,
+    and what has changed since `before`.
     `only` names the one check that is shown, or that the hint is for; without it a hint is for
-    the first check that failed. Raises NoSuchCheck, and ValueError for another `hint_step`.
+    the first check that failed. `typed` is how the verdict was asked for. Raises NoSuchCheck, and
+    ValueError for another `hint_step`.
     """
+    typed = typed or Typed(verdict.lab)
     check = None if only is None else _named(verdict, only)
     if hint_step is not None:
-        page = Page(console)
+        page = Page(console, typed)
         put_hint(page, verdict, check or first_failed(verdict), hint_step)
     elif check is not None:
-        page = _page_of_one(verdict, Page(console), check)
+        page = _page_of_one(verdict, Page(console, typed), check)
+    elif console.is_terminal and not whole and (first := first_failed(verdict)):
+        page = _page_of_first(verdict, Page(console, typed), first, before)
     else:
-        page = _page_of_all(verdict, console)
+        page = _page_of_all(verdict, console, typed)
     page.print()
 
 
@@ -69,16 +82,25 @@ def _page_of_one(verdict: Verdict, page: Page, check: CheckResult) -> Page:
     put_details(page, check, verdict.package)
     page.blank()
     if check.outcome == "fail" and check.hints:
-        page.command("Stuck", "Ask for a hint:", hint_command(verdict, check, 1))
-    page.command("Next", "See all checks:", f"./roslings check {verdict.lab}")
+        page.command("Stuck", "Ask for a hint:", hint_command(page.typed, verdict, check, 1))
+    page.command("Next", "See all checks:", page.typed.check())
     return page
 
 
-def _page_of_all(verdict: Verdict, console: Console) -> Page:
+def _page_of_first(
+    verdict: Verdict, page: Page, first: CheckResult, before: Verdict | None
+) -> Page:
+    put_screen(page, verdict, first, before)
+    _put_end(page, verdict)
+    page.command("All", "See every check whole:", page.typed.check("--all"))
+    return page
+
+
+def _page_of_all(verdict: Verdict, console: Console, typed: Typed) -> Page:
     """A line for each check; on a screen too low for that, what is not wrong shares lines."""
-    page = _filled(Page(console), verdict, _each_on_a_line)
+    page = _filled(Page(console, typed), verdict, _each_on_a_line)
     if console.is_terminal and page.height() >= console.height:
-        page = _filled(Page(console), verdict, _on_shared_lines)
+        page = _filled(Page(console, typed), verdict, _on_shared_lines)
     return page
 
 
@@ -88,38 +110,30 @@ Put = Callable[[Page, Sequence[CheckResult], int], None]
 def _filled(page: Page, verdict: Verdict, put: Put) -> Page:
     width = max((len(points_of(check)) for check in verdict.checks), default=0)
     put_title(page, verdict)
-    put(page, _of(verdict, "pass"), width)
+    put(page, of_outcome(verdict, "pass"), width)
     for outcome in NOT_JUDGED:
-        _put_not_judged(page, _of(verdict, outcome), width, put)
+        _put_not_judged(page, of_outcome(verdict, outcome), width, put)
     for check in verdict.failed():
         page.blank()
         put_heading(page, check, width)
         put_details(page, check, verdict.package)
+    _put_end(page, verdict)
+    return page
+
+
+def _put_end(page: Page, verdict: Verdict) -> None:
     _put_advice(page, verdict)
     page.blank()
     _put_score(page, verdict)
     _put_next(page, verdict)
-    return page
 
 
 def _put_not_judged(page: Page, checks: Sequence[CheckResult], width: int, put: Put) -> None:
     if checks:
         page.blank()
-    for reason, group in _by_reason(checks):
+    for reason, group in by_reason(checks):
         put(page, group, width)
         page.labelled("why", reason, indent=INDENT)
-
-
-def _of(verdict: Verdict, outcome: CheckOutcome) -> list[CheckResult]:
-    return [check for check in verdict.checks if check.outcome == outcome]
-
-
-def _by_reason(checks: Sequence[CheckResult]) -> list[tuple[str, list[CheckResult]]]:
-    """Checks that were not judged, put together where the reason is the same."""
-    groups: dict[str, list[CheckResult]] = {}
-    for check in checks:
-        groups.setdefault(check.why or "not said", []).append(check)
-    return list(groups.items())
 
 
 def _each_on_a_line(page: Page, checks: Sequence[CheckResult], points_width: int) -> None:
@@ -150,10 +164,10 @@ def _count(verdict: Verdict) -> str:
     if verdict.outcome == "pass":
         return f"{total}, and every one passes."
     parts = [
-        _counted(len(_of(verdict, "pass")), "passes", "pass"),
-        _counted(len(_of(verdict, "fail")), "fails", "fail"),
-        _counted(len(_of(verdict, "skip")), "is skipped", "are skipped"),
-        _counted(len(_of(verdict, "inconclusive")), "is open", "are open"),
+        _counted(len(of_outcome(verdict, "pass")), "passes", "pass"),
+        _counted(len(of_outcome(verdict, "fail")), "fails", "fail"),
+        _counted(len(of_outcome(verdict, "skip")), "is skipped", "are skipped"),
+        _counted(len(of_outcome(verdict, "inconclusive")), "is open", "are open"),
     ]
     return f"{total}: {', '.join(part for part in parts if not part.startswith('0'))}."
 
@@ -174,20 +188,21 @@ def _put_next(page: Page, verdict: Verdict) -> None:
 
 def _put_praise(page: Page, verdict: Verdict) -> None:
     page.labelled("", f"Well done: {verdict.package} does all that this lab asks for.")
-    page.command("Next", "Make the file to hand in:", f"./roslings pack {verdict.lab}")
-    page.command("", "Then go on with the course:", "./roslings")
+    if not verdict.soak_s:
+        page.labelled("", UNSOAKED)
+    page.command("Next", "Make the file to hand in:", page.typed.pack)
+    page.command("", "Then go on with the course:", page.typed.program)
 
 
 def _put_mend(page: Page, verdict: Verdict, first: CheckResult) -> None:
-    command = f"./roslings check {verdict.lab}"
     order = " first" if len(verdict.failed()) > 1 else ""
-    page.command("Next", f'Mend "{first.id}"{order}, then check again:', command)
+    page.command("Next", f'Mend "{first.id}"{order}, then check again:', page.typed.check())
     if first.hints:
-        page.command("Stuck", "Ask for a hint:", hint_command(verdict, first, 1))
+        page.command("Stuck", "Ask for a hint:", hint_command(page.typed, verdict, first, 1))
 
 
 def _put_look_again(page: Page, verdict: Verdict) -> None:
     if verdict.outcome == "inconclusive":
         page.labelled("", "Not everything could be told. This costs you nothing.")
-    page.command("Next", "Check again:", f"./roslings check {verdict.lab}")
-    page.command("", "If it stays so, look at the machine:", "./roslings doctor")
+    page.command("Next", "Check again:", page.typed.check())
+    page.command("", "If it stays so, look at the machine:", f"{page.typed.program} doctor")

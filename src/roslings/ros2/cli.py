@@ -105,12 +105,25 @@ def complete() -> None:
 def run_here(argv: list[str]) -> int:
     """Run the command in this process, and leave the process as it is."""
     word = first_word(argv)
+    if argv[:1] == ["--version"]:
+        return no_version()
     if word not in COMMANDS and word is not None:
         return not_ours(word)
     if word in DOCTORS:
         return examine(word, argv[1:])
     options = parser_for(word).parse_args(argv)
     return int(options.run(options))
+
+
+def no_version() -> int:
+    """The real `ros2` has no such option either; what is asked for has an answer all the same."""
+    print(
+        "ros2 has no --version. This is ROS 2 Jazzy, as Python packages, and the ros2 command is"
+        " that of roslings.\nAll about this computer: ros2 doctor."
+        " Where ROS comes from apt: echo $ROS_DISTRO",
+        file=sys.stderr,
+    )
+    return WRONG_USE
 
 
 def examine(command: str, words: list[str]) -> int:

@@ -6,7 +6,9 @@ import os
 from collections.abc import Iterable
 from pathlib import Path
 
+from roslings.ros2.absent import ABSENT
 from roslings.ros2.problem import Problem, did_you_mean
+from roslings.ros2.unbuilt import advice
 
 BUILT_IN = {"demo_nodes_py": Path(__file__).parent}
 """Packages that come with roslings, and the folder that each lies in."""
@@ -20,8 +22,15 @@ class PackageNotFound(Problem):
     """No sourced workspace has the package."""
 
     def __init__(self, package: str) -> None:
-        near = did_you_mean(package, packages())
-        super().__init__(f"Package '{package}' not found.{near}\n{SOURCE_IT}")
+        super().__init__(_not_found(package))
+
+
+def _not_found(package: str) -> str:
+    known = advice(package)
+    if package in ABSENT and not known:
+        return ABSENT[package].told(package)
+    near = "" if known else did_you_mean(package, packages())
+    return f"Package '{package}' not found.{near}\n{known or SOURCE_IT}"
 
 
 class NoExecutable(Problem):

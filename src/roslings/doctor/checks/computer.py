@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import datetime
 import os
+import re
 
 from roslings.doctor.finding import (
     Finding,
@@ -29,7 +30,7 @@ from roslings.doctor.mends import (
 )
 from roslings.doctor.registry import check
 from roslings.doctor.ros import find_ros
-from roslings.doctor.surroundings import container, release, wsl
+from roslings.doctor.surroundings import codespace, container, outlives, release, wsl
 
 MEGA = 1_000_000
 GIGA = 1_000_000_000
@@ -187,7 +188,7 @@ def _more_shared_memory(machine: Machine) -> tuple[Step, ...]:
 @check(
     "container",
     "The doctor can see the whole machine",
-    looks_at="signs of a container: /.dockerenv, /run/.containerenv, /proc/1/cgroup",
+    looks_at="signs of a container: CODESPACES, /.dockerenv, /run/.containerenv, /proc/1/cgroup",
     lesson="01-install#container",
 )
 def in_container(machine: Machine) -> Finding:
@@ -195,18 +196,36 @@ def in_container(machine: Machine) -> Finding:
     kind = container(machine)
     if not kind:
         return ok("No container.")
+    if codespace(machine):
+        return _in_codespace()
+    lost = "" if outlives(machine, machine.workspace) else LOST.format(machine.workspace)
     return advice(
         f"This is a container ({kind}). The doctor cannot see the host's firewall, clock service"
-        " or USB ports from in here.",
+        f" or USB ports from in here.{lost}",
         say("Only if you need a robot or a board. ttyACM0 is the board's port:"),
         container_with("--network=host --ipc=host", "--device=/dev/ttyACM0"),
+    )
+
+
+LOST = " Your work in {} is in it too: it is gone when the container is removed."
+
+
+def _in_codespace() -> Finding:
+    return advice(
+        "This is a codespace: a container on a computer of GitHub's. No robot, board or camera is"
+        " near it.",
+        do(
+            "./roslings lab --no-browser",
+            "For lessons, type this and open port 8888 (PORTS):",
+        ),
+        do("./roslings pack topics", "GitHub deletes codespaces that rest. Download your work:"),
     )
 
 
 @check(
     "wsl",
     "WSL is version 2",
-    looks_at="the name of the kernel",
+    looks_at="the name of the kernel, and where the course lies",
     lesson="01-install#windows",
     rows=(23,),
 )
@@ -215,8 +234,13 @@ def wsl_version(machine: Machine) -> Finding:
     version = wsl(machine)
     if not version:
         return not_applicable("this is not Windows's WSL")
+    if version == 2 and re.match("/mnt/[a-z]/", str(machine.clone)):
+        return advice(
+            f"{machine.clone} lies on Windows's own disk. From WSL that is many times slower.",
+            do(f"cp -r {quoted(machine.clone)} ~/roslings\ncd ~/roslings", "Copy it into Linux:"),
+        )
     if version == 2:
-        return ok("WSL 2.")
+        return ok("WSL 2. Lessons open in Windows's browser.")
     name = machine.env.get("WSL_DISTRO_NAME", "Ubuntu-24.04")
     return fault(
         "This is WSL 1. It has no Linux kernel, and ROS needs one.",

@@ -37,6 +37,7 @@ from roslings.doctor.ros import DISTRO, Ros, find_ros, has_library
 from roslings.doctor.surroundings import release
 
 KEYRING = "/usr/share/keyrings"
+BESIDE_ROS = ".venv-apt"  # the course's environment where a ROS is sourced
 SETUPTOOLS_LIMIT = 80  # colcon-core#696: 80 dropped what `--symlink-install` calls
 
 
@@ -363,12 +364,7 @@ def colcon(machine: Machine) -> Finding:
     ros = find_ros(machine)
     program = machine.which("colcon") or (ros.prefix / "bin/colcon" if ros else None)
     if program is None or not exists(program):
-        return fault(
-            "colcon is not installed.",
-            *install_package(
-                machine, "python3-colcon-common-extensions", "colcon-common-extensions"
-            ),
-        )
+        return _no_colcon(machine)
     folders = [
         *([ros.packages] if ros else []),
         *_user_packages(machine),
@@ -380,6 +376,20 @@ def colcon(machine: Machine) -> Finding:
         "colcon is here, but not the part that knows ROS packages (colcon-ros).",
         *install_package(machine, "python3-colcon-ros", "colcon-ros"),
     )
+
+
+def _no_colcon(machine: Machine) -> Finding:
+    """Beside a sourced ROS, `./roslings` has brought one of its own, for itself."""
+    install = install_package(
+        machine, "python3-colcon-common-extensions", "colcon-common-extensions"
+    )
+    if exists(machine.clone / BESIDE_ROS / "bin/colcon"):
+        return advice(
+            "./roslings builds with a colcon of its own. To type colcon yourself, this terminal"
+            " needs one.",
+            *install,
+        )
+    return fault("colcon is not installed.", *install)
 
 
 @check(
@@ -421,7 +431,7 @@ def environment(machine: Machine) -> Finding:
     """You change a file and nothing changes, or 'bad interpreter: No such file or directory'."""
     active = machine.env.get("VIRTUAL_ENV", "")
     own = machine.clone / ".venv"
-    ours = (own, machine.clone / ".venv-apt")
+    ours = (own, machine.clone / BESIDE_ROS)
     if active and not exists(Path(active)):
         return fault(f"The active environment {active} is gone.", new_terminal())
     if active and Path(active) not in ours and exists(Path(active).parent / "roslings"):

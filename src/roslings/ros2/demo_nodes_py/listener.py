@@ -2,6 +2,7 @@
 
 import rclpy
 from rclpy._rclpy_pybind11 import RCLError
+from rclpy.exceptions import NotInitializedException
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from std_msgs.msg import String
@@ -20,17 +21,23 @@ class Listener(Node):
 
 
 def main() -> None:
-    """Run the node until Ctrl-C.
+    """Run the node until Ctrl-C. What is wrong before that, a domain that is no number, is told.
 
     No try_shutdown(): rclpy's signal handler ends the context in a thread of its own, and may come
     between the two steps of that call, or while the executor works with the context.
     """
     try:
         rclpy.init()
-        rclpy.spin(Listener())
+        listen()
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
-    except RCLError:
+
+
+def listen() -> None:
+    """Listen until Ctrl-C, which may take the context away at any moment: that is no error."""
+    try:
+        rclpy.spin(Listener())
+    except (NotInitializedException, RCLError):
         if rclpy.ok():
             raise
 

@@ -1,0 +1,75 @@
+"""Well-known programs that only the full installation has, and what to use here instead.
+
+Guides name them in their first lines, so "not found" alone would leave a beginner stuck.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from roslings.ros2.handover import hand_over
+from roslings.ros2.words import WRONG_USE
+
+
+@dataclass(frozen=True)
+class Absent:
+    """A package that the wheels do not have."""
+
+    what: str
+    instead: str
+    apt: str = ""
+    """The Ubuntu package, where its name is not made from the ROS package's."""
+
+    def told(self, name: str) -> str:
+        """Two lines: what is missing, what to type here, and where the real one is."""
+        apt = self.apt or f"ros-jazzy-{name.replace('_', '-')}"
+        return (
+            f"'{name}' is not here: it {self.what}. Use instead: {self.instead}\n"
+            f"The real one needs Ubuntu 24.04: sudo apt install {apt}"
+        )
+
+
+GRAPH = "rqt_graph, or ./roslings graph in the roslings folder"
+ROVER = "the rover and its map: ./roslings rover"
+DRIVE = 'ros2 topic pub /cmd_vel geometry_msgs/msg/Twist "{linear: {x: 0.3}}"'
+PICTURES = "show_image in a notebook (day 7), or ros2 topic hz and echo --no-arr"
+TF = "ros2 topic echo /tf"
+TEACHING = "is another guide's example"
+DEMO = "ros2 run demo_nodes_py talker"
+
+ABSENT = {
+    "demo_nodes_cpp": Absent("is compiled", DEMO),
+    "examples_rclpy_minimal_publisher": Absent(TEACHING, DEMO),
+    "examples_rclpy_minimal_subscriber": Absent(TEACHING, "ros2 run demo_nodes_py listener"),
+    "image_tools": Absent("shows pictures in a window", PICTURES),
+    "joint_state_publisher_gui": Absent("opens a window", "ros2 topic pub /joint_states ..."),
+    "nav2_bringup": Absent("drives large robots", ROVER, "ros-jazzy-navigation2"),
+    "robot_state_publisher": Absent("is compiled", TF),
+    "ros_gz_sim": Absent("is a large simulator", ROVER, "ros-jazzy-ros-gz"),
+    "rqt": Absent("opens a window", f"for the graph {GRAPH}; for the rest ros2 topic, node, param"),
+    "rqt_console": Absent("opens a window", "ros2 topic echo /rosout"),
+    "rqt_gui": Absent("opens a window", f"for the graph {GRAPH}", "ros-jazzy-rqt"),
+    "rqt_image_view": Absent("shows pictures in a window", PICTURES),
+    "rqt_plot": Absent("draws curves in a window", "ros2 topic echo TOPIC --field data"),
+    "rviz2": Absent("draws robots in 3D", f"{ROVER}; for numbers ros2 topic echo"),
+    "slam_toolbox": Absent("makes maps of rooms", ROVER),
+    "teleop_twist_keyboard": Absent("reads keys", DRIVE),
+    "tf2_ros": Absent("is compiled (tf2_echo and others)", TF),
+    "tf2_tools": Absent("draws the tree of frames", TF),
+    "turtlesim": Absent("opens a window", f"{ROVER}; to drive it, {DRIVE}"),
+    "usb_cam": Absent("reads a real camera", "./roslings camera, and your node of day 7"),
+    "v4l2_camera": Absent("reads a real camera", "./roslings camera, and your node of day 7"),
+}
+"""Name of the package, or of the command, to what is said."""
+
+COMMANDS = ("rqt", "rqt_console", "rqt_plot", "rviz2")
+"""Those that are typed without `ros2 run`; `bootstrap/virtual.py` puts them on the path."""
+
+
+def main(name: str, argv: Sequence[str]) -> int:
+    """Become the real command where there is one, else say what to use."""
+    hand_over(name, f"{name}.main", argv)
+    print(ABSENT[name].told(name), file=sys.stderr)
+    return WRONG_USE

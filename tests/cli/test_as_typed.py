@@ -1,0 +1,115 @@
+"""Commands that repeat what was typed, and those that find the package as `check` does."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+from roslings import course
+from roslings.arena.lease import leased_domain
+from roslings.cli import parser
+from roslings.typed import as_typed, program
+
+TALKER = "from roslings.ros2.demo_nodes_py.talker import main; main()"
+
+
+@pytest.mark.parametrize(
+    ("words", "again"),
+    [
+        (["topics"], "check topics"),
+        (["topics", "my/path"], "check topics my/path"),
+        (["topics", "my path", "--html", "page.html"], "check topics 'my path'"),
+        (["topics", "--solution", "--seed", "3"], "check topics --solution"),
+        (["topics", "--clock", "wall", "--port", "/dev/x"],
+         "check topics --port /dev/x --clock wall"),
+    ],
+)  # fmt: skip
+def test_what_decides_what_is_checked_is_repeated(words: list[str], again: str) -> None:
+    """Not where the verdict is written to."""
+    typed = as_typed(parser().parse_args(["check", *words]))
+    assert typed.check() == f"{program()} {again}"
+
+
+def test_how_roslings_is_called_from_here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """`./roslings` in its folder; elsewhere the name that `source setup.bash` made known."""
+    monkeypatch.chdir(course.root())
+    assert program() == "./roslings"
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("PATH", f"{course.root()}{os.pathsep}/usr/bin")
+    assert program() == "roslings"
+    monkeypatch.setenv("PATH", "/usr/bin")
+    assert program() == "./roslings"
+
+
+def roslings(home: Path, *words: str, domain: int = 0) -> subprocess.CompletedProcess[str]:
+    """One command of a student whose home is empty but for the workspace."""
+    own = {"HOME": str(home), "ROSLINGS_WS": str(home / "roslings_ws"),
+           "ROS_DOMAIN_ID": str(domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}  # fmt: skip
+    return subprocess.run(
+        [sys.executable, "-m", "roslings", *words], cwd=course.root(),
+        env={**os.environ, **own}, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+
+
+def test_status_has_straight_columns(tmp_path: Path) -> None:
+    """The longest name of a lab moves none of them."""
+    lines = roslings(tmp_path, "status").stdout.splitlines()
+    labs = [line for line in lines if line.startswith("      ")]
+    assert len(labs) == len(course.all_labs())
+    assert len({line.index("not begun") for line in labs}) == 1
+
+
+@contextmanager
+def a_talker(home: Path) -> Iterator[int]:
+    """A node that runs, and its domain."""
+    with leased_domain() as domain:
+        own = {"HOME": str(home), "ROS_DOMAIN_ID": str(domain),
+               "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}  # fmt: skip
+        with subprocess.Popen(
+            [sys.executable, "-c", TALKER], env={**os.environ, **own}, stderr=subprocess.PIPE,
+            text=True,
+        ) as node:  # fmt: skip
+            assert node.stderr
+            node.stderr.readline()
+            yield domain
+            node.kill()
+
+
+@pytest.mark.parametrize("place", ["roslings_ws/src", "elsewhere"])
+def test_one_command_saves_the_picture_that_a_lab_wants(tmp_path: Path, place: str) -> None:
+    """Into the package, wherever it lies; the folder is made, and an older one is kept."""
+    lab = course.lab("topics")
+    package = tmp_path / place / "chatter"
+    shutil.copytree(lab.solution, package)
+    picture = package / lab.card.pictures[0].path
+    shutil.rmtree(picture.parent)
+    named = [] if place.startswith("roslings_ws") else [str(package)]
+    with a_talker(tmp_path) as domain:
+        done = roslings(tmp_path, "graph", "--for", "topics", *named, domain=domain)
+        assert done.returncode == 0, done.stderr
+        assert re.search(rf"^Saved ~/{place}/chatter/figures/", done.stdout, re.M)
+        assert picture.read_bytes().startswith(b"\x89PNG")
+        again = roslings(tmp_path, "graph", "--for", "topics", *named, domain=domain)
+        assert again.returncode == 2
+        assert "is there already" in again.stderr
+
+
+def test_a_picture_of_nothing_is_not_saved(tmp_path: Path) -> None:
+    """A student who forgot to start the nodes is told."""
+    lab = course.lab("topics")
+    package = tmp_path / "roslings_ws" / "src" / "chatter"
+    shutil.copytree(lab.solution, package)
+    shutil.rmtree((package / lab.card.pictures[0].path).parent)
+    with leased_domain() as domain:
+        done = roslings(tmp_path, "graph", "--for", "topics", domain=domain)
+    assert done.returncode == 1
+    assert "Nothing was saved: no node runs." in done.stdout
+    assert not (package / "figures").exists()

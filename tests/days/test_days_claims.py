@@ -1,0 +1,139 @@
+"""What a lesson says in words of an output is typed, or looked up where the lesson was executed."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from ast import literal_eval
+from pathlib import Path
+
+import nbformat
+import pytest
+import yaml
+from lesson_runs import lessons, walked
+from pydantic import BaseModel, ConfigDict
+
+from roslings.arena.lease import leased_domain
+from roslings.course import lab, root
+from roslings.lessons.rules import Lesson
+
+FORGOTTEN = ("PYTEST_CURRENT_TEST", "ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_DOMAIN_ID")
+ESCAPES = re.compile(r"\x1b\[[0-9;]*m")
+PAGE = "days/06-serial-bridge/more-on-the-cable.md"
+
+
+class Claim(BaseModel):
+    """One entry of claims.yaml."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    day: str
+    says: str
+    types: str = ""
+    cell: str = ""
+    lab: str = ""
+    shows: tuple[str, ...]
+    hides: tuple[str, ...] = ()
+    exit: int = 0
+
+    def must_hold(self, output: str) -> None:
+        """The output has what is claimed."""
+        for pattern in self.shows:
+            assert re.search(pattern, output, re.MULTILINE), f"no {pattern!r} in:\n{output}"
+        for pattern in self.hides:
+            assert not re.search(pattern, output), f"{pattern!r} is in:\n{output}"
+
+
+CLAIMS = [
+    Claim.model_validate(entry)
+    for entry in yaml.safe_load(Path(__file__).with_name("claims.yaml").read_text("utf-8"))
+]
+LESSONS = {lesson.day.id: lesson for lesson in lessons()}
+TYPED = [claim for claim in CLAIMS if claim.types]
+SEEN = [claim for claim in CLAIMS if claim.cell]
+
+
+def named(claims: list[Claim]) -> list[str]:
+    """For pytest's lines."""
+    return [f"{claim.day}: {claim.says[:40]}" for claim in claims]
+
+
+@pytest.mark.parametrize("claim", CLAIMS, ids=named(CLAIMS))
+def test_a_claim_stands_in_its_lesson(claim: Claim) -> None:
+    """Who rewords the lesson rewords the claim; each is typed or seen in just one cell."""
+    cells = LESSONS[claim.day].cells
+    text = " ".join(" ".join(cell.text for cell in cells if not cell.is_code).split())
+    assert " ".join(claim.says.split()) in text
+    assert bool(claim.types) != bool(claim.cell)
+    if claim.cell:
+        assert [place for place, cell in enumerate(cells) if meant(claim, cell.text, cell.tags)]
+
+
+def meant(claim: Claim, code: str, tags: tuple[str, ...] | list[str] | set[str]) -> bool:
+    """Whether a claim is of this cell; a cell to be changed claims nothing."""
+    return claim.cell in code and "change" not in tags
+
+
+@pytest.mark.parametrize("claim", TYPED, ids=named(TYPED))
+def test_a_terminal_shows_what_is_claimed(claim: Claim, tmp_path: Path) -> None:
+    """Typed in the roslings folder, with ROS made ready and an empty home."""
+    solution = lab(claim.lab).solution if claim.lab else root()
+    typed = claim.types.replace("{work}", str(tmp_path)).replace("{solution}", str(solution))
+    with leased_domain() as domain:
+        done = subprocess.run(
+            ["bash", "--norc", "-c", typed], cwd=root(), env=ready(tmp_path, domain),
+            capture_output=True, text=True, check=False,
+        )  # fmt: skip
+    claim.must_hold(ESCAPES.sub("", done.stdout + done.stderr).rstrip("\n"))
+    assert done.returncode == claim.exit
+
+
+def ready(home: Path, domain: int) -> dict[str, str]:
+    """A terminal in which `source setup.bash` was typed."""
+    kept = {key: value for key, value in os.environ.items() if key not in FORGOTTEN}
+    return {
+        **kept, "HOME": str(home), "ROSLINGS_WS": str(home / "roslings_ws"),
+        "PATH": f"{Path(sys.prefix, 'bin')}{os.pathsep}{os.environ['PATH']}",
+        "PYTHONPATH": str(root() / "src"), "ROS_DOMAIN_ID": str(domain),
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+    }  # fmt: skip
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "claim",
+    [
+        pytest.param(c, marks=pytest.mark.xdist_group(c.day), id=f"{c.day}: {c.says[:40]}")
+        for c in SEEN
+    ],
+)
+def test_a_cell_shows_what_is_claimed(claim: Claim, shared_folder: Path) -> None:
+    """In the one execution of the lesson that all tests share."""
+    lesson: Lesson = LESSONS[claim.day]
+    book = nbformat.reads(walked(shared_folder, lesson).executed, as_version=4)
+    cells = [
+        cell for cell in book.cells
+        if cell.cell_type == "code" and meant(claim, cell.source, cell.metadata.get("tags", []))
+    ]  # fmt: skip
+    claim.must_hold(ESCAPES.sub("", written(cells[0])))
+
+
+def written(cell: nbformat.NotebookNode) -> str:
+    """All that a cell has printed."""
+    return "".join(out.get("text", "") for out in cell.outputs)
+
+
+def test_the_page_about_the_cable_says_what_its_program_prints(tmp_path: Path) -> None:
+    """Nonsense at the wrong speed, the word at the right one."""
+    text = (root() / PAGE).read_text("utf-8")
+    (program,) = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+    (tmp_path / "wire.py").write_text(program)
+    done = subprocess.run(
+        [sys.executable, "wire.py"], cwd=tmp_path, capture_output=True, text=True, check=True
+    )
+    wrong, right = done.stdout.splitlines()
+    assert right == "b'HELLO'"
+    assert wrong.startswith("b'")
+    assert len(literal_eval(wrong)) < len("HELLO")

@@ -1,0 +1,54 @@
+"""A verdict names its next commands as the student typed them."""
+
+from __future__ import annotations
+
+import io
+
+import pytest
+import written_verdicts as written
+from rich.console import Console
+
+from roslings.report import print_verdict
+from roslings.report.typed import Typed
+from roslings.verdict import Verdict
+
+TYPED = Typed("topics", "roslings", ("'my ws/chatter'",), ("--port /dev/ttyACM0",))
+
+
+def shown(verdict: Verdict, screen: bool = False, **words: object) -> str:
+    """What is printed, with all white space as one blank."""
+    out = io.StringIO()
+    console = Console(file=out, width=150, height=200, force_terminal=screen, color_system=None)
+    print_verdict(verdict, console=console, typed=TYPED, **words)  # type: ignore[arg-type]
+    return " ".join(out.getvalue().split())
+
+
+@pytest.mark.parametrize("screen", [True, False])
+def test_next_and_hint_repeat_path_and_options(screen: bool) -> None:
+    """On a screen and in a file."""
+    text = shown(written.too_slow(), screen)
+    again = "roslings check topics 'my ws/chatter' --port /dev/ttyACM0"
+    assert f"then check again: {again} Stuck Ask for a hint: {again} --hint" in text
+    assert "./roslings" not in text
+
+
+def test_a_hint_names_the_next_hint_of_the_same_package() -> None:
+    """With its step."""
+    text = shown(written.too_slow(), hint_step=1)
+    assert "roslings check topics 'my ws/chatter' --port /dev/ttyACM0 --hint 2" in text
+    assert "./roslings" not in text
+
+
+def test_pack_takes_the_path_and_no_option() -> None:
+    """What is handed in is what was checked."""
+    text = shown(written.full_score())
+    assert (
+        "hand in: roslings pack topics 'my ws/chatter' Then go on with the course: roslings" in text
+    )
+
+
+def test_a_command_in_a_fault_is_typed_alike() -> None:
+    """The picture is saved into the package that was checked."""
+    told = TYPED.told("Then: ./roslings graph --for topics --force")
+    assert told == "Then: roslings graph --for topics 'my ws/chatter' --force"
+    assert Typed("topics").told("./roslings graph --for topics") == "./roslings graph --for topics"
