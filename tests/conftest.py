@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import signal
+import time
 from pathlib import Path
 
 import pytest
@@ -14,8 +16,22 @@ __all__ = ["shared_folder"]
 LONGEST = ("forgers", "labs", "cli", "batch", "bootstrap", "devices")
 """Folders with long tests: what is begun last ought to be short."""
 
-DEAR = ("stage", "workshop", "site", "browser", "cells", "edition", "solution", "standing", "jazzy")
+DEAR = (
+    "stage",
+    "workshop",
+    "site",
+    "browser",
+    "cells",
+    "edition",
+    "solution",
+    "standing",
+    "jazzy",
+    "wheel",
+)
 """Fixtures that are long in making, or keep a processor busy: one worker makes each, once."""
+
+SLOW_UNTIL_S = float(os.environ.get("ROSLINGS_SLOW_UNTIL", "inf"))
+"""Seconds since 1970. On a slow machine `.ci/run` leaves out what it has no time for."""
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -27,10 +43,18 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 def pytest_configure(config: pytest.Config) -> None:
     """Hear Ctrl-C, and let children hear it, also where a script in the background started us."""
+    os.environ["ROSLINGS_SOAK_S"] = "0"  # what is about half a minute of running says so itself
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
     if file := config.getoption("--costs"):
         config.pluginmanager.register(Costs(file.absolute()))
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_setup(item: pytest.Item) -> None:
+    """A slow test is not begun when the time is over, and nothing is made ready for it."""
+    if item.get_closest_marker("slow") and time.time() > SLOW_UNTIL_S:
+        pytest.skip("no time was left for it on this machine (ROSLINGS_SLOW_UNTIL)")
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -47,9 +47,14 @@ ROOMS_BELOW = {
         "evidence", "verdict", "course", "arena", "workspace", "experiment", "judge", "report",
         "saving",
     },
-    "authoring": {"course", "workspace", "experiment", "judge", "batch"},
+    "authoring": {
+        "course", "workspace", "experiment", "judge", "batch", "bootstrap", "installed", "evidence",
+        "report",
+    },
+    "export": {"course", "authoring", "workspace"},
     "doctor": set[str](),
     "bootstrap": set[str](),
+    "installed": {"bootstrap"},
     "devices": set[str](),
     "ros2": {
         "evidence", "near", "rates", "endings", "rtps", "leaving", "arena", "probe", "report",

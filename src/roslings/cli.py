@@ -19,6 +19,9 @@ SHAPES = {
     "junit": "a continuous integration server",
     "gradescope": "Gradescope (results.json)",
     "check50": "tools that read check50's JSON",
+    "classroom": "GitHub Classroom's reporter (JSON)",
+    "prairielearn": "PrairieLearn (results.json)",
+    "vpl": "Moodle's Virtual Programming Lab",
 }
 """Other shapes that a verdict is written in."""
 EXIT_OF_ERROR = {
@@ -46,6 +49,8 @@ EXIT_OF_ERROR = {
     "builtins:NotADirectoryError": WRONG_USE,
 }
 """What a command may raise, by name: to import all these rooms takes longer than most commands."""
+ONLY_IN_FULL = ("rqt", "rqt_console", "rqt_plot", "rviz2")
+"""Commands of the full ROS that say what to use here, as `roslings.ros2.absent.COMMANDS`."""
 Command = Callable[[argparse.Namespace], int]
 
 
@@ -67,6 +72,10 @@ def main(arguments: Sequence[str]) -> int:
         from roslings.ros2.rqt_graph import main as rqt_graph
 
         return rqt_graph(list(arguments[1:]))
+    if arguments and arguments[0] in ONLY_IN_FULL:
+        from roslings.ros2.absent import main as absent
+
+        return absent(arguments[0], arguments[1:])
     options = parser().parse_args(
         ["test", "--", *arguments[1:]] if for_pytest(arguments) else arguments
     )
@@ -152,8 +161,10 @@ def parser() -> argparse.ArgumentParser:
     new_lab_options(add("new-lab", "make a small lab that works, to change it", "new_lab"))
     prove_options(add("prove", "show that a lab's checks catch what they should", "prove"))
     release_options(add("release", "make the students' edition, without solutions", "release"))
+    export_options(add("export", "what a grading platform needs for a lab", "export"))
     cluster_options(add("cluster", "a scheduler or worker for grade --dask", "cluster"))
     add("ros2", "the ros2 commands, where the real ones are not installed", None)
+    add("ready", "install what a command needs, and run nothing", None)
     add("wheels", "fetch every package into a folder, for a lab without a network", None)
     return top
 
@@ -201,6 +212,7 @@ def check_options(word: argparse.ArgumentParser) -> None:
         help="save all that was seen in the new folder DIR, to judge it again (regrade)",
     )  # fmt: skip
     trust_option(word)
+    soak_option(word, "0; as grade does where a platform's file is written")
     word.add_argument(
         "--clock", choices=("auto", "sim", "wall"), default="auto",
         help="simulated time where it can be believed (auto), always (sim), or never (wall)",
@@ -247,12 +259,32 @@ def hidden_option(word: argparse.ArgumentParser) -> None:
     )
 
 
+def soak_option(word: argparse.ArgumentParser, default: str) -> None:
+    """How long nodes are left running."""
+    word.add_argument(
+        "--soak", metavar="SECONDS", type=seconds_of_soak,
+        help=f"let the nodes run on for so long, to see that they stay (default: {default})",
+    )  # fmt: skip
+
+
+def seconds_of_soak(text: str) -> float:
+    """A number from 0 to 600. Raises ArgumentTypeError."""
+    try:
+        seconds = float(text)
+    except ValueError:
+        seconds = -1.0
+    if not 0 <= seconds <= 600:
+        raise argparse.ArgumentTypeError(f"{text!r} is no number of seconds from 0 to 600")
+    return seconds
+
+
 def grade_options(word: argparse.ArgumentParser) -> None:
     """What `grade` takes."""
     lab_options(word)
     word.add_argument(
         "submissions", metavar="SUBMISSIONS", type=Path,
-        help="a folder of folders, .zip and .tar.gz files, or a CSV file with their paths",
+        help="Moodle's or Canvas's zip of the class; or a folder of folders, .zip and .tar.gz"
+        " files, or a CSV file with their paths",
     )  # fmt: skip
     word.add_argument(
         "--out", metavar="DIR", type=Path, required=True,
@@ -268,6 +300,7 @@ def grade_options(word: argparse.ArgumentParser) -> None:
         "--limit", metavar="SECONDS", type=whole_number, default=900,
         help="the most that one grading may take (default: 900)",
     )  # fmt: skip
+    soak_option(word, "half a minute, or what the card says")
     word.add_argument(
         "--dask", metavar="ADDRESS", help="grade on a Dask cluster, for example tcp://10.0.0.5:8786"
     )
@@ -292,12 +325,16 @@ def roster_options(word: argparse.ArgumentParser) -> None:
     word.add_argument(
         "--late-free", metavar="N", type=int, default=0, help="late days that cost nothing"
     )
+    word.add_argument(
+        "--canvas-assignment", metavar="NAME", default="",
+        help='the head of the column in canvas.csv, for example "Lab 3 (48151)"',
+    )  # fmt: skip
 
 
 def override_options(word: argparse.ArgumentParser) -> None:
     """What `override` takes."""
     word.add_argument("folder", metavar="DIR", type=Path, help="the --out of ./roslings grade")
-    word.add_argument("submission", metavar="SUBMISSION", help="its name in grades.csv")
+    word.add_argument("submission", metavar="SUBMISSION", help="its name, or the student's")
     word.add_argument("score", metavar="SCORE", type=float, help="0 to 100")
     word.add_argument("--reason", required=True, help="kept beside the score")
     word.add_argument("--by", metavar="NAME", help="who says so (default: your user name)")
@@ -313,9 +350,35 @@ def new_lab_options(word: argparse.ArgumentParser) -> None:
 def prove_options(word: argparse.ArgumentParser) -> None:
     """What `prove` takes."""
     word.add_argument("labs", metavar="LAB", nargs="+", help="for example: topics")
+    word.add_argument("--all", action="store_true", help="list what holds, too")
     word.add_argument(
-        "--contract", action="store_true", help="show that each word of the card is judged"
-    )
+        "--packages", action="store_true",
+        help="only: solution, starter and mutants get the verdicts that they must get",
+    )  # fmt: skip
+    word.add_argument(
+        "--contract", action="store_true",
+        help="only: each word of the card, and each sentence of the task, is judged",
+    )  # fmt: skip
+    word.add_argument(
+        "--generated", action="store_true",
+        help="make 100 wrong packages of the solution; 95 of 100 must be caught",
+    )  # fmt: skip
+    word.add_argument(
+        "--keep", metavar="DIR", type=Path,
+        help="with --generated: where results stay, so that an interrupted run goes on",
+    )  # fmt: skip
+    word.add_argument(
+        "--so-far", action="store_true",
+        help="with --generated: grade nothing, and tell what is known",
+    )  # fmt: skip
+    word.add_argument(
+        "--keep-kills", metavar="DIR", type=Path,
+        help="with --generated: put evidence of a few that were caught into DIR/LAB",
+    )  # fmt: skip
+    word.add_argument(
+        "--rewritten", action="store_true",
+        help="write the solution in other ways; each must get 100",
+    )  # fmt: skip
     word.add_argument(
         "--jobs", metavar="N", type=whole_number, help="how many at once (default: measured)"
     )
@@ -324,6 +387,14 @@ def prove_options(word: argparse.ArgumentParser) -> None:
 def release_options(word: argparse.ArgumentParser) -> None:
     """What `release` takes."""
     word.add_argument("--to", metavar="DIR", type=Path, required=True, help="a new folder")
+
+
+def export_options(word: argparse.ArgumentParser) -> None:
+    """What `export` takes."""
+    word.add_argument("system", metavar="SYSTEM", help="gradescope, prairielearn, ... (any: help)")
+    lab_options(word)
+    word.add_argument("--to", metavar="DIR", type=Path, required=True, help="a new folder")
+    hidden_option(word)
 
 
 def cluster_options(word: argparse.ArgumentParser) -> None:
@@ -351,6 +422,9 @@ def verdict_options(word: argparse.ArgumentParser) -> None:
     for name, whose in SHAPES.items():
         word.add_argument(f"--{name}", metavar="FILE", type=Path, help=f"write it for {whose}")
     word.add_argument("--only", metavar="ID", help="show one check only, by its short name")
+    word.add_argument(
+        "--all", action="store_true", help="show every check whole; a screen folds what can wait"
+    )
 
 
 def watch_options(word: argparse.ArgumentParser) -> None:
@@ -358,7 +432,7 @@ def watch_options(word: argparse.ArgumentParser) -> None:
     package_options(word)
     word.set_defaults(
         solution=False, json=None, html=None, evidence=None, only=None, seed=None, hint=None,
-        clock="auto", port=None, hidden=None, trust=False, timings=False,
+        clock="auto", port=None, hidden=None, trust=False, timings=False, all=False, soak=None,
     )  # fmt: skip
 
 
@@ -366,10 +440,17 @@ def pack_options(word: argparse.ArgumentParser) -> None:
     """What `pack` takes."""
     package_options(word)
     word.add_argument("--out", metavar="FILE", type=Path, help="the zip (default: LAB.zip here)")
+    soak_option(word, "as where it is graded; 0 skips it")
 
 
 def graph_options(word: argparse.ArgumentParser) -> None:
     """What `graph` takes."""
+    word.add_argument(
+        "--for", metavar="LAB", dest="lab", help="save the picture that LAB wants in your package"
+    )
+    word.add_argument(
+        "path", metavar="PATH", type=Path, nargs="?", help="with --for: your package, as for check"
+    )
     word.add_argument("--save", metavar="FILE.png", type=Path, help="save a picture of it")
     word.add_argument("--force", action="store_true", help="replace FILE.png if it is there")
     word.add_argument("--all", action="store_true", help="also /rosout and other parts of ROS")
@@ -382,6 +463,11 @@ def jupyter_options(word: argparse.ArgumentParser) -> None:
     )
     word.add_argument("--no-browser", action="store_true", help="print the address, open nothing")
     word.add_argument("--port", metavar="N", type=int, help="default: 8888, or the next free one")
+    word.add_argument(
+        "--ip",
+        metavar="ADDRESS",
+        help="who may open it; 0.0.0.0 in a container (default: this computer)",
+    )
 
 
 def rover_options(word: argparse.ArgumentParser) -> None:

@@ -6,20 +6,23 @@ import argparse
 import subprocess
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import closing, suppress
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from roslings import course
 from roslings.cli import EXIT_OF_OUTCOME, FAILED, INCONCLUSIVE, OK, WRONG_USE
 from roslings.course import Lab, NoSolution
+from roslings.typed import program
 from roslings.workspace.student import package_of, workspace_root
 from roslings.workspace.trouble import WorkspaceError, shown
 
 if TYPE_CHECKING:
     from roslings.batch.grades import LateRule
     from roslings.checking import Ready
+    from roslings.evidence import GraphSeen
     from roslings.saving import Graded
     from roslings.verdict import Verdict
     from roslings.workspace.progress import LabStatus
@@ -53,13 +56,21 @@ def _hint(lab: Lab, options: argparse.Namespace) -> int:
 
 
 def _check(lab: Lab, options: argparse.Namespace) -> int:
+    from roslings.platforms import for_others, handed_in
+
+    if options.solution:
+        return _check_package(lab, _solution(lab), options)
+    with handed_in(lab, options.path, for_others(options)) as package:
+        return _check_package(lab, package, options)
+
+
+def _check_package(lab: Lab, package: Path, options: argparse.Namespace) -> int:
     from roslings.checking import any_seed, ready
     from roslings.experiment import Choices, insist_on_wall
     from roslings.platforms import for_others
     from roslings.saving import place_for_bags
     from roslings.timeline import process_began_ns
 
-    package = _solution(lab) if options.solution else package_of(lab, options.path)
     quiet = _is_stdout(options.json)
     others = for_others(options)
     strangers = others and not (options.solution or options.trust)
@@ -70,13 +81,12 @@ def _check(lab: Lab, options: argparse.Namespace) -> int:
         seed = any_seed() if options.seed is None else options.seed
         choices = Choices(
             seed, options.clock, bags, options.port, options.hidden, strangers=strangers,
-            for_others=others,
+            for_others=others, soak_s=_soak_s(lab, options, others),
         )  # fmt: skip
         with ready(lab, choices) as begun:
             graded = begun.grade(package, process_began_ns(), quiet)
-        if not options.solution:
-            _keep(lab, graded.verdict)
-        code = _show(graded.verdict, options)
+        before = None if options.solution else _replace_kept(lab, graded.verdict)
+        code = _show(graded.verdict, options, before)
         if options.timings:
             _show_timings(graded, options)
         _save(graded, options, bags)
@@ -90,6 +100,13 @@ def _show_timings(graded: Graded, options: argparse.Namespace) -> None:
 
     console = Console(stderr=_is_stdout(options.json))
     print_timings(graded.evidence.timeline, graded.verdict.seconds, console)
+
+
+def _soak_s(lab: Lab, options: argparse.Namespace, others: bool) -> float:
+    """A student's own check is to be quick; where the result counts, nodes are left running."""
+    from roslings.course.soak import soak_seconds
+
+    return soak_seconds(lab.card, options.soak if others else options.soak or 0.0)
 
 
 def _solution(lab: Lab) -> Path:
@@ -151,7 +168,8 @@ def grade_all(options: argparse.Namespace) -> int:
         options.lab, options.submissions, options.out, jobs=options.jobs, hidden=options.hidden,
         trust=options.trust, clock=options.clock, limit_s=options.limit,
         roster=options.roster, rule=_late_rule(options), dask=options.dask,
-        keeps_evidence=not options.dask or options.evidence,
+        keeps_evidence=not options.dask or options.evidence, soak_s=options.soak,
+        assignment=options.canvas_assignment,
     )  # fmt: skip
     try:
         report = grade(choices)
@@ -195,17 +213,21 @@ def override(options: argparse.Namespace) -> int:
     return OK
 
 
-def _show(verdict: Verdict, options: argparse.Namespace) -> int:
+def _show(verdict: Verdict, options: argparse.Namespace, before: Verdict | None = None) -> int:
     from rich.console import Console
 
     from roslings.platforms import write_shapes
     from roslings.report import print_verdict, write_json
+    from roslings.typed import as_typed
 
     if options.json:
         write_json(verdict, options.json)
     write_shapes(verdict, options)
     if not _is_stdout(options.json):
-        print_verdict(verdict, console=Console(), hint_step=options.hint, only=options.only)
+        print_verdict(
+            verdict, console=Console(), hint_step=options.hint, only=options.only,
+            whole=options.all, before=before, typed=as_typed(options),
+        )  # fmt: skip
     return EXIT_OF_OUTCOME[verdict.outcome]
 
 
@@ -216,6 +238,17 @@ def _is_stdout(path: Path | None) -> bool:
 def _kept(lab: Lab) -> Path:
     """Where the last verdict lies, for `--hint`."""
     return workspace_root() / ".roslings" / f"verdict-{lab.name}.json"
+
+
+def _replace_kept(lab: Lab, verdict: Verdict) -> Verdict | None:
+    """Keep this verdict; the one before, or None where there is none that can be read."""
+    from roslings.report import BadVerdictFile
+
+    before = None
+    with suppress(BadVerdictFile):
+        before = _read(_kept(lab))
+    _keep(lab, verdict)
+    return before
 
 
 def _read(path: Path) -> Verdict:
@@ -270,8 +303,7 @@ def _check_saved(lab: Lab, options: argparse.Namespace, ready: Ready) -> None:
 
     try:
         graded = ready.grade(package_of(lab, options.path), time.monotonic_ns())
-        _keep(lab, graded.verdict)
-        _show(graded.verdict, options)
+        _show(graded.verdict, options, _replace_kept(lab, graded.verdict))
     except Exception as error:
         explain(error)
 
@@ -296,28 +328,55 @@ def new_lab(options: argparse.Namespace) -> int:
     return OK
 
 
+USUALLY_PROVEN = ("packages", "contract")
+PROVABLE = (*USUALLY_PROVEN, "generated", "rewritten")
+
+
 def prove(options: argparse.Namespace) -> int:
-    """Grade labs' solutions, starters and mutants, and say what is not as it must be."""
+    """Prove labs' packages and contracts, and say what is not as it must be."""
     from roslings.authoring.prove import Proof
+    from roslings.authoring.telling import told
     from roslings.batch.command import Teller
     from roslings.report import Progress
 
-    if options.contract:
-        from roslings.authoring.contract import prove_contract as proofs_of
-    else:
-        from roslings.authoring.prove import prove as proofs_of
-
+    names = [name for name in PROVABLE if getattr(options, name)]
+    parts = [_proofs_of(name, options) for name in names or USUALLY_PROVEN]
     labs = [course.lab(name) for name in dict.fromkeys(options.labs)]
-    with Progress() as progress:
-        lines = list(proofs_of(labs, Teller(progress), options.jobs))
-    for line in lines:
-        print(line.line)
+    try:
+        with Progress() as progress:
+            lines = [line for part in parts for line in part(labs, Teller(progress), options.jobs)]
+    except KeyboardInterrupt:
+        if options.generated:
+            print("\nWhat is graded is kept. The same command goes on from here.", file=sys.stderr)
+        raise
+    for text in told(lines, all_of_them=options.all):
+        print(text)
     wrong = [line for line in lines if isinstance(line, Proof) and not line.holds]
     if not wrong:
         for lab in labs:
-            print(f"The lab {lab.name!r} is proven.")
+            only = f": its {' and '.join(names)} only" if names else ""
+            print(f"The lab {lab.name!r} is proven{only}.")
         return OK
     return INCONCLUSIVE if all(proof.is_open for proof in wrong) else FAILED
+
+
+def _proofs_of(name: str, options: argparse.Namespace) -> Callable[..., Iterable[Any]]:
+    """What proves a part of labs; all that it tells has a `line`. LibCST is only where needed."""
+    if name == "generated":
+        from roslings.authoring.generated.run import proofs_for
+
+        return proofs_for(options.keep, options.keep_kills, options.so_far)
+    if name == "rewritten":
+        from roslings.authoring.rewritten import prove_rewritten
+
+        return prove_rewritten
+    if name == "contract":
+        from roslings.authoring.contract import prove_contract
+
+        return prove_contract
+    from roslings.authoring.prove import prove as prove_packages
+
+    return prove_packages
 
 
 def release(options: argparse.Namespace) -> int:
@@ -327,6 +386,16 @@ def release(options: argparse.Namespace) -> int:
     names = make(options.to)
     print(f"The students' edition is in {_from_here(options.to)}: {len(names)} files.")
     print("No solution, no mutant and no hidden check is in it.")
+    return OK
+
+
+def export(options: argparse.Namespace) -> int:
+    """Make what an instructor uploads to a grading platform."""
+    from roslings.export import export as make
+
+    lab = course.lab(options.lab, options.hidden)
+    for line in make(options.system, lab, options.to):
+        print(line)
     return OK
 
 
@@ -341,7 +410,7 @@ def start(options: argparse.Namespace) -> int:
     started = put(lab)
     print(f"The starter of {lab.name!r} is in {shown(started.package)} ({started.files} files).")
     print(f"Read the task: {_from_here(lab.task)}")
-    print(f"Then check what you built: ./roslings check {lab.name}")
+    print(f"Then check what you built: {program()} check {lab.name}")
     return OK
 
 
@@ -367,11 +436,28 @@ def pack(options: argparse.Namespace) -> int:
     """Make the zip to hand in."""
     from roslings.workspace.student import pack as zip_it
 
-    packed = zip_it(course.lab(options.lab), options.out, options.path)
+    lab = course.lab(options.lab)
+    packed = zip_it(lab, options.out, options.path)
     verb = "Replaced" if packed.replaced else "Made"
     print(f"{verb} {shown(packed.path)}: {len(packed.files)} files, {packed.size_bytes:,} bytes.")
-    print("Hand in this one file.")
+    print("Hand in this one file.", flush=True)
+    _let_run(lab, options)
     return OK
+
+
+def _let_run(lab: Lab, options: argparse.Namespace) -> None:
+    """Let the nodes run as they will where they are graded; the file is there, whatever comes."""
+    from roslings.course.soak import soak_seconds
+    from roslings.handing_in import left_running
+    from roslings.report import Progress
+
+    if for_s := soak_seconds(lab.card, options.soak):
+        try:
+            with Progress() as progress:
+                lines = left_running(lab, package_of(lab, options.path), for_s, progress.step)
+        except KeyboardInterrupt:
+            lines = ["Your nodes were not watched to the end. The file is whole."]
+        print("\n".join(lines))
 
 
 def status(options: argparse.Namespace) -> int:
@@ -379,10 +465,11 @@ def status(options: argparse.Namespace) -> int:
     from roslings.workspace import progress
 
     labs = progress.status()
+    width = max((len(each.lab.name) for each in labs), default=0)
     for day, done in progress.days_done(labs).items():
         print(f"{'done' if done else 'open':5} {day}")
         for each in (each for each in labs if each.lab.outline.day == day):
-            print(f"      {each.lab.name:12} {_how_far(each)}")
+            print(f"      {each.lab.name:{width}}  {_how_far(each)}")
     return OK
 
 
@@ -399,14 +486,14 @@ def today(options: argparse.Namespace) -> int:
 
     next_step = progress.today()
     if next_step.at is None:
-        print("All labs are done. See them all: ./roslings status")
+        print(f"All labs are done. See them all: {program()} status")
         return OK
     lab = next_step.at.lab
     print(f"Day {lab.outline.day}: {lab.outline.title}  ({_how_far(next_step.at)})")
     verb = "start" if next_step.step is progress.Step.START else "check"
-    print(f"Next: ./roslings {verb} {lab.name}")
+    print(f"Next: {program()} {verb} {lab.name}")
     print(f"The task: {_from_here(lab.task)}")
-    print("All commands: ./roslings --help")
+    print(f"All commands: {program()} --help")
     return OK
 
 
@@ -415,26 +502,56 @@ def today(options: argparse.Namespace) -> int:
 
 def graph(options: argparse.Namespace) -> int:
     """Show the running graph, or save a picture of it."""
-    from roslings.report import draw_graph, graph_text
-    from roslings.report.graph_picture import NotAPng
+    from roslings.report import graph_text
     from roslings.ros2.rqt_graph import seen_graph
     from roslings.ros2.surroundings import prepare
 
-    if options.save and options.save.exists() and not options.force:
-        print(f"roslings: {options.save} is there already. Nothing was changed.", file=sys.stderr)
+    files = _pictures_wanted(options)
+    there = [file for file in files if file.exists() and not options.force]
+    if there:
+        print(f"roslings: {there[0]} is there already. Nothing was changed.", file=sys.stderr)
         print("To replace it, add --force.", file=sys.stderr)
         return WRONG_USE
     prepare()
     seen = seen_graph()  # complete: a fixed wait misses nodes, by luck, that run all the time
     print(graph_text(seen, show_hidden=options.all))
-    if options.save:
-        try:
-            draw_graph(seen, options.save, show_hidden=options.all, overwrite=options.force)
-        except NotAPng as error:
-            print(f"roslings: {error}", file=sys.stderr)
+    if not seen.nodes and options.lab:
+        return _nothing_to_draw()
+    for file in files:
+        if not _saved(seen, file, options):
             return WRONG_USE
-        print(f"\nSaved {options.save}")
     return OK if seen.nodes else FAILED
+
+
+def _pictures_wanted(options: argparse.Namespace) -> list[Path]:
+    """The file that was named, or those that a lab's card wants in the package."""
+    if not options.lab:
+        return [options.save] if options.save else []
+    lab = course.lab(options.lab)
+    package = package_of(lab, options.path)
+    if not lab.card.pictures:
+        print(f"The lab {lab.name!r} wants no picture.")
+    return [package / picture.path for picture in lab.card.pictures]
+
+
+def _nothing_to_draw() -> int:
+    print("\nNothing was saved: no node runs. Start your nodes, each in a terminal of its own,")
+    print("then type the same command once more.")
+    return FAILED
+
+
+def _saved(seen: GraphSeen, file: Path, options: argparse.Namespace) -> bool:
+    """Draw the picture; its folder is made where it is missing."""
+    from roslings.report import draw_graph
+    from roslings.report.graph_picture import NotAPng
+
+    try:
+        draw_graph(seen, file, show_hidden=options.all, overwrite=options.force)
+    except NotAPng as error:
+        print(f"roslings: {error}", file=sys.stderr)
+        return False
+    print(f"\nSaved {shown(file) if options.lab else file}")
+    return True
 
 
 # --- the notebooks -----------------------------------------------------------------------------
@@ -450,6 +567,7 @@ def lab(options: argparse.Namespace) -> int:
     days = read_lessons(course.root()).days
     copies = Copies(course.root(), workspace_root())
     place = place_for(options.day, days, copies, options.port, not options.no_browser)
+    place = replace(place, ip=options.ip)
     for told in copies.copy_all(days):
         print(told)
     return open_lab(place)

@@ -140,6 +140,9 @@ class ProcessSeen(Record):
     """One process of the student's, from start to end."""
 
     executable: str
+    given: list[str] = Field(
+        default_factory=list, description="The parameters that it was started with"
+    )
     started_ns: int
     ended_ns: int | None = None
     status: int | None = Field(
@@ -267,8 +270,8 @@ class GoalSeen(Record):
     )
     cpu_wait_s: float = Field(
         default=0.0,
-        description="From the request to cancel on: how long the node was ready to run and the"
-        " processor was not free",
+        description="From the request to cancel on: how long threads of the node were ready to run"
+        " and no processor was free, added up, since a cancel goes from one to the next",
     )
 
     @property
@@ -339,6 +342,9 @@ class BoardSeen(Record):
     marks: list[BoardMark] = Field(default_factory=list)
     rejected: int = Field(default=0, description="Lines of the node that the board refused")
     lost_bytes: int = Field(default=0, description="Sent by the board, and read too late")
+    host_bits_s: int | None = Field(
+        default=None, description="To which the node has set its end at last; None where it has not"
+    )
 
 
 class ParameterDeclared(Record):
@@ -553,6 +559,15 @@ class HeldUp(Record):
         return self.cpu_wait_s + self.stall_s
 
 
+class SoakSeen(Record):
+    """The nodes among themselves, in real time, with nobody who watches what they say."""
+
+    for_s: float = Field(description="So long they were meant to run")
+    processes: dict[str, ProcessSeen] = Field(
+        default_factory=dict, description="By executable; of what they wrote, the last lines"
+    )
+
+
 class BuildSeen(Record):
     """What colcon did with the package."""
 
@@ -636,6 +651,7 @@ class Evidence(Record):
     attempts: list[ExperimentSeen] = Field(
         default_factory=list, description="Experiments that were made again: the earlier runs"
     )
+    soak: SoakSeen | None = Field(default=None, description="None where none was made")
     advice: list[str] = Field(default_factory=list)
     timeline: list[Span] = Field(default_factory=list, description="Where the seconds went")
 

@@ -30,7 +30,9 @@ class CheckResult(Frozen):
     points: float = Field(ge=0, description="Points given")
     max_points: float = Field(ge=0, description="Points that the card gives this check")
     expected: str | None = Field(default=None, description="What the contract asks for")
-    measured: str | None = Field(default=None, description="What was seen instead")
+    measured: str | None = Field(
+        default=None, description="What was seen instead; of a check that passes: how long"
+    )
     why: str | None = Field(default=None, description="Why it matters, or why it was not judged")
     hint: str | None = Field(default=None, description="What to try next")
     fault: str | None = Field(default=None, description="The kind of fault, e.g. `WrongTopic`")
@@ -81,6 +83,9 @@ class Verdict(Frozen):
     score: float | None = Field(description="0 to 100; null when inconclusive")
     checks: tuple[CheckResult, ...]
     advice: tuple[str, ...] = Field(default=(), description="Remarks that cost no points")
+    soak_s: float = Field(
+        default=0.0, ge=0, description="So long all nodes were left running in real time; 0: not"
+    )
     seconds: Timings
     environment: Environment
 

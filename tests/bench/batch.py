@@ -4,8 +4,10 @@
 
 For each count: submissions a minute beside the most that the processors allow (colcon and the
 nodes alone, measured in the same run), the grader's own CPU, and the memory of one submission.
-Each submission differs in a comment, so that every one is built. `0` in place of a count grades
-ten that are all the same: what sharing builds saves.
+Nodes are left running for as long as the card says, as `grade` does, which is in the floor; with
+`ROSLINGS_SOAK_S=0` in the environment they are not. Each submission differs in a comment, so that
+every one is built. `0` in place of a count grades ten that are all the same: what sharing builds
+saves.
 
 The floor's builds and the gradings have the same compiled environment: a build that finds a module
 to compile keeps the bytecode, which one in a sandbox cannot, so such a floor is refused.
@@ -38,6 +40,8 @@ from roslings.batch.grading import unpacked
 from roslings.batch.result import Result
 from roslings.batch.shift import Shift, Standing, Wish
 from roslings.batch.submissions import find_submissions
+from roslings.course.soak import soak_seconds
+from roslings.evidence import SoakSeen
 from roslings.experiment.run_folder import LOCK, run_folder
 from roslings.workspace.build import colcon
 
@@ -204,7 +208,7 @@ def grade(lab: course.Lab, count: int) -> Run:
         handed_in = hand_in(lab, count, Path(name) / "in")
         with run_folder() as scratch, gradebook(Path(name), lab.name) as book, watcher.looking():
             began_s, began_cpu_s, began_idle_s = time.monotonic(), cpu_s(), idle_s()
-            wish = Wish(lab.name, scratch, scratch / LOCK)
+            wish = Wish(lab.name, scratch, scratch / LOCK, soak_s=soak_seconds(lab.card))
             with yardstick.measuring() as between_s:
                 Shift(wish, book, Capacity(), watcher).run(find_submissions(handed_in))
                 seconds = time.monotonic() - began_s
@@ -256,7 +260,7 @@ def nodes_cpu_s(book: Gradebook, results: list[Result]) -> float:
     whole = sum(
         process.cpu_s
         for evidence in kept
-        for seen in evidence.experiments.values()
+        for seen in (*evidence.experiments.values(), evidence.soak or SoakSeen(for_s=0.0))
         for process in seen.processes.values()
     )
     return whole / max(1, len(kept))

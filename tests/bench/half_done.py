@@ -32,8 +32,10 @@ def graded(lab: Lab, package: Path) -> tuple[float, str]:
         file = Path(folder) / "verdict.json"
         words = [sys.executable, "-m", "roslings", "check", lab.name, str(package)]
         began_s = time.monotonic()
-        subprocess.run([*words, "--json", str(file)], capture_output=True, check=False)
+        said = subprocess.run([*words, "--json", str(file)], capture_output=True, check=False)
         took_s = time.monotonic() - began_s
+        if not file.exists():  # such as a lab whose group `./roslings check` has not installed yet
+            sys.exit(said.stderr.decode())
         verdict = json.loads(file.read_text("utf-8"))
     return took_s, f"{verdict['outcome']} {verdict['score']:g}"
 

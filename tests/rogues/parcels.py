@@ -94,11 +94,11 @@ def many(path: Path) -> None:
 
 
 def raw_name(path: Path) -> None:
-    """A name that is no UTF-8."""
-    stand_in, name = b"chatter/xyz", b"chatter/\xff\xfe\xfd"
+    """A name that has the mark of UTF-8, and is none."""
+    stand_in, name = "chatter/\u00e9x", b"chatter/\xff\xfe\xfd"
     with package_in_zip(path) as archive:
-        archive.writestr(stand_in.decode(), b"1")
-    path.write_bytes(path.read_bytes().replace(stand_in, name))
+        archive.writestr(stand_in, b"1")
+    path.write_bytes(path.read_bytes().replace(stand_in.encode(), name))
 
 
 def two_packages(path: Path) -> None:

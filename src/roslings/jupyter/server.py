@@ -37,6 +37,8 @@ class Place:
     """The id of a day; None opens the list of days."""
     port: int | None = None
     browser: bool = True
+    ip: str | None = None
+    """Where the server listens; None is this computer alone."""
 
     @property
     def page(self) -> str:
@@ -64,6 +66,8 @@ def command(place: Place) -> list[str]:
     ]
     if place.port is not None:
         words += [f"--ServerApp.port={place.port}", "--ServerApp.port_retries=0"]
+    if place.ip is not None:
+        words.append(f"--ServerApp.ip={place.ip}")
     if not place.browser:
         words.append("--no-browser")
     if os.geteuid() == 0:  # in a container; the server still listens on this computer alone

@@ -36,7 +36,7 @@ COLCON_MARKERS = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
 IGNORE_MARKERS = (*COLCON_MARKERS, "pyvenv.cfg")
 PACKED = (".zip", ".tar", ".gz", ".tgz", ".xz", ".txz", ".bz2", ".tbz2", ".7z", ".rar")
 LARGEST_XML_BYTES = 1_000_000
-_NAME = re.compile(r"<name>\s*([^<>\s]+)\s*</name>")
+NAME = re.compile(r"<name>\s*([^<>\s]+)\s*</name>")
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 
 
@@ -127,7 +127,7 @@ def _subfolders(folder: Path) -> Iterator[Path]:
 
 def package_name(package: Path) -> str:
     """The name in package.xml, else that of the folder. Reads invalid XML too."""
-    found = _NAME.search(xml_text(package / "package.xml"))
+    found = NAME.search(xml_text(package / "package.xml"))
     return found[1] if found else package.name
 
 
