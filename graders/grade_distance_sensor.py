@@ -153,6 +153,7 @@ def hearing(scene: Scene) -> None:
     """The subscriber alone, while distances come that it cannot know."""
     with scene.run(SUBSCRIBER) as process:
         teller = Teller(scene, process, HEARD, OBSTACLE)
+        teller.rest(SILENCE_S)
         for metres in distances(scene):
             teller.tell({**DISTANCE.fields, "range": metres})
         teller.rest(SILENCE_S)

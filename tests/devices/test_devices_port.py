@@ -93,7 +93,7 @@ def test_in_real_time_a_reader_is_woken(board: Board) -> None:
 def test_on_a_slow_cable_a_line_comes_in_pieces(tmp_path: Path) -> None:
     """A tenth of the bits a second are bytes; all of them come, in their order, cut anywhere."""
     chip = Mega(Rover(FLOOR))
-    with Board(chip, tmp_path / "ttyTEST", bits_s=4800) as board, opened(board) as host:
+    with Board(chip, tmp_path / "ttyTEST", Wire(4800)) as board, opened(board) as host:
         pieces = []
         for _ in range(200):
             board.step(0.005)
@@ -104,6 +104,15 @@ def test_on_a_slow_cable_a_line_comes_in_pieces(tmp_path: Path) -> None:
     assert any(piece and not piece.endswith(b"\n") for piece in pieces)
     assert came == told[: len(came)]
     assert 400 < len(came) <= 480 < len(told)
+
+
+def test_a_chip_that_gathers_bytes_cuts_lines_and_is_late() -> None:
+    """What came through meanwhile arrives together, when its time is over; all of it comes."""
+    wire = Wire(bits_s=10_000, packet_s=0.016)
+    came = [wire(b"0123456789" if n % 3 == 0 else b"", 0.004) for n in range(12)]
+    assert [n for n, piece in enumerate(came) if piece] == [3, 7, 11]
+    assert came[3] == b"01234567890123"
+    assert b"".join(came) == b"0123456789" * 4
 
 
 def test_a_cable_that_is_pulled_keeps_nothing() -> None:

@@ -5,11 +5,10 @@ from __future__ import annotations
 import random
 import re
 import shutil
-import subprocess
 import time
 from collections.abc import Iterable, Sequence
-from pathlib import Path
 
+from commit import newest_commit
 from parcels import Parcel
 from pydantic import BaseModel
 from rogue import LAB, Attempt, Truth
@@ -100,7 +99,7 @@ def hang(entries: Sequence[Entry], ordinary: bool, jobs: int) -> Gallery:
 def hang_in_turns(entries: Sequence[Entry], ordinary: bool, jobs: int, until_s: float) -> Gallery:
     """As `hang`, some at a time; after the moment `until_s` of time.time() no more begin."""
     whole = Gallery(seen={}, status=0, words="", running={}, left=[], changed=[], heard=[])
-    for some in turns(entries, seed=_commit()):
+    for some in turns(entries, seed=newest_commit()):
         if time.time() >= until_s:
             break
         whole = whole.and_also(hang(some, ordinary, jobs))
@@ -119,12 +118,6 @@ def turns(entries: Sequence[Entry], seed: str) -> list[list[Entry]]:
     random.Random(seed).shuffle(names)
     some = [names[begin : begin + A_FEW] for begin in range(0, len(names), A_FEW)]
     return [[entry for name in few for entry in of_one[name]] for few in some]
-
-
-def _commit() -> str:
-    """What git calls the newest commit; nothing where there is no git."""
-    words = ["git", "-C", str(Path(__file__).parent), "rev-parse", "HEAD"]
-    return subprocess.run(words, capture_output=True, text=True, check=False).stdout.strip()
 
 
 def _hand_in(entry: Entry, made: Stage, port: int, domain: int) -> None:

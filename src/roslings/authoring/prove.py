@@ -6,7 +6,7 @@ What could not be told is graded again; what can never be told is not proven.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from operator import itemgetter
 from pathlib import Path
@@ -16,13 +16,13 @@ from roslings.batch.capacity import Capacity
 from roslings.batch.crew import GRADING
 from roslings.batch.gradebook import gradebook
 from roslings.batch.result import Order, Result
-from roslings.batch.shift import Shift, Watcher, Wish
+from roslings.batch.shift import Shift, Watcher, Wish, always
 from roslings.batch.submissions import Submission
 from roslings.course import Lab, Mutant
 from roslings.course.task import is_current
 from roslings.experiment.declare import Clock
 from roslings.experiment.run_folder import LOCK, run_folder
-from roslings.judge.sheet import dependants, sheet
+from roslings.judge.sheet import dependants, explained, sheet
 
 
 @dataclass(frozen=True)
@@ -174,14 +174,17 @@ class Wrong:
         return self.mutant.make(self.lab.solution, package).parent
 
     def problem(self, result: Result) -> str:
-        """Where its failed checks, their faults, or the skipped ones are others."""
+        """Where its failed checks, their faults, or the skipped ones are others.
+
+        What one of the failed checks explains may be skipped besides.
+        """
         checks = result.verdict.checks if result.verdict else ()
         failed = {check.id: check.fault for check in checks if check.outcome == "fail"}
         skipped = {check.id for check in checks if check.outcome == "skip"}
         must_skip = dependants(self.lab, set(self.mutant.fails)) | set(self.mutant.skips)
         if set(failed) != set(self.mutant.fails):
             return _failing(result)
-        if skipped != must_skip:
+        if skipped - explained(self.lab, failed) != must_skip - explained(self.lab, failed):
             return f"skipped: {_all(sorted(skipped))}; must be: {_all(sorted(must_skip))}"
         wanted = self.mutant.faults
         other = {name: failed[name] for name, kind in wanted.items() if failed[name] != kind}
@@ -225,16 +228,21 @@ def files_fit(lab: Lab) -> Iterator[Proof]:
 
 
 def gradings_fit(
-    packages: Collection[Package], watcher: Watcher, jobs: int | None = None
+    packages: Collection[Package],
+    watcher: Watcher,
+    jobs: int | None = None,
+    still: Callable[[], bool] = always,
 ) -> Iterator[Proof]:
     """Grade packages of any labs at once, and hold the verdicts against what they must be.
 
-    What could not be told is tried twice more, alone.
+    What could not be told is tried twice more, alone. Once `still()` is false no package is begun:
+    there is no proof of those that are left.
     """
     with run_folder() as scratch:
-        results = graded(mixed(packages), scratch, watcher, jobs)
+        results = graded(mixed(packages), scratch, watcher, jobs, still=still)
     for package in packages:
-        yield proof_of(package, results[package.name])
+        if package.name in results:
+            yield proof_of(package, results[package.name])
 
 
 def mixed(packages: Iterable[Package]) -> list[Package]:
@@ -280,6 +288,7 @@ def graded(
     book: str = "book",
     keeps_evidence: bool = False,
     life: str = GRADING,
+    still: Callable[[], bool] = always,
 ) -> dict[str, Result]:
     """Package's name to what came of it; the gradebook lies in `scratch`, a run's folder."""
     submissions = [Submission(each.name, each.make(scratch / "made")) for each in packages]
@@ -289,7 +298,7 @@ def graded(
     )  # fmt: skip
     (scratch / book).mkdir(exist_ok=True)  # a place outside of the scratch keeps what it has
     with gradebook(scratch / book, "labs") as results:
-        shift = Shift(wish, results, Capacity(fixed=jobs), watcher)
+        shift = Shift(wish, results, Capacity(fixed=jobs), watcher, still)
         shift.run(submissions)
         if not all(result.is_conclusive for result in results.latest().values()):
             shift.run(submissions)

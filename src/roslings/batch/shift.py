@@ -69,6 +69,11 @@ class Standing:
 Watcher = Callable[[Standing], None]
 
 
+def always() -> bool:
+    """There is no end to the time."""
+    return True
+
+
 @dataclass(frozen=True)
 class _Todo:
     """What a run has to do."""
@@ -108,8 +113,16 @@ class HowMany(Protocol):
 class Shift:
     """One run of the command over all submissions."""
 
-    def __init__(self, wish: Wish, book: Gradebook, capacity: HowMany, watcher: Watcher) -> None:
-        self._wish, self._book = wish, book
+    def __init__(
+        self,
+        wish: Wish,
+        book: Gradebook,
+        capacity: HowMany,
+        watcher: Watcher,
+        still: Callable[[], bool] = always,
+    ) -> None:
+        """Nothing is begun any more once `still()` is false."""
+        self._wish, self._book, self._still = wish, book, still
         self._capacity, self._watcher = capacity, watcher
         self._began_s = time.monotonic()
         self._graded = 0
@@ -146,6 +159,8 @@ class Shift:
     ) -> Iterator[Ended]:
         waiting = deque(todo)
         while waiting or len(workers.workers):
+            if not self._still():
+                waiting.clear()
             while waiting and self._has_room(workers, capacity):
                 submission, digest = waiting.popleft()
                 attempt = self._book.attempts(submission.name, digest) + 1

@@ -11,6 +11,7 @@ from pathlib import Path
 from roslings.course import ParameterContract, TopicContract
 from roslings.devices.board import Board, Chunk, Mega
 from roslings.devices.board.attached import AttachedBoard
+from roslings.devices.board.wire import LATENCY_S, Wire
 from roslings.devices.rover import Body, Box, Rover, World
 from roslings.evidence import BoardMark, BoardSeen, CableLine, Endpoint, MotorsSeen, WaySeen
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
@@ -50,15 +51,17 @@ def board_beside(
 ) -> Iterator[Cable]:
     """A rover's board in real time, on an empty floor; the node finds it by a parameter.
 
-    With `bits_s`, the speed of its cable, lines arrive in pieces, cut anywhere. Where the scene has
-    the port of a real board, that one takes its place.
+    With `bits_s`, the speed of its cable, lines arrive in pieces, cut anywhere, and the rest of a
+    line so late that a node reads in between. Where the scene has the port of a real board, that
+    one takes its place.
     Raises DeviceTrouble when a board ends that should have lived.
 
     >>> with board_beside(scene) as cable, scene.run(BRIDGE, start=cable.start()):
     ...     cable.drive("straight", CMD_VEL, forward_m_s=0.3, for_s=1.5)
     """
     port = scene.arena.devices / PORT
-    with _chip(scene.port, body or Body()) as chip, Board(chip, port, bits_s) as board:
+    wire = Wire() if math.isinf(bits_s) else Wire(bits_s, LATENCY_S)
+    with _chip(scene.port, body or Body()) as chip, Board(chip, port, wire) as board:
         if not plugged_in:
             board.unplug()
         with board.running():

@@ -41,6 +41,8 @@ LOOKS_AT_REST = 3
 LOOK_AGAIN_S = 0.005
 FIRST_PERIODS = 3
 """So many periods of its rate may pass before a complete node speaks for the first time."""
+SILENT_PERIODS = 10
+"""Who says nothing for so many periods in real time is silent, and not only slow or in groups."""
 
 
 @dataclass(frozen=True)
@@ -186,9 +188,10 @@ class Scene:
     def _watch_on_the_wall(self, contract: TopicContract) -> None:
         if contract.rate:
             find = functools.partial(self._publisher, contract)
+            grace_s = SILENT_PERIODS / contract.rate.hz
             WallWatch(
                 self._probe, self._arena, contract.rate, find, self._until_alive,
-                lambda: self._until_heard(contract), self._turns,
+                lambda: self._until_heard(contract, grace_s=grace_s), self._turns,
             ).watch()  # fmt: skip
         else:
             self.hear(contract)

@@ -52,3 +52,17 @@ def dependants(lab: Lab, failed: set[str]) -> set[str]:
     while fresh := {line.id for line in lines if set(line.needs) & (failed | found)} - found:
         found |= fresh
     return found - failed
+
+
+def explained(lab: Lab, faults: Mapping[str, str | None]) -> set[str]:
+    """The checks that are the same mistake as one of these failed ones, with those that need them.
+
+    Each of them passes, or is skipped. On a busy machine it may be another one each time.
+    """
+    found = {
+        line.id
+        for line in sheet(lab)
+        for name, kinds in line.explained_by.items()
+        if faults.get(name) in kinds
+    }
+    return (found | dependants(lab, found)) - set(faults)

@@ -14,6 +14,7 @@ from roslings.devices.asked import listening
 from roslings.devices.board.chip import BAUD, Chip
 from roslings.devices.board.mega import Mega
 from roslings.devices.board.on_pty import Board
+from roslings.devices.board.wire import Wire
 from roslings.devices.rover import Rover
 from roslings.devices.trouble import DeviceTrouble
 
@@ -49,7 +50,7 @@ def run(name: Path, sketch: Path | None = None) -> None:
     with ExitStack() as stack:
         stack.enter_context(_alone_on(name))
         chip = _chip(stack, sketch)
-        board = stack.enter_context(Board(chip, name, bits_s=BAUD))
+        board = stack.enter_context(Board(chip, name, Wire(BAUD)))
         stack.enter_context(board.running())
         asked = stack.enter_context(listening())
         print(f"The board is on {name}")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 import tempfile
 import threading
@@ -40,14 +39,14 @@ class Board:
     `with board.running():` lets it live in real time.
     """
 
-    def __init__(self, chip: Chip, name: Path | None = None, bits_s: float = math.inf) -> None:
+    def __init__(self, chip: Chip, name: Path | None = None, wire: Wire | None = None) -> None:
         """`name` is the path of the port; a new one in a folder of its own without it.
 
-        `bits_s` is the speed of the cable to the host: lines then arrive in pieces.
+        On a `wire` to the host that takes time, lines arrive in pieces.
         """
         self.chip = chip
         self.to_host, self.to_board = Spoiler(), Spoiler()
-        self._wire = Wire(bits_s)
+        self._wire = wire or Wire()
         self.heard: list[Chunk] = []
         self.told: list[Chunk] = []
         self.sent_bytes = self.lost_bytes = 0

@@ -9,17 +9,36 @@ BITS_A_BYTE = 10
 """A start bit, eight bits, a stop bit."""
 
 
+LATENCY_S = 0.016
+"""So long a USB-serial chip gathers bytes; FTDI's application note AN232B-04 tells of 16 ms."""
+
+
 @dataclass
 class Wire:
-    """One direction of a cable. Without a speed, all arrives at once."""
+    """One direction of a cable. Without a speed, all arrives at once.
+
+    With `packet_s`, what came through arrives only so often, cut wherever it was then.
+    """
 
     bits_s: float = math.inf
+    packet_s: float = 0.0
     _waiting: bytes = field(default=b"", init=False, repr=False)
     _part: float = field(default=0.0, init=False, repr=False)
     """What is already through of the next byte, 0 to 1."""
+    _gathered: bytes = field(default=b"", init=False, repr=False)
+    _since_packet_s: float = field(default=0.0, init=False, repr=False)
 
     def __call__(self, sent: bytes, dt_s: float) -> bytes:
         """What arrives in this time; the rest waits. Only a wire that is busy makes headway."""
+        self._gathered += self._through(sent, dt_s)
+        self._since_packet_s += dt_s
+        if self._since_packet_s < self.packet_s:
+            return b""
+        self._since_packet_s = 0.0
+        arrived, self._gathered = self._gathered, b""
+        return arrived
+
+    def _through(self, sent: bytes, dt_s: float) -> bytes:
         waiting = self._waiting + sent
         if math.isinf(self.bits_s):
             return waiting
@@ -31,4 +50,4 @@ class Wire:
 
     def cut(self) -> None:
         """What was under way is lost."""
-        self._waiting, self._part = b"", 0.0
+        self._waiting, self._part, self._gathered = b"", 0.0, b""
