@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -401,6 +402,20 @@ def test_a_camera_is_looked_for_often_enough(after_ms: int, kind: type[Fault] | 
         assert fault_of(view, demand) is kind
     else:
         view.must(demand)
+
+
+def test_a_picture_of_before_that_arrives_late_is_none_of_after() -> None:
+    """It waited here, on a busy computer; the publisher's wall clock tells when it was sent."""
+    hour_ns = 3_600_000 * MS
+    soon = replace(image(500, 1), source_ns=hour_ns + 498 * MS)
+    late = replace(image(1500, 2), source_ns=hour_ns + 600 * MS)
+    view = filmed(soon, late)
+    view.seen.stages = [StageMark(part="there", at_ns=1000 * MS)]
+    demand = come_after("there", "when it is there", FILMED, 2.0)
+    assert fault_of(view, demand) is camera_faults.NoPictureAfter
+    filmed_again = filmed(soon, late, replace(image(2000, 3), source_ns=hour_ns + 1990 * MS))
+    filmed_again.seen.stages = view.seen.stages
+    filmed_again.must(demand)
 
 
 @pytest.mark.parametrize(("line", "is_enough"), [

@@ -142,10 +142,12 @@ class Filming:
         self._looker.expect_lighter(levels)
 
     def _came_after(self, began_ns: int, topic: TopicContract) -> int:
-        """By their arrival: on a busy computer, pictures of before may still wait to be read."""
+        """By when they were sent: on a busy computer, pictures of before may still wait here."""
         found = nearest_endpoint(self._scene.seen.graph, "publisher", topic.topic, topic.type)
         came = self._scene.probe.messages(found.topic) if found else []
-        return sum(picture.arrival_ns > began_ns for picture in came)
+        to_wall_ns = time.time_ns() - time.monotonic_ns()
+        sent_ns = ((each.source_ns or each.arrival_ns + to_wall_ns) - to_wall_ns for each in came)
+        return sum(at_ns > began_ns for at_ns in sent_ns)
 
 
 def change_parameter(

@@ -284,8 +284,8 @@ def come_after(
 
     def demand(experiment: ExperimentView) -> None:
         begin_ns, end_ns = _span_of(experiment, part)
-        heard = [m.arrival_ns for m in experiment.topic(topic).messages]
-        first_ns = min((at for at in heard if begin_ns < at < end_ns), default=None)
+        sent = _sent_ns(experiment.topic(topic).messages)
+        first_ns = min((at for at in sent if begin_ns < at < end_ns), default=None)
         if first_ns is None:
             require_steady(experiment.seen.stall_s)
             require_its_time(experiment.seen, part, PATIENCE_S, "a picture")
@@ -296,6 +296,15 @@ def come_after(
             raise faults.TriesSeldom(when, topic.topic, retries_within_s, took_s)
 
     return demand
+
+
+def _sent_ns(messages: Sequence[MessageSeen]) -> list[int]:
+    """When each was sent, by our clock: the quickest one tells how far the two clocks are apart.
+
+    Pictures of before may wait on a busy computer, and arrive when the next part has begun.
+    """
+    apart_ns = min((m.arrival_ns - m.source_ns for m in messages if m.source_ns), default=0)
+    return [m.source_ns + apart_ns if m.source_ns else m.arrival_ns for m in messages]
 
 
 def _lines_in(experiment: ExperimentView, node: NodeContract, part: str) -> list[str]:
