@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from roslings.cli import SHAPES
+from roslings.shapes import SHAPES
 from roslings.verdict import Verdict
 from roslings.workspace.student import package_of
 from roslings.workspace.trouble import MachineTrouble, WorkspaceError, without_places

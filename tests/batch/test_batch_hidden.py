@@ -6,12 +6,13 @@ from pathlib import Path
 
 import pytest
 
-from roslings.cli import SHAPES, main
+from roslings.cli import main
 from roslings.course import lab
 from roslings.course.files import BadCourseFile
 from roslings.evidence import BuildSeen, Evidence, MachineSeen
 from roslings.judge import judge
 from roslings.report.evidence_file import evidence_bytes
+from roslings.shapes import SHAPES
 from roslings.workspace.inspect import inspect_package
 
 TOPICS = lab("topics")

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from roslings import course
-from roslings.cli import EXIT_OF_ERROR, exit_code_of
+from roslings.exits import EXIT_OF_ERROR, exit_code_of
 from roslings.verdict import CheckResult, Environment, Timings, Verdict
 from roslings.workspace.trouble import CannotRead, NoWorkspace
 
@@ -145,3 +145,25 @@ def test_the_narrower_error_decides() -> None:
     assert exit_code_of(CannotRead(Path("x"))) == 3
     assert exit_code_of(NoWorkspace(Path("x"))) == 2
     assert exit_code_of(KeyError("x")) is None
+
+
+@pytest.mark.parametrize(("typed", "told"), [
+    ("chek", "there is no command 'chek'. Did you mean check?"),
+    ("xyz", "there is no command 'xyz'. All commands: ./roslings --help"),
+])  # fmt: skip
+def test_a_word_that_is_no_command(
+    typed: str, told: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The nearest one is named, or where they are listed."""
+    assert main([typed]) == 2
+    assert told in capsys.readouterr().err
+
+
+def test_the_help_has_two_lists(capsys: pytest.CaptureFixture[str]) -> None:
+    """A learner finds the few that are for learners, on a screen of 80 columns."""
+    with pytest.raises(SystemExit):
+        main(["--help"])
+    told = capsys.readouterr().out
+    mine, others = told.split("for instructors and authors:")
+    assert "  check " in mine and "  grade " in others
+    assert max(map(len, told.splitlines())) <= 80

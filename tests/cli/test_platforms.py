@@ -9,9 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from roslings.cli import SHAPES, main, parser
+from roslings.cli import main, parser
 from roslings.course import lab
 from roslings.platforms import for_others
+from roslings.shapes import SHAPES
 
 
 def refused(package: Path, tmp_path: Path) -> tuple[int, dict[str, str]]:

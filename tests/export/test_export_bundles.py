@@ -55,7 +55,7 @@ def test_a_bundle_is_whole(bundles: Path, system: System) -> None:
     inside = whole / system.course.replace("@LAB@", LAB)
     for name in (*WANTED[system.name], "README.md"):
         assert (whole / name).is_file(), name
-    parts = ("roslings", "pyproject.toml", "constraints.txt", "src/roslings/cli.py")
+    parts = ("roslings", "pyproject.toml", "constraints.txt", "src/roslings/cli/__init__.py")
     of_lab = (f"graders/grade_{LAB}.py", f"labs/{LAB}/card.yaml", f"labs/{LAB}/starter")
     for name in (*parts, *of_lab):
         assert (inside / name).exists(), name

@@ -1,0 +1,83 @@
+"""What an author of labs types."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from roslings import course
+from roslings.commands.showing import from_here
+from roslings.exits import FAILED, INCONCLUSIVE, OK
+
+USUALLY_PROVEN = ("packages", "contract")
+PROVABLE = (*USUALLY_PROVEN, "generated", "rewritten")
+
+
+def new_lab(options: argparse.Namespace) -> int:
+    """Make a small lab that works."""
+    from roslings.authoring.new_lab import new_lab as make
+
+    lab = make(options.lab, options.package, options.day)
+    print(f"The lab {lab.name!r} is in {from_here(lab.folder)}.")
+    print(f"Its grader is {from_here(lab.grader)}. Both work as they are; change them.")
+    print(f"Then prove it: ./roslings prove {lab.name}")
+    return OK
+
+
+def prove(options: argparse.Namespace) -> int:
+    """Prove labs' packages and contracts, and say what is not as it must be."""
+    from roslings.authoring.prove import Proof
+    from roslings.authoring.telling import told
+    from roslings.batch.command import Teller
+    from roslings.report import Progress
+
+    names = [name for name in PROVABLE if getattr(options, name)]
+    parts = [_proofs_of(name, options) for name in names or USUALLY_PROVEN]
+    labs = [course.lab(name) for name in dict.fromkeys(options.labs)]
+    try:
+        with Progress() as progress:
+            lines = [line for part in parts for line in part(labs, Teller(progress), options.jobs)]
+    except KeyboardInterrupt:
+        if options.generated:
+            print("\nWhat is graded is kept. The same command goes on from here.", file=sys.stderr)
+        raise
+    for text in told(lines, all_of_them=options.all):
+        print(text)
+    wrong = [line for line in lines if isinstance(line, Proof) and not line.holds]
+    if not wrong:
+        for lab in labs:
+            only = f": its {' and '.join(names)} only" if names else ""
+            print(f"The lab {lab.name!r} is proven{only}.")
+        return OK
+    return INCONCLUSIVE if all(proof.is_open for proof in wrong) else FAILED
+
+
+def _proofs_of(name: str, options: argparse.Namespace) -> Callable[..., Iterable[Any]]:
+    """What proves a part of labs; all that it tells has a `line`. LibCST is only where needed."""
+    if name == "generated":
+        from roslings.authoring.generated.run import proofs_for
+
+        return proofs_for(options.keep, options.keep_kills, options.so_far)
+    if name == "rewritten":
+        from roslings.authoring.rewritten import prove_rewritten
+
+        return prove_rewritten
+    if name == "contract":
+        from roslings.authoring.contract import prove_contract
+
+        return prove_contract
+    from roslings.authoring.prove import prove as prove_packages
+
+    return prove_packages
+
+
+def release(options: argparse.Namespace) -> int:
+    """Make the students' edition."""
+    from roslings.authoring.release import release as make
+
+    names = make(options.to)
+    print(f"The students' edition is in {from_here(options.to)}: {len(names)} files.")
+    print("No solution, no mutant and no hidden check is in it.")
+    return OK

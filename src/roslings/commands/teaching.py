@@ -1,0 +1,96 @@
+"""What an instructor types: a whole class, its scores, and the platforms it hands in to."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from typing import TYPE_CHECKING
+
+from roslings import course
+from roslings.commands.showing import show
+from roslings.exits import INCONCLUSIVE, OK
+
+if TYPE_CHECKING:
+    from roslings.batch.grades import LateRule
+
+
+def regrade(options: argparse.Namespace) -> int:
+    """Judge saved evidence again, of one check or of a whole class; nothing is run."""
+    from roslings.batch.gradebook import lab_of
+    from roslings.batch.later import regrade_all
+    from roslings.judge import judge
+    from roslings.report import read_evidence
+    from roslings.saving import Graded
+
+    if lab_of(options.evidence):
+        print("\n".join(regrade_all(options.evidence, options.lab, options.hidden)))
+        return OK
+    lab = course.lab(options.lab, options.hidden)
+    evidence = read_evidence(options.evidence, lab.name)
+    verdict = judge(lab, evidence)
+    if options.html:
+        Graded(lab, verdict, evidence).write_page(options.html)
+    return show(verdict, options)
+
+
+def grade_all(options: argparse.Namespace) -> int:
+    """Grade many submissions; 3 where some are still inconclusive."""
+    from roslings.batch.command import Choices, grade
+
+    choices = Choices(
+        options.lab, options.submissions, options.out, jobs=options.jobs, hidden=options.hidden,
+        trust=options.trust, clock=options.clock, limit_s=options.limit,
+        roster=options.roster, rule=_late_rule(options), dask=options.dask,
+        keeps_evidence=not options.dask or options.evidence, soak_s=options.soak,
+        assignment=options.canvas_assignment,
+    )  # fmt: skip
+    try:
+        report = grade(choices)
+    except KeyboardInterrupt:
+        print("\nWhat is graded is kept. The same command goes on from here.", file=sys.stderr)
+        raise
+    print("\n".join(report.lines))
+    return INCONCLUSIVE if report.unclear else OK
+
+
+def cluster(options: argparse.Namespace) -> int:
+    """Run a part of a Dask cluster, in this environment, until Ctrl-C."""
+    from roslings.batch.cluster import run_part
+
+    return run_part(options.part, options.rest)
+
+
+def _late_rule(options: argparse.Namespace) -> LateRule | None:
+    from roslings.batch.grades import LateRule
+    from roslings.batch.submissions import as_time
+    from roslings.batch.trouble import BatchError
+
+    if not options.deadline:
+        return None
+    try:
+        deadline = as_time(options.deadline)
+    except ValueError:
+        problem = f"{options.deadline!r} is no date and time."
+        raise BatchError(problem, "Write it as 2026-11-30T23:59.") from None
+    return LateRule(
+        deadline=deadline, points_a_day=options.late_points, free_days=options.late_free
+    )
+
+
+def override(options: argparse.Namespace) -> int:
+    """Give a score by hand."""
+    from roslings.batch.later import override as give
+
+    told = give(options.folder, options.submission, options.score, options.reason, options.by)
+    print("\n".join(told))
+    return OK
+
+
+def export(options: argparse.Namespace) -> int:
+    """Make what an instructor uploads to a grading platform."""
+    from roslings.export import export as make
+
+    lab = course.lab(options.lab, options.hidden)
+    for line in make(options.system, lab, options.to):
+        print(line)
+    return OK

@@ -1,0 +1,31 @@
+"""The course itself: its site and its tests."""
+
+from __future__ import annotations
+
+import argparse
+import subprocess
+import sys
+from collections.abc import Sequence
+
+from roslings import course
+
+SITE_WORDS = ("open", "fresh", "links", "check_links")
+
+
+def site(options: argparse.Namespace) -> int:
+    """Build the site. Sphinx and its settings live beside the pages, not in the engine."""
+    words = [f"--{name.replace('_', '-')}" for name in SITE_WORDS if getattr(options, name)]
+    place = ["--out", str(options.out)] if options.out else []
+    builder = course.root() / "site" / "build.py"
+    return subprocess.run([sys.executable, str(builder), *words, *place], check=False).returncode
+
+
+def test(options: argparse.Namespace) -> int:
+    """Run the tests of roslings; what follows `test` goes to pytest."""
+    return run_pytest([word for word in options.rest if word != "--"])
+
+
+def run_pytest(rest: Sequence[str]) -> int:
+    """Run pytest in the course's folder, on both cores."""
+    command = [sys.executable, "-m", "pytest", *rest]
+    return subprocess.run(command, cwd=course.root(), check=False).returncode
