@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from roslings import course
+from roslings.cli import main
 from roslings.exits import EXIT_OF_ERROR, exit_code_of
 from roslings.verdict import CheckResult, Environment, Timings, Verdict
 from roslings.workspace.trouble import CannotRead, NoWorkspace
