@@ -23,6 +23,7 @@ ROOMS_BELOW = {
     "endings": {"evidence"},
     "timeline": {"evidence"},
     "leaving": set[str](),
+    "keyboard": set[str](),
     "rtps": set[str](),
     "course": set[str](),
     "lessons": set[str](),
@@ -55,10 +56,10 @@ ROOMS_BELOW = {
     "doctor": set[str](),
     "bootstrap": set[str](),
     "installed": {"bootstrap"},
-    "devices": set[str](),
+    "devices": {"keyboard"},
     "ros2": {
-        "evidence", "near", "rates", "endings", "rtps", "leaving", "arena", "probe", "report",
-        "doctor",
+        "evidence", "near", "rates", "endings", "rtps", "leaving", "keyboard", "arena", "probe",
+        "report", "doctor",
     },
     "jupyter": {"lessons", "workspace"},
     "notebook": {

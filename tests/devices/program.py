@@ -59,11 +59,16 @@ def environment(domain: int, home: Path) -> dict[str, str]:
 
 
 @contextmanager
-def running(words: list[str], environment: dict[str, str], folder: Path) -> Iterator[Program]:
-    """`./roslings WORDS` while the block runs; nothing of it is left afterwards."""
+def running(
+    words: list[str], environment: dict[str, str], folder: Path, keys: int = subprocess.DEVNULL
+) -> Iterator[Program]:
+    """`./roslings WORDS` while the block runs; nothing of it is left afterwards.
+
+    `keys` is a descriptor that it reads from.
+    """
     process = subprocess.Popen(
         [sys.executable, "-m", "roslings", *words], env=environment, cwd=folder, text=True,
-        start_new_session=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+        start_new_session=True, stdin=keys, stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
     )  # fmt: skip
     try:

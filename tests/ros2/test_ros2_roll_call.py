@@ -8,6 +8,7 @@ import socket
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from types import SimpleNamespace
 
 import inside
 import pytest
@@ -79,6 +80,23 @@ def test_our_own_port_is_known(empty: Shell) -> None:
         with eye.Eye():
             assert len(own_participants(domain)) == 1
             assert own_participants(domain) < participants_here(domain)
+
+
+def test_half_a_service_is_not_all() -> None:
+    """Its request came and its reply did not yet; a client is looked at by itself."""
+
+    def of(*participants: bytes) -> list[SimpleNamespace]:
+        return [SimpleNamespace(endpoint_gid=each + bytes(4)) for each in participants]
+
+    server = {"rq/lightRequest": ([], of(US)), "rr/lightReply": (of(US), [])}
+    client = {"rq/lightRequest": (of(THEM), of(US)), "rr/lightReply": (of(US), of(THEM))}
+    half = {"rq/lightRequest": (of(THEM), of(US)), "rr/lightReply": (of(US), [])}
+    assert eye.with_half_a_service(server) == eye.with_half_a_service(client) == frozenset()
+    assert eye.with_half_a_service(half) == {THEM}
+    assert eye.with_half_a_service({"rq/lightRequest": ([], of(US))}) == {US}
+    assert eye.with_half_a_service({"rt/light": (of(US), [])}) == frozenset()
+    everybody = frozenset({US, THEM})
+    assert not Sight(everybody, everybody, 3, 0, 2, half_known=frozenset({THEM})).complete(2)
 
 
 def test_who_has_ended_is_not_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:

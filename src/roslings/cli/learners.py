@@ -97,6 +97,9 @@ def rover_options(word: argparse.ArgumentParser) -> None:
         "--view", choices=("auto", "window", "terminal", "lines"), default="auto",
         help="where the map is shown (default: a window where there is a screen)",
     )  # fmt: skip
+    word.add_argument(
+        "--keys", action="store_true", help="drive it by the keys of this terminal: i, j, k, l"
+    )
     word.add_argument("--save", metavar="FILE.png", type=Path, help="save the map at the end")
     word.add_argument("--seed", metavar="N", type=int, default=0, help="for the sensors' noise")
 

@@ -24,7 +24,7 @@ def rover(options: argparse.Namespace) -> int:
     prepare()
     domain_id()
     check_middleware()
-    run(options.view, options.save, options.seed)
+    run(options.view, options.save, options.seed, options.keys)
     return OK
 
 

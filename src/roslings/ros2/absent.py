@@ -33,7 +33,7 @@ class Absent:
 
 GRAPH = "rqt_graph, or ./roslings graph in the roslings folder"
 ROVER = "the rover and its map: ./roslings rover"
-DRIVE = 'ros2 topic pub /cmd_vel geometry_msgs/msg/Twist "{linear: {x: 0.3}}"'
+DRIVE = "ros2 run teleop_twist_keyboard teleop_twist_keyboard"
 PICTURES = "show_image in a notebook (day 7), or ros2 topic hz and echo --no-arr"
 TF = "ros2 topic echo /tf"
 TEACHING = "is another guide's example"
@@ -55,7 +55,6 @@ ABSENT = {
     "rqt_plot": Absent("draws curves in a window", "ros2 topic echo TOPIC --field data"),
     "rviz2": Absent("draws robots in 3D", f"{ROVER}; for numbers ros2 topic echo"),
     "slam_toolbox": Absent("makes maps of rooms", ROVER),
-    "teleop_twist_keyboard": Absent("reads keys", DRIVE),
     "tf2_ros": Absent("is compiled (tf2_echo and others)", TF),
     "tf2_tools": Absent("draws the tree of frames", TF),
     "turtlesim": Absent("opens a window", f"{ROVER}; to drive it, {DRIVE}"),

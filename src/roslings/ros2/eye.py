@@ -10,10 +10,11 @@ from __future__ import annotations
 
 import argparse
 import os
+import re
 import sys
 import time
-from collections import deque
-from collections.abc import Callable, Iterable
+from collections import Counter, deque
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from types import TracebackType
 from typing import Any
@@ -59,6 +60,9 @@ UNNAMED = "_NODE_NAME_UNKNOWN_"
 ROS_TOPICS = ("rt/", "rq/", "rr/")
 """How ROS marks its topics, requests and replies in DDS."""
 
+SERVICE = re.compile(r"^(?:rq(/.+)Request|rr(/.+)Reply)$")
+"""The two topics of one service."""
+
 PREFIX, HOST = 12, 4
 """The first bytes of an endpoint's id name its participant, and of these the first its computer."""
 
@@ -88,15 +92,43 @@ class Sight:
     unnamed: int
     nodes: int
     half_known: frozenset[bytes] = frozenset()
-    """Those with an endpoint whose node is not known yet."""
+    """Those with an endpoint whose node is not known yet, or with one half of a service."""
 
     def complete(self, expected: int) -> bool:
         """Everybody on this computer has said all."""
-        return len(self.here) >= expected and self.here <= self.named and not self.unnamed
+        return (
+            len(self.here) >= expected
+            and self.here <= self.named
+            and not (self.unnamed or self.half_known & self.here)
+        )
 
     def knows_all_of(self, participants: frozenset[bytes]) -> bool:
         """They have said all; of those who have ended meanwhile nothing more will come."""
         return participants <= (self.here & self.named) - self.half_known
+
+
+Kinds = tuple[Sequence[Any], Sequence[Any]]
+"""Of one topic: what is known of its publishers, and of its subscriptions."""
+
+
+def with_half_a_service(topics: Mapping[str, Kinds]) -> frozenset[bytes]:
+    """Participants of which a request came without its reply, or the other way round.
+
+    A server is two endpoints, and a client is two; DDS tells of them one after the other.
+    `topics` has them under their names in DDS.
+    """
+    found: set[bytes] = set()
+    for name in {match[1] or match[2] for match in map(SERVICE.match, topics) if match}:
+        asks, hears = topics.get(f"rq{name}Request", ((), ()))
+        replies, reads = topics.get(f"rr{name}Reply", ((), ()))
+        for one, other in ((hears, replies), (asks, reads)):
+            counts, others = _by_participant(one), _by_participant(other)
+            found |= {each for each in counts | others if counts[each] != others[each]}
+    return frozenset(found)
+
+
+def _by_participant(infos: Iterable[Any]) -> Counter[bytes]:
+    return Counter(bytes(info.endpoint_gid)[:PREFIX] for info in infos)
 
 
 class Eye:
@@ -246,11 +278,12 @@ class Eye:
 
     def _sight(self) -> Sight:
         raw = [name for name, _ in self.node.get_topic_names_and_types(no_demangle=True)]
+        both = {name: self._both(name) for name in raw if name.startswith(ROS_TOPICS)}
         seen = {
             bytes(info.endpoint_gid): info.node_name
-            for name in raw
-            if name.startswith(ROS_TOPICS)
-            for info in self._infos(name)
+            for kinds in both.values()
+            for infos in kinds
+            for info in infos
         }
         own = next((gid for gid, node in seen.items() if node == self._name), b"")
         speak, hear = (
@@ -262,11 +295,9 @@ class Eye:
             endpoints=len(seen),
             unnamed=sum(node == UNNAMED for node in seen.values()),
             nodes=len(self.node.get_node_names()),
-            half_known=frozenset(gid[:PREFIX] for gid, node in seen.items() if node == UNNAMED),
+            half_known=frozenset(gid[:PREFIX] for gid, node in seen.items() if node == UNNAMED)
+            | with_half_a_service(both),
         )
-
-    def _infos(self, raw_topic: str) -> list[Any]:
-        return [info for infos in self._both(raw_topic) for info in infos]
 
     def _both(self, raw_topic: str) -> tuple[list[Any], list[Any]]:
         """Its publishers, and its subscriptions: DDS tells of each kind by itself."""

@@ -10,7 +10,7 @@ from roslings.ros2.absent import ABSENT
 from roslings.ros2.problem import Problem, did_you_mean
 from roslings.ros2.unbuilt import advice
 
-BUILT_IN = {"demo_nodes_py": Path(__file__).parent}
+BUILT_IN = {name: Path(__file__).parent for name in ("demo_nodes_py", "teleop_twist_keyboard")}
 """Packages that come with roslings, and the folder that each lies in."""
 
 SOURCE_IT = (

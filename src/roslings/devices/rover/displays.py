@@ -11,7 +11,16 @@ from typing import Any, Literal, Protocol, TextIO
 
 from roslings.devices.rover.node import RoverNode
 from roslings.devices.rover.text_map import ASCII, UNICODE, Cell, cells
-from roslings.devices.rover.words import FIRST_COMMAND, below, beside, position, said
+from roslings.devices.rover.words import (
+    FIRST_COMMAND,
+    KEYS_PACE,
+    KEYS_TELL,
+    below,
+    beside,
+    position,
+    said,
+)
+from roslings.devices.rover.world import colour_of
 from roslings.devices.trouble import DeviceTrouble
 
 View = Literal["auto", "window", "terminal", "lines"]
@@ -19,7 +28,6 @@ SIDE_COLUMNS = 34
 LEAST_LINES = 18
 LEAST_COLUMNS = 60
 STYLES = {"floor": "", "wall": "bright_black", "path": "cyan", "rover": "bold yellow"}
-HUES = ((15, "red"), (35, "yellow"), (85, "green"), (100, "cyan"), (130, "blue"), (165, "magenta"))
 
 
 class Display(Protocol):
@@ -100,8 +108,8 @@ class Window:
         (self._path,) = self._axes.plot([], [], color="#1f77b4")
         self._parts: list[Any] = []
         self._shown: object = None
-        print(f"The map is in its own window. Make the rover move, in a second terminal:\n"
-              f"source setup.bash\n{FIRST_COMMAND}\nCtrl-C here ends it.", flush=True)  # fmt: skip
+        print(f"The map is in its own window. {_how_to_drive(node)}\nCtrl-C here ends it.",
+              flush=True)  # fmt: skip
 
     def __enter__(self) -> Window:
         self._plt.show(block=False)
@@ -137,6 +145,12 @@ class Window:
     def _title(self, text: str) -> None:
         if self._figure.canvas.manager is not None:
             self._figure.canvas.manager.set_window_title(text)
+
+
+def _how_to_drive(node: RoverNode) -> str:
+    if node.by_keys:
+        return f"The keys count in this terminal.\n{KEYS_TELL}\n{KEYS_PACE}"
+    return f"Make the rover move, in a second terminal:\nsource setup.bash\n{FIRST_COMMAND}"
 
 
 class Terminal:
@@ -182,12 +196,8 @@ def _filled(words: list[str], lines: int) -> list[str]:
 
 def _append_row(text: Any, row: list[Cell]) -> None:
     for cell in row:
-        text.append(cell.letter, style=_ball_style(cell.hue) if cell.hue is not None else
+        text.append(cell.letter, style=colour_of(cell.hue) if cell.hue is not None else
                     STYLES[cell.kind])  # fmt: skip
-
-
-def _ball_style(hue: int) -> str:
-    return next((style for upto, style in HUES if hue < upto), "red")
 
 
 class Lines:
@@ -201,6 +211,9 @@ class Lines:
         self._say("The rover is ready. It hears /cmd_vel and says " + ", ".join(said(node)) + ".")
         if not node.publishes_tf:
             self._say("/tf is left out: tf2_msgs is not installed here.")
+        if node.by_keys:
+            self._say(f"{KEYS_TELL}\n{KEYS_PACE}")
+            return
         self._say("Make it move, in a second terminal: source setup.bash, then")
         self._say(FIRST_COMMAND)
 

@@ -47,6 +47,8 @@ class RoverNode:
     """What the person at the screen should know; empty where all is well."""
     commands: int = 0
     publishes_tf: bool = False
+    by_keys: bool = False
+    """The keys of this terminal drive it."""
     _told_s: float = field(default=-math.inf, repr=False)
 
     def __enter__(self) -> RoverNode:

@@ -9,10 +9,13 @@ from dataclasses import replace
 from roslings.devices.rover.body import Body, Motion, Pose, Wheels, moved
 from roslings.devices.rover.sensors import RangeSensor, Reading, Scanner
 from roslings.devices.rover.view import Disc, Eye
-from roslings.devices.rover.world import World, default_world
+from roslings.devices.rover.world import Ball, World, default_world
 
 LONGEST_STEP_S = 0.005
 """A longer step is cut up: the motors' lag and the arc are then exact enough to compare."""
+
+TOUCH_M = 0.02
+"""One small step before it would overlap."""
 
 PATH_STEP_M = 0.02
 PATH_POINTS = 20_000
@@ -88,6 +91,16 @@ class Rover:
         return gap_m < self.body.radius_m and gap_m < self.world.room_at(
             self.pose.x_m, self.pose.y_m
         )
+
+    @property
+    def touched_ball(self) -> Ball | None:
+        """The ball that it has driven to, while it touches something."""
+        reach_m = self.body.radius_m + TOUCH_M
+        near = (
+            ball for ball in self.world.balls
+            if ball.shape.gap(self.pose.x_m, self.pose.y_m) < reach_m
+        )  # fmt: skip
+        return next(near, None) if self.touches else None
 
     def _turning_on_the_spot(self) -> Wheels:
         """A round robot that cannot go forward can still turn."""

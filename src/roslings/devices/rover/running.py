@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import threading
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 from roslings.devices.asked import listening
 from roslings.devices.rover.displays import Display, View, opened
+from roslings.devices.rover.keys import driving
 from roslings.devices.rover.node import RoverNode
 from roslings.devices.rover.rover import Rover
 from roslings.devices.rover.words import position
@@ -21,25 +23,31 @@ class CannotSave(DeviceTrouble):
         super().__init__(f"The map cannot be saved as {file}: {because}. Give another FILE.")
 
 
-def run(view: View = "auto", picture: Path | None = None, seed: int = 0) -> Rover:
-    """Run the rover until Ctrl-C; returns it as it then is.
+def run(
+    view: View = "auto", picture: Path | None = None, seed: int = 0, keys: bool = False
+) -> Rover:
+    """Run the rover until Ctrl-C; returns it as it then is. With `keys`, this terminal drives it.
 
-    Raises NoWindow, CannotSave.
+    Raises NoWindow, CannotSave, NoTerminal.
     """
     if picture:
         _require_place_for(picture)
-    with RoverNode(Rover(seed=seed)) as node, listening() as asked:
+    with driving(keys) as look, RoverNode(Rover(seed=seed)) as node, listening() as asked:
+        node.by_keys = keys
         with opened(view, node) as display:
-            _go_on(node, display, asked)
+            _go_on(node, display, asked, look)
         print(f"\nThe rover is at {position(node)}.\nIt went {node.rover.way_m:.2f} m.")
         if picture:
             _save(node.rover, picture)
     return node.rover
 
 
-def _go_on(node: RoverNode, display: Display, asked: threading.Event) -> None:
+def _go_on(
+    node: RoverNode, display: Display, asked: threading.Event, look: Callable[[], None]
+) -> None:
     due_s = time.monotonic()
     while not (asked.is_set() or display.closed):
+        look()
         node.turn()
         if time.monotonic() >= due_s:
             display.show(node)

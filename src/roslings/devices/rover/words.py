@@ -7,6 +7,8 @@ import math
 from roslings.devices.rover.node import RoverNode
 
 FIRST_COMMAND = 'ros2 topic pub --once /cmd_vel geometry_msgs/msg/Twist "{linear: {x: 0.5}}"'
+KEYS_TELL = "Keys: i ahead (or arrow up), j and l turn, comma backwards, k stops."
+KEYS_PACE = "q and z: faster and slower. u, o, m and . drive a bend."
 STOPPED = 0.005
 
 
@@ -41,8 +43,12 @@ def below(node: RoverNode) -> list[str]:
     """What to do next; at most 80 columns, always two lines."""
     if node.notice:
         return [node.notice, ""]
+    if ball := node.rover.touched_ball:
+        return [f"The rover touches the {ball.colour} ball. Well done!", ""]
     if node.rover.touches:
         return ["The rover touches something. Drive it back: a negative linear.x.", ""]
+    if node.by_keys:
+        return [KEYS_TELL, KEYS_PACE]
     if node.commands:
         return ["angular.z turns it, in rad/s; a positive one to the left.", FIRST_COMMAND]
     return ["Make it move. In a second terminal: source setup.bash, then", FIRST_COMMAND]

@@ -92,6 +92,20 @@ class Ball:
         """What rays hit."""
         return Circle(self.x_m, self.y_m, self.radius_m)
 
+    @property
+    def colour(self) -> str:
+        """Its colour in a word."""
+        return colour_of(self.hue)
+
+
+HUES = ((15, "red"), (35, "yellow"), (85, "green"), (100, "cyan"), (130, "blue"), (165, "magenta"))
+"""Where each colour ends on the wheel of hues; after the last one it is red again."""
+
+
+def colour_of(hue: int) -> str:
+    """The word for a hue, which a terminal knows, too."""
+    return next((name for upto, name in HUES if hue < upto), "red")
+
 
 @dataclass(frozen=True)
 class World:

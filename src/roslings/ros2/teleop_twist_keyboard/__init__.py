@@ -1,0 +1,1 @@
+"""Driving by keys, under the name that it has in every guide."""
