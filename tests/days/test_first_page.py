@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import pty
 import re
@@ -21,11 +22,14 @@ import pytest
 
 from roslings.arena.lease import leased_domain
 from roslings.course import root
+from roslings.devices.rover import default_world
 
 PAGE = root() / "days" / "01-install" / "first-15-minutes.md"
 PATIENCE_S = 240.0
 """Only a page that does not hold its promise waits so long; a first use downloads ROS."""
-MOST_COMMANDS = 8
+MOST_COMMANDS = 9
+POINTS_THERE = 6.0
+"""Degrees. The ball and the rover are so large that this is near enough from the start."""
 
 PLACE = re.compile(r"^Terminal (\d), in the roslings folder:\n\n```bash\n(.*?)^```$", re.M | re.S)
 EDIT = re.compile(r"^```diff\n-(.*)\n\+(.*)\n```$", re.M)
@@ -102,6 +106,10 @@ class Terminal:
         self.heard()
         self._mark = len(self._said)
         os.write(self.screen, line.encode() + b"\n")
+
+    def press(self, keys: str) -> None:
+        """Press keys, without Enter."""
+        os.write(self.screen, keys.encode())
 
     def press_ctrl_c(self) -> None:
         """Interrupt what runs in the foreground."""
@@ -251,7 +259,32 @@ def place_of(rover: Terminal) -> float:
     return float(found[-1]) if found else 0.0
 
 
-def test_the_page_has_at_most_eight_commands_and_places_for_all() -> None:
+def drive_to_the_ball(rover: Terminal, hands: Terminal) -> None:
+    """As somebody does who looks at the map: turn until the arrow points there, then ahead."""
+    (ball,) = default_world().balls
+    hands.press("c" * 8)  # turn slowly: the map is always a little late
+
+    def there() -> bool:
+        x_m, y_m, heading = where_is(rover)
+        way = math.degrees(math.atan2(ball.y_m - y_m, ball.x_m - x_m))
+        off = (way - heading + 180) % 360 - 180
+        hands.press("i" if abs(off) < POINTS_THERE else "j" if off > 0 else "l")
+        return "touches the red ball" in rover.heard()
+
+    until(there, lambda: f"it did not come to the ball:\n{rover}")
+
+
+def where_is(rover: Terminal) -> tuple[float, float, float]:
+    """Metres and degrees, as the map shows them now."""
+    shown = {
+        name: re.findall(rf"\b{name} +(-?\d+(?:\.\d+)?) {unit}", rover.heard())
+        for name, unit in (("x", "m"), ("y", "m"), ("heading", "degrees"))
+    }
+    x_m, y_m, heading = (float(found[-1]) if found else 0.0 for found in shown.values())
+    return x_m, y_m, heading
+
+
+def test_the_page_has_at_most_nine_commands_and_places_for_all() -> None:
     """No block without its terminal and folder."""
     typed = [line for block in commands() for line in block.lines]
     assert 0 < len(typed) <= MOST_COMMANDS
@@ -299,7 +332,13 @@ def test_the_page_holds_what_it_promises(reader: Reader) -> None:
     own = reader.types()
     own.shows(r"\[maria\]: Telling")
     reader.types().shows(r"(?s)Nodes\s+/maria\s+/rover\s.*from  /maria")
-    for terminal in (rover, own):
+    own.press_ctrl_c()
+    own.is_free()
+    hands = reader.types()
+    hands.shows("Ctrl-C ends it")
+    drive_to_the_ball(rover, hands)
+    rover.shows("The rover touches the red ball. Well done!")
+    for terminal in (rover, hands):
         terminal.press_ctrl_c()
         terminal.is_free()
     assert not reader.blocks
