@@ -62,9 +62,24 @@ def roslings(home: Path, *words: str, domain: int = 0) -> subprocess.CompletedPr
 def test_status_has_straight_columns(tmp_path: Path) -> None:
     """The longest name of a lab moves none of them."""
     lines = roslings(tmp_path, "status").stdout.splitlines()
-    labs = [line for line in lines if line.startswith("      ")]
+    labs = [line for line in lines if line.endswith("not begun")]
     assert len(labs) == len(course.all_labs())
+    assert lines[0].startswith("01-install ")
+    assert lines[-1].endswith(" 0 of 7")
     assert len({line.index("not begun") for line in labs}) == 1
+
+
+def test_a_fresh_clone_names_the_first_steps(tmp_path: Path) -> None:
+    """The page that is there, the lesson, the first lab; then what is next in that lab."""
+    told = roslings(tmp_path).stdout
+    page = re.search(r"Read (\S+)", told)
+    assert page and (course.root() / page[1]).is_file()
+    first = next(iter(course.all_labs())).name
+    assert all(f"./roslings {step}" in told for step in ("lab 1", f"start {first}"))
+    assert "0 of 7" in told and max(map(len, told.splitlines())) <= 80
+    assert roslings(tmp_path, "start", first).returncode == 0
+    begun = roslings(tmp_path).stdout
+    assert f"./roslings check {first}" in begun and "15 minutes" not in begun
 
 
 @contextmanager

@@ -5,6 +5,7 @@ from __future__ import annotations
 import multiprocessing
 import shutil
 from collections.abc import Iterator
+from datetime import date, timedelta
 from pathlib import Path
 
 import pytest
@@ -28,6 +29,7 @@ from roslings.workspace.progress import (
     status,
     today,
 )
+from roslings.workspace.progress_file import Progress, as_json, progress_in
 from roslings.workspace.student import start
 
 
@@ -169,6 +171,28 @@ def test_a_full_disk_keeps_the_old_file(with_little_room: Run) -> None:
             print(checks, len(list((little / ".roslings").iterdir())))
     """
     assert with_little_room(source) == "1 2"
+
+
+@pytest.mark.parametrize(("days", "row"), [
+    ([], 0), ([0], 1), ([1], 1), ([2], 0), ([0, 1, 2, 4], 3), ([1, 2], 2), ([0, 2, 3], 1),
+])  # fmt: skip
+def test_days_in_a_row_end_today_or_yesterday(days: list[int], row: int) -> None:
+    """Numbers are days ago; who has not begun today has lost nothing yet."""
+    today = date(2026, 3, 1)
+    kept = Progress(days=[today - timedelta(days=ago) for ago in days])
+    assert kept.days_in_a_row(today) == row
+
+
+def test_a_check_is_kept_with_its_day_and_its_moment(workspace: Path) -> None:
+    """Twice on one day is one day; all of it is read as it was written."""
+    (workspace / ".roslings").mkdir(parents=True, exist_ok=True)
+    record(verdict(40))
+    record(verdict(60))
+    kept = read_progress(workspace)
+    assert len(kept.days) == 1
+    assert progress_in(as_json(kept).encode()) == kept
+    assert kept.labs["topics"].last_at is not None
+    assert kept.labs["topics"].last_at.tzinfo is not None
 
 
 def test_today_leads_through_the_labs(two_labs: Path, workspace: Path) -> None:

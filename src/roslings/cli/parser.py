@@ -35,7 +35,7 @@ LEARNING = (
         learners.check_options,
     ),
     Entry("watch", "check again at every save", "learning:watch", learners.watch_options),
-    Entry("status", "which days and labs are done", "learning:status"),
+    Entry("status", "which days and labs are done", "way:status"),
     Entry("diff", "what you changed since the starter", "learning:diff", lab_options),
     Entry("pack", "make the zip file to hand in", "learning:pack", learners.pack_options),
     Entry("rover", "a small robot to drive by ROS, and its map", "devices:rover",
@@ -92,7 +92,7 @@ def parser() -> argparse.ArgumentParser:
         allow_abbrev=False,
     )
     top.add_argument("--version", action="version", version=f"roslings {__version__}")
-    top.set_defaults(command=command("learning:today"))
+    top.set_defaults(command=command("way:today"))
     words = top.add_subparsers(metavar="COMMAND", help=argparse.SUPPRESS, prog=top.prog)
     for entry in (*LEARNING, *TEACHING):
         about = entry.about[0].upper() + entry.about[1:]

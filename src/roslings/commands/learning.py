@@ -21,7 +21,6 @@ from roslings.workspace.trouble import shown
 if TYPE_CHECKING:
     from roslings.checking import Ready
     from roslings.saving import Graded
-    from roslings.workspace.progress import LabStatus
 
 
 def check(options: argparse.Namespace) -> int:
@@ -224,43 +223,6 @@ def _let_run(lab: Lab, options: argparse.Namespace) -> None:
         except KeyboardInterrupt:
             lines = ["Your nodes were not watched to the end. The file is whole."]
         print("\n".join(lines))
-
-
-def status(options: argparse.Namespace) -> int:
-    """Show days and labs done."""
-    from roslings.workspace import progress
-
-    labs = progress.status()
-    width = max((len(each.lab.name) for each in labs), default=0)
-    for day, done in progress.days_done(labs).items():
-        print(f"{'done' if done else 'open':5} {day}")
-        for each in (each for each in labs if each.lab.outline.day == day):
-            print(f"      {each.lab.name:{width}}  {_how_far(each)}")
-    return OK
-
-
-def _how_far(each: LabStatus) -> str:
-    if not each.progress.checks:
-        return "begun, not yet checked" if each.package else "not begun"
-    best = f"best {each.progress.best:g} of 100, last {each.progress.last:g}"
-    return f"done ({best})" if each.progress.done else best
-
-
-def today(options: argparse.Namespace) -> int:
-    """Say what is next."""
-    from roslings.workspace import progress
-
-    next_step = progress.today()
-    if next_step.at is None:
-        print(f"All labs are done. See them all: {program()} status")
-        return OK
-    lab = next_step.at.lab
-    print(f"Day {lab.outline.day}: {lab.outline.title}  ({_how_far(next_step.at)})")
-    verb = "start" if next_step.step is progress.Step.START else "check"
-    print(f"Next: {program()} {verb} {lab.name}")
-    print(f"The task: {from_here(lab.task)}")
-    print(f"All commands: {program()} --help")
-    return OK
 
 
 def lab(options: argparse.Namespace) -> int:

@@ -90,7 +90,7 @@ def record(verdict: Verdict, workspace: Path | None = None) -> LabProgress:
     if verdict.score is None:
         return read_progress(root).labs.get(verdict.lab, LabProgress())
     with writing(_file(root)), _locked(root):
-        progress = read_progress(root)
+        progress = read_progress(root).with_day(datetime.now().astimezone().date())
         lab = _after(progress.labs.get(verdict.lab, LabProgress()), verdict, verdict.score)
         progress.labs[verdict.lab] = lab
         _write(_file(root), progress)

@@ -7,12 +7,13 @@ would take longer than the rest of the command.
 from __future__ import annotations
 
 import json
-from dataclasses import asdict, dataclass, field
-from datetime import datetime
+from dataclasses import asdict, dataclass, field, replace
+from datetime import date, datetime, timedelta
 from typing import Any
 
 SCHEMA = 1
 FULL_SCORE = 100.0
+DAYS_KEPT = 400
 
 
 class Damaged(Exception):
@@ -41,9 +42,21 @@ class LabProgress:
 
 @dataclass(frozen=True)
 class Progress:
-    """The whole file: the lab's name to how far it is."""
+    """The whole file."""
 
     labs: dict[str, LabProgress] = field(default_factory=dict)
+    """The lab's name to how far it is."""
+    days: list[date] = field(default_factory=list)
+    """On which something was checked, in order; the newest `DAYS_KEPT`."""
+
+    def with_day(self, day: date) -> Progress:
+        """With one more day on which something was checked."""
+        return replace(self, days=sorted({*self.days, day})[-DAYS_KEPT:])
+
+    def days_in_a_row(self, today: date) -> int:
+        """Up to today, or up to yesterday where today has not begun."""
+        known, last = set(self.days), today if today in self.days else today - timedelta(days=1)
+        return next(n for n in range(len(known) + 1) if last - timedelta(days=n) not in known)
 
 
 def progress_in(content: bytes) -> Progress:
@@ -55,7 +68,8 @@ def progress_in(content: bytes) -> Progress:
         tree = json.loads(content)
         if tree.get("schema", SCHEMA) != SCHEMA:
             raise Damaged
-        return Progress({name: _lab_in(entry) for name, entry in tree.get("labs", {}).items()})
+        labs = {name: _lab_in(entry) for name, entry in tree.get("labs", {}).items()}
+        return Progress(labs, [date.fromisoformat(day) for day in tree.get("days", [])])
     except (AttributeError, RecursionError, TypeError, ValueError) as error:
         raise Damaged from error
 
@@ -63,7 +77,12 @@ def progress_in(content: bytes) -> Progress:
 def as_json(progress: Progress) -> str:
     """The content of the file."""
     tree = {"schema": SCHEMA, **asdict(progress)}
-    return json.dumps(tree, indent=2, default=datetime.isoformat) + "\n"
+    return json.dumps(tree, indent=2, default=_written) + "\n"
+
+
+def _written(moment: date) -> str:
+    """A date, or a datetime, each in its own way."""
+    return moment.isoformat()
 
 
 def _lab_in(entry: dict[str, Any]) -> LabProgress:
