@@ -10,7 +10,7 @@ import tty
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from typing import TextIO
+from typing import Any, TextIO
 
 FASTER, SLOWER = 1.1, 0.9
 ARROWS = {"\x1b[A": "i", "\x1b[B": ",", "\x1b[C": "l", "\x1b[D": "j"}
@@ -85,12 +85,12 @@ def keys_of(terminal: TextIO = sys.stdin) -> Iterator[Keys]:
     if not terminal.isatty():
         raise NoKeys
     descriptor = terminal.fileno()
-    before = termios.tcgetattr(descriptor)
+    keys = Keys(descriptor, termios.tcgetattr(descriptor))
     try:
         tty.setcbreak(descriptor)
-        yield Keys(descriptor)
+        yield keys
     finally:
-        termios.tcsetattr(descriptor, termios.TCSADRAIN, before)
+        keys.restore()
 
 
 @dataclass(frozen=True)
@@ -98,6 +98,21 @@ class Keys:
     """A terminal that hands out each key."""
 
     descriptor: int
+    before: list[Any]
+    """How the terminal was, as termios tells it."""
+
+    def restore(self) -> None:
+        """Make the terminal as it was."""
+        termios.tcsetattr(self.descriptor, termios.TCSADRAIN, self.before)
+
+    @contextmanager
+    def lent(self) -> Iterator[None]:
+        """Another program has the terminal while the block runs."""
+        self.restore()
+        try:
+            yield
+        finally:
+            tty.setcbreak(self.descriptor)
 
     def next(self, within_s: float) -> str:
         """The key that is pressed within this time; empty where none is, or the terminal is gone.

@@ -8,6 +8,7 @@ from pathlib import Path
 from roslings.cli.options import (
     hidden_option,
     package_options,
+    path_option,
     soak_option,
     trust_option,
     verdict_options,
@@ -50,7 +51,11 @@ def check_options(word: argparse.ArgumentParser) -> None:
 
 def watch_options(word: argparse.ArgumentParser) -> None:
     """What `watch` takes."""
-    package_options(word)
+    word.add_argument("lab", metavar="LAB", nargs="?", help="default: today's")
+    path_option(word)
+    word.add_argument(
+        "--plain", action="store_true", help="no keys, no new screen: lines only, as for a pipe"
+    )
     word.set_defaults(
         solution=False, json=None, html=None, evidence=None, only=None, seed=None, hint=None,
         clock="auto", port=None, hidden=None, trust=False, timings=False, all=False, soak=None,

@@ -16,6 +16,11 @@ def lab_options(word: argparse.ArgumentParser) -> None:
 def package_options(word: argparse.ArgumentParser) -> None:
     """The lab, and where its package lies."""
     lab_options(word)
+    path_option(word)
+
+
+def path_option(word: argparse.ArgumentParser) -> None:
+    """Where a package lies."""
     word.add_argument(
         "path", metavar="PATH", type=Path, nargs="?",
         help="your package, or a folder that holds it (default: your workspace, ~/roslings_ws)",

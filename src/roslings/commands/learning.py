@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import argparse
 import sys
-import time
-from contextlib import closing, suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,13 +11,12 @@ from typing import TYPE_CHECKING
 from roslings import course
 from roslings.commands.showing import from_here, is_stdout, kept, read, replace_kept, show
 from roslings.course import Lab, NoSolution
-from roslings.exits import OK, explain
+from roslings.exits import OK
 from roslings.typed import program
 from roslings.workspace.student import package_of, workspace_root
 from roslings.workspace.trouble import shown
 
 if TYPE_CHECKING:
-    from roslings.checking import Ready
     from roslings.saving import Graded
 
 
@@ -129,47 +126,6 @@ def _save(graded: Graded, options: argparse.Namespace, bags: Path | None) -> Non
         say = f"\nThe evidence is in {shown(options.evidence)}. Look at it in a browser:"
         page = shown(options.evidence / "report.html")
         print(f"{say}\n{page}", file=sys.stderr if is_stdout(options.json) else sys.stdout)
-
-
-def watch(options: argparse.Namespace) -> int:
-    """Check now, and again at every save, until Ctrl-C."""
-    lab = course.lab(options.lab)
-    folder = package_of(lab, options.path)
-    with suppress(KeyboardInterrupt):
-        _watch(lab, folder, options)
-    return OK
-
-
-def _watch(lab: Lab, folder: Path, options: argparse.Namespace) -> None:
-    from roslings.checking import ready_again_and_again
-    from roslings.workspace.watch import changes
-
-    saves = changes(folder, begin=True)  # begun first: a save during a check is not missed
-    with closing(ready_again_and_again(lab)) as each_ready:
-        for number, ready in enumerate(each_ready):  # ready first: only the save is waited for
-            if number:
-                print("\nWatching. Save a file to check again; Ctrl-C ends it.", flush=True)
-            saved = next(saves, None)
-            if saved is None:
-                return
-            if saved:
-                print(f"\nSaved: {_names(saved, folder)}", flush=True)
-            _check_saved(lab, options, ready)
-
-
-def _check_saved(lab: Lab, options: argparse.Namespace, ready: Ready) -> None:
-    """One check; what is wrong with the package now may be right at the next save."""
-    try:
-        graded = ready.grade(package_of(lab, options.path), time.monotonic_ns())
-        show(graded.verdict, options, replace_kept(lab, graded.verdict))
-    except Exception as error:
-        explain(error)
-
-
-def _names(saved: frozenset[Path], folder: Path) -> str:
-    inside = (path for path in saved if path != folder.resolve())
-    names = sorted(str(path.relative_to(folder.resolve())) for path in inside)
-    return ", ".join(names[:3]) or "the package"
 
 
 def start(options: argparse.Namespace) -> int:

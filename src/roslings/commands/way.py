@@ -28,7 +28,7 @@ FULL, EMPTY = "#", "."
 def today(options: argparse.Namespace) -> int:
     """Say what is next."""
     labs = progress.status()
-    print("\n".join([_bar(labs), "", *_next(labs, progress.today())]))
+    print("\n".join([bar(labs), "", *_next(labs, progress.today())]))
     print(f"{'All':6}{program()} --help      {program()} status")
     return OK
 
@@ -44,7 +44,7 @@ def status(options: argparse.Namespace) -> int:
         shown = "" if each.lab.outline.day == day else each.lab.outline.day
         day = each.lab.outline.day
         print(f"{shown:{day_width}}{each.lab.name:{lab_width}}{_how_far(each)}")
-    print(f"\n{_bar(labs)}")
+    print(f"\n{bar(labs)}")
     return OK
 
 
@@ -75,8 +75,8 @@ def _has_begun(labs: list[LabStatus]) -> bool:
     return any(each.package or each.progress.checks for each in labs)
 
 
-def _bar(labs: list[LabStatus]) -> str:
-    """`Labs  ####....  2 of 7   3 days in a row`."""
+def bar(labs: list[LabStatus]) -> str:
+    """How much is done: `Labs  ####....  2 of 7   3 days in a row`."""
     done = sum(each.progress.done for each in labs)
     full = round(BAR_COLUMNS * done / len(labs))
     kept = progress.read_progress(workspace_root())

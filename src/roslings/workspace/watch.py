@@ -41,31 +41,42 @@ class Saves(BaseFilter):
         return not any(part in MADE or _EDITORS.search(part) for part in parts)
 
 
+def never() -> bool:
+    """Nothing stops it, and nothing wakes it."""
+    return False
+
+
 def changes(
-    folder: Path, stop: Callable[[], bool] = lambda: False, begin: bool = False
+    folder: Path,
+    stop: Callable[[], bool] = never,
+    begin: bool = False,
+    wake: Callable[[], bool] = never,
 ) -> Iterator[frozenset[Path]]:
     """The paths of each save under `folder`, until Ctrl-C or until `stop()` is true.
 
     Saves that come while the caller works on one set are kept for the next. With `begin`, the
     first set is empty and comes as soon as the watch has begun: who works on it misses nothing.
+    An empty set comes, too, as often as `wake()` is true.
     A folder that vanishes (git checkout, a rename) is waited for; when it is back, that is a
     change of the folder itself.
     """
     folder = folder.resolve()
     try:
-        yield from _changes(folder, stop, begin)
+        yield from _changes(folder, stop, begin, wake)
     except KeyboardInterrupt:
         return
 
 
-def _changes(folder: Path, stop: Callable[[], bool], begin: bool) -> Iterator[frozenset[Path]]:
+def _changes(
+    folder: Path, stop: Callable[[], bool], begin: bool, wake: Callable[[], bool]
+) -> Iterator[frozenset[Path]]:
     at_first: frozenset[Path] | None = frozenset() if begin else None
     while _is_back(folder, stop):
         with _held(folder) as is_still_there:
             for found in _watch(folder):
                 if stop() or not is_still_there():
                     break
-                if found or at_first is not None:
+                if found or at_first is not None or wake():
                     yield frozenset(Path(path) for _, path in found) | (at_first or frozenset())
                     at_first = None
         at_first = frozenset({folder})  # told when the new watch has begun: no save is missed
