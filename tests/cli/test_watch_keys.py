@@ -79,6 +79,13 @@ def watching(home: Path, *words: str) -> Iterator[Watched]:
         os.close(screen)
 
 
+def in_the_readme() -> list[str]:
+    """The lines that the README shows; `...` stands for what it leaves out."""
+    readme = (root() / "README.md").read_text("utf-8")
+    (block,) = re.findall(r"^```text\n(Labs  .*?)^```$", readme, re.M | re.S)
+    return [line for line in block.splitlines() if line not in ("", "...")]
+
+
 def with_editor(home: Path) -> Path:
     """A home whose editor writes a line and ends."""
     editor = home / "editor"
@@ -90,7 +97,9 @@ def with_editor(home: Path) -> Path:
 def test_without_a_name_todays_lab_is_opened(tmp_path: Path) -> None:
     """Its starter is put there; the keys tell more, and the editor's save is checked."""
     with watching(with_editor(tmp_path)) as watch:
-        assert "The starter of 'nodes' is in" in watch.shows("Save a file to check again")
+        said = watch.shows("h hint .* q quit")
+        assert "The starter of 'nodes' is in" in said
+        assert [line for line in in_the_readme() if line not in said.splitlines()] == []
         watch.press("h")
         watch.shows("Hint 1 of 3")
         watch.press("h")
