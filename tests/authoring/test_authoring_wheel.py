@@ -213,3 +213,13 @@ def test_the_extras_alone_grade_too(wheel: Path, empty: Path, tmp_path: Path) ->
     assert graded.returncode == 0, graded.stdout + graded.stderr
     assert "100 of 100" in graded.stdout
     assert not (empty / "roslings-course" / ".venv").exists()
+
+
+@pytest.mark.skipif(shutil.which("uvx") is None, reason="there is no uvx on this machine")
+def test_uvx_makes_the_course_without_an_installation(wheel: Path, tmp_path: Path) -> None:
+    """What the page on installing says of it."""
+    uvx = shutil.which("uvx") or "uvx"
+    cache = {"UV_CACHE_DIR": str(tmp_path / "cache"), "UV_PYTHON": sys.executable}
+    made = run([uvx, "--offline", "--from", str(wheel), "roslings", "new"], tmp_path, **cache)
+    assert made.returncode == 0, made.stderr
+    assert (tmp_path / "roslings-course" / "roslings").is_file()
