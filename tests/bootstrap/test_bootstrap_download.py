@@ -10,6 +10,8 @@ from course_copy import CourseCopy
 from package_index import PackageIndex
 from tiny_wheels import make_wheel
 
+from roslings.bootstrap.installing import at_once
+
 BIG: dict[str, str | bytes] = {"check_x.py": "", "big_x.bin": b"\x07" * 3_000_000}
 
 
@@ -109,3 +111,12 @@ def test_an_empty_folder_of_wheels_is_named(course: CourseCopy, tmp_path: Path) 
     assert outcome.code == 2
     assert "without wheels" in outcome.err
     assert "./roslings wheels" in outcome.err
+
+
+def test_two_versions_of_a_package_are_never_fetched_together() -> None:
+    """A folder of wheels is for every release of a Python, and pip takes two for a conflict."""
+    packages = ["a==1", "b==1", "b==2", "c==1", "d==1", "b==3"]
+    rounds = list(at_once(packages, 3))
+    assert sorted(each for some in rounds for each in some) == sorted(packages)
+    assert all(len({each[0] for each in some}) == len(some) <= 3 for some in rounds)
+    assert list(at_once([], 3)) == []

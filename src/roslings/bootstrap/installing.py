@@ -11,7 +11,7 @@ for dependencies.
 import os
 import shutil
 import tempfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -84,8 +84,7 @@ class Installer:
         line = DownloadLine(total_mb)
         words = ["wheel", "--no-deps", "--no-build-isolation", "--progress-bar=raw"]
         words += ["--ignore-requires-python"]  # the pins know better, and may be for another one
-        for start in range(0, len(left), _AT_ONCE):
-            some = left[start : start + _AT_ONCE]
+        for some in at_once(left, _AT_ONCE):
             line.follow(self.pip().run(*words, "-w", str(folder), *some, cwd=self.place.root))
 
     def require_wheels(self, packages: Sequence[str]) -> None:
@@ -123,6 +122,21 @@ class Installer:
             wheels=self.wheels,
             sees_path=self.sees_path,
         )
+
+
+def at_once(packages: Sequence[str], most: int) -> Iterator[list[str]]:
+    """`name==version` texts, so many at a time, and never two versions of one package together.
+
+    pip takes that for a conflict, also where it only fetches.
+    """
+    waiting = list(packages)
+    while waiting:
+        some: dict[str, str] = {}
+        for package in waiting:
+            if len(some) < most:
+                some.setdefault(package.partition("==")[0], package)
+        yield [*some.values()]
+        waiting = [package for package in waiting if package not in some.values()]
 
 
 def drain(pip: Pip, words: Sequence[str], cwd: Path) -> None:
