@@ -115,6 +115,17 @@ def test_a_chip_that_gathers_bytes_cuts_lines_and_is_late() -> None:
     assert b"".join(came) == b"0123456789" * 4
 
 
+def test_a_line_is_cut_where_it_was_when_the_chip_sent_its_bytes() -> None:
+    """Also where a whole line comes through in one step: a node that reads then sees a half."""
+    wire = Wire(bits_s=57_600, packet_s=0.016)
+    line = b"$W,2,60,0,0*7BFF\n"
+    came = [wire(line if n % 5 == 0 else b"", 0.0041) for n in range(1000)]
+    pieces = [piece for piece in came if piece]
+    cut = sum(not piece.endswith(b"\n") for piece in pieces)
+    assert 0.1 * len(pieces) < cut < 0.3 * len(pieces)
+    assert (line * 200).startswith(b"".join(came))
+
+
 def test_a_cable_that_is_pulled_keeps_nothing() -> None:
     """What was under way is lost; then the whole next line comes, as fast as before."""
     wire = Wire(bits_s=100)

@@ -30,12 +30,16 @@ class Wire:
 
     def __call__(self, sent: bytes, dt_s: float) -> bytes:
         """What arrives in this time; the rest waits. Only a wire that is busy makes headway."""
-        self._gathered += self._through(sent, dt_s)
-        self._since_packet_s += dt_s
-        if self._since_packet_s < self.packet_s:
+        if not self.packet_s:
+            return self._through(sent, dt_s)
+        since_s = self._since_packet_s + dt_s
+        late_s = since_s % self.packet_s if since_s >= self.packet_s else dt_s
+        arrived = self._gathered + self._through(sent, dt_s - late_s)
+        after = self._through(b"", late_s)
+        if since_s < self.packet_s:
+            self._gathered, self._since_packet_s = arrived + after, since_s
             return b""
-        self._since_packet_s = 0.0
-        arrived, self._gathered = self._gathered, b""
+        self._gathered, self._since_packet_s = after, late_s
         return arrived
 
     def _through(self, sent: bytes, dt_s: float) -> bytes:
