@@ -38,6 +38,10 @@ ROOMS_BELOW = {
         "evidence", "verdict", "near", "rates", "endings", "timeline", "course", "experiment",
         "devices",
     },
+    "drills": {
+        "evidence", "verdict", "near", "timeline", "course", "arena", "probe", "workspace",
+        "experiment", "judge", "report",
+    },
     "report": {"evidence", "verdict", "near", "rates"},
     "checking": {
         "course", "evidence", "verdict", "timeline", "experiment", "judge", "report", "saving",
@@ -50,7 +54,7 @@ ROOMS_BELOW = {
     },
     "authoring": {
         "course", "workspace", "experiment", "judge", "batch", "bootstrap", "installed", "evidence",
-        "report",
+        "report", "drills",
     },
     "export": {"course", "authoring", "workspace"},
     "doctor": set[str](),

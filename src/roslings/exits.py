@@ -13,6 +13,7 @@ EXIT_OF_ERROR = {
     "roslings.batch.trouble:BatchError": WRONG_USE,
     "roslings.course.files:CourseError": WRONG_USE,
     "roslings.devices.trouble:DeviceTrouble": WRONG_USE,
+    "roslings.drills.running:RunBrokeOff": INCONCLUSIVE,
     "roslings.experiment.measure:MeasuringFailed": INCONCLUSIVE,
     "roslings.experiment.walls:NoWall": WRONG_USE,
     "roslings.jupyter.trouble:NoLessonToOpen": WRONG_USE,

@@ -64,6 +64,8 @@ def is_for_students(name: str) -> bool:
         return len(path.parts) > 1 and path.parts[1] in TESTS
     if path.parts[0] == "labs" and len(path.parts) > 2:
         return path.parts[2] not in ("solution", "mutants", PROMISES, "generated.yaml")
+    if path.parts[0] == "days" and "drills" in path.parts:
+        return path.stem != "solution"
     hidden = path.parts[0] == "graders" and path.name.startswith("hidden_")
     return not hidden and path.parts[0] not in MAINTAINERS_ONLY
 

@@ -49,6 +49,23 @@ def check_options(word: argparse.ArgumentParser) -> None:
     )  # fmt: skip
 
 
+def drill_options(word: argparse.ArgumentParser) -> None:
+    """What `drill` takes."""
+    word.add_argument(
+        "drill", metavar="NAME", nargs="?",
+        help="the drill to check (default: show the next one, and put its file in place)",
+    )  # fmt: skip
+    word.add_argument("--day", metavar="DAY", help="the next one of this day, for example 3")
+    word.add_argument("--list", action="store_true", help="all drills, and which are done")
+    word.add_argument(
+        "--hint", metavar="STEP", type=int, choices=(1, 2, 3), nargs="?", const=1,
+        help="a hint for it: 1 where, 2 which idea, 3 other code",
+    )  # fmt: skip
+    word.add_argument(
+        "--solution", action="store_true", help="check the course's own solution instead"
+    )
+
+
 def watch_options(word: argparse.ArgumentParser) -> None:
     """What `watch` takes."""
     word.add_argument("lab", metavar="LAB", nargs="?", help="default: today's")

@@ -29,6 +29,8 @@ class Entry:
 LEARNING = (
     Entry("doctor", "is this machine ready?"),
     Entry("lab", "open the day's lesson in JupyterLab", "learning:lab", learners.jupyter_options),
+    Entry("drill", "a tiny program to mend: the next one, or check it", "drilling:drill",
+          learners.drill_options),
     Entry("start", "put a lab's starter into your workspace", "learning:start", lab_options),
     Entry(
         "check", "run what you built, and say what to do next", "learning:check",

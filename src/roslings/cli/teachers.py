@@ -112,8 +112,11 @@ def new_lab_options(word: argparse.ArgumentParser) -> None:
 
 def prove_options(word: argparse.ArgumentParser) -> None:
     """What `prove` takes."""
-    word.add_argument("labs", metavar="LAB", nargs="+", help="for example: topics")
+    word.add_argument("labs", metavar="LAB", nargs="*", help="for example: topics")
     word.add_argument("--all", action="store_true", help="list what holds, too")
+    word.add_argument(
+        "--drills", metavar="DAY|NAME", nargs="*", help="drills, of a day or by name (default: all)"
+    )
     word.add_argument(
         "--packages", action="store_true",
         help="only: solution, starter and mutants get the verdicts that they must get",

@@ -9,7 +9,7 @@ from typing import Any
 
 from roslings import course
 from roslings.commands.showing import from_here
-from roslings.exits import FAILED, INCONCLUSIVE, OK
+from roslings.exits import FAILED, INCONCLUSIVE, OK, WRONG_USE
 
 USUALLY_PROVEN = ("packages", "contract")
 PROVABLE = (*USUALLY_PROVEN, "generated", "rewritten")
@@ -28,6 +28,11 @@ def new_lab(options: argparse.Namespace) -> int:
 
 def prove(options: argparse.Namespace) -> int:
     """Prove labs' packages and contracts, and say what is not as it must be."""
+    if options.drills is not None:
+        return _prove_drills(options)
+    if not options.labs:
+        print("roslings: name a lab, or --drills. For example: topics", file=sys.stderr)
+        return WRONG_USE
     from roslings.authoring.prove import Proof
     from roslings.authoring.telling import told
     from roslings.batch.command import Teller
@@ -50,6 +55,22 @@ def prove(options: argparse.Namespace) -> int:
         for lab in labs:
             only = f": its {' and '.join(names)} only" if names else ""
             print(f"The lab {lab.name!r} is proven{only}.")
+        return OK
+    return INCONCLUSIVE if all(proof.is_open for proof in wrong) else FAILED
+
+
+def _prove_drills(options: argparse.Namespace) -> int:
+    """Prove drills: all, those of days, or some by name."""
+    from roslings.authoring.drills import chosen, prove_drills
+    from roslings.authoring.telling import told
+
+    drills = chosen(options.drills)
+    lines = list(prove_drills(drills, options.jobs))
+    for text in told(lines, all_of_them=options.all):
+        print(text)
+    wrong = [line for line in lines if not line.holds]
+    if not wrong:
+        print(f"{len(drills)} drills are proven.")
         return OK
     return INCONCLUSIVE if all(proof.is_open for proof in wrong) else FAILED
 

@@ -95,7 +95,7 @@ class Collector:
             "max_points": worth,
             "lesson": self._lab.lesson_of(name),
             "hidden": name in self._lab.hidden_checks,
-            **_words_for(error, title_of(_function(item))),
+            **words_for(error, title_of(_function(item))),
         }
         if isinstance(error, Fault) and not error.blocks:
             self._open.add(name)
@@ -104,7 +104,7 @@ class Collector:
         return CheckResult(**words)
 
 
-def _words_for(error: BaseException | None, title: str) -> dict[str, Any]:
+def words_for(error: BaseException | None, title: str) -> dict[str, Any]:
     """Outcome and sentences for what a check raised."""
     if error is None:
         return {"outcome": "pass", "measured": remarks()}

@@ -14,7 +14,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from roslings.course import Lab, all_labs
-from roslings.workspace.progress_file import Damaged, LabProgress, Progress, as_json, progress_in
+from roslings.workspace.progress_file import (
+    Damaged,
+    DrillProgress,
+    LabProgress,
+    Progress,
+    as_json,
+    progress_in,
+)
 from roslings.workspace.student import started_package, workspace_root
 from roslings.workspace.trouble import WorkspaceError, reading, writing
 
@@ -95,6 +102,19 @@ def record(verdict: Verdict, workspace: Path | None = None) -> LabProgress:
         progress.labs[verdict.lab] = lab
         _write(_file(root), progress)
     return lab
+
+
+def record_drill(name: str, passed: bool, workspace: Path | None = None) -> DrillProgress:
+    """Keep that a drill was tried, and whether it passed. Raises DiskFull and CannotWrite."""
+    root = workspace or workspace_root()
+    now = datetime.now(timezone.utc).replace(microsecond=0)
+    with writing(_file(root)), _locked(root):
+        progress = read_progress(root).with_day(datetime.now().astimezone().date())
+        before = progress.drills.get(name, DrillProgress())
+        passed_at = before.passed_at or (now if passed else None)
+        progress.drills[name] = DrillProgress(before.tries + 1, now, passed_at)
+        _write(_file(root), progress)
+        return progress.drills[name]
 
 
 def read_progress(workspace: Path) -> Progress:

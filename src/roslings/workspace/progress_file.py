@@ -41,11 +41,23 @@ class LabProgress:
 
 
 @dataclass(frozen=True)
+class DrillProgress:
+    """How far one drill is."""
+
+    tries: int = 0
+    last_at: datetime | None = None
+    passed_at: datetime | None = None
+    """First time that it was mended."""
+
+
+@dataclass(frozen=True)
 class Progress:
     """The whole file."""
 
     labs: dict[str, LabProgress] = field(default_factory=dict)
     """The lab's name to how far it is."""
+    drills: dict[str, DrillProgress] = field(default_factory=dict)
+    """The same of drills."""
     days: list[date] = field(default_factory=list)
     """On which something was checked, in order; the newest `DAYS_KEPT`."""
 
@@ -69,7 +81,8 @@ def progress_in(content: bytes) -> Progress:
         if tree.get("schema", SCHEMA) != SCHEMA:
             raise Damaged
         labs = {name: _lab_in(entry) for name, entry in tree.get("labs", {}).items()}
-        return Progress(labs, [date.fromisoformat(day) for day in tree.get("days", [])])
+        drills = {name: _drill_in(entry) for name, entry in tree.get("drills", {}).items()}
+        return Progress(labs, drills, [date.fromisoformat(day) for day in tree.get("days", [])])
     except (AttributeError, RecursionError, TypeError, ValueError) as error:
         raise Damaged from error
 
@@ -92,6 +105,15 @@ def _lab_in(entry: dict[str, Any]) -> LabProgress:
         last=_between(entry.get("last", 0.0), FULL_SCORE),
         checks=int(_between(entry.get("checks", 0), float("inf"))),
         best_at=_time_in(entry.get("best_at")),
+        last_at=_time_in(entry.get("last_at")),
+        passed_at=_time_in(entry.get("passed_at")),
+    )
+
+
+def _drill_in(entry: dict[str, Any]) -> DrillProgress:
+    """Raises ValueError, TypeError or AttributeError where it is none."""
+    return DrillProgress(
+        tries=int(_between(entry.get("tries", 0), float("inf"))),
         last_at=_time_in(entry.get("last_at")),
         passed_at=_time_in(entry.get("passed_at")),
     )

@@ -1,0 +1,218 @@
+"""The faults that only a drill has; all others are those of the labs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from roslings.judge.faults import Fault
+
+
+@dataclass(eq=False)
+class NoAnswerYet(Fault):
+    """The student has not said what will happen."""
+
+    question: str
+    why = "Who says first what will happen, and then looks, remembers it."
+    measured = "ANSWER is still None: the file holds no answer yet"
+
+    @property
+    def expected(self) -> str:
+        """The question."""
+        return f"your answer to: {self.question}"
+
+    @property
+    def hint(self) -> str:
+        """Where it goes."""
+        return "Write your answer behind ANSWER = , then save. Texts stand in quotes, numbers not."
+
+
+@dataclass(eq=False)
+class WrongAnswer(Fault):
+    """The run showed something else."""
+
+    said: Any
+    shown: Any
+    because: str
+    why = "Now you know it, and next time you see it before it happens."
+
+    @property
+    def expected(self) -> str:
+        """What was foretold."""
+        return f"{self.said!r}, as you said"
+
+    @property
+    def measured(self) -> str:
+        """That it was not so; the right one is for the student to find."""
+        return f"the run did not show {self.said!r}"
+
+    @property
+    def hint(self) -> str:
+        """Where to look again."""
+        return "Read the program once more, line by line, as the computer does. Then answer again."
+
+
+@dataclass(eq=False)
+class ProgramChanged(Fault):
+    """More than the answer was changed."""
+
+    line: int
+    why = "The question is about this program, not about another one."
+    expected = "the program as it was; only the line with ANSWER is yours"
+    hint = (
+        "Undo your changes but the one to ANSWER. For a fresh file, delete yours and start again."
+    )
+
+    @property
+    def measured(self) -> str:
+        """Where."""
+        return f"line {self.line} is not as it was"
+
+
+@dataclass(eq=False)
+class NeverSpins(Fault):
+    """The node is there, and runs none of its callbacks."""
+
+    node: str
+    expected = "a node that runs its callbacks: timers, subscriptions, services"
+    why = "ROS puts what comes into a queue. Only spinning takes it out and calls your function."
+    hint = "What keeps main() busy? It must be rclpy.spin(node), and no callback may wait or loop."
+
+    @property
+    def measured(self) -> str:
+        """That it does not answer."""
+        return f"{self.node} is there, but it runs no callback"
+
+
+@dataclass(eq=False)
+class NotPrinted(Fault):
+    """A text that should stand in the output does not."""
+
+    wanted: str
+    last: str | None
+    why = "What a program prints is all that you see of it in a terminal."
+
+    @property
+    def expected(self) -> str:
+        """The text."""
+        return f"the output holds {self.wanted!r}"
+
+    @property
+    def measured(self) -> str:
+        """The last line, or that there is none."""
+        return f"its last line is {self.last!r}" if self.last else "it printed nothing"
+
+    @property
+    def hint(self) -> str:
+        """Run it by hand."""
+        return "Run the file by hand in a terminal, and read what it prints from the top."
+
+
+@dataclass(eq=False)
+class PrintedAnyway(NotPrinted):
+    """A text stands in the output that should not."""
+
+    was_seen = True
+
+    @property
+    def expected(self) -> str:
+        """Without it."""
+        return f"the output does not hold {self.wanted!r}"
+
+    @property
+    def measured(self) -> str:
+        """The line."""
+        return f"it printed {self.last!r}"
+
+
+@dataclass(eq=False)
+class RunsOn(Fault):
+    """A program that has one task did not end."""
+
+    after_s: float
+    expected = "the program does its task and ends"
+    why = "Who starts it waits until it ends."
+    hint = "What does it wait for? Does it spin for ever, where it should spin until it is done?"
+
+    @property
+    def measured(self) -> str:
+        """How long it ran."""
+        return f"it was still running after {self.after_s:.1f} s"
+
+
+@dataclass(eq=False)
+class WrongExitCode(Fault):
+    """It ended with another exit code."""
+
+    wanted: int
+    how: str
+    why = "The exit code tells the next program whether all went well: 0 means yes."
+    hint = "Read the last lines below: the last one names the error."
+    was_seen = True
+
+    @property
+    def expected(self) -> str:
+        """The code."""
+        return f"it ends with exit code {self.wanted}"
+
+    @property
+    def measured(self) -> str:
+        """How it ended."""
+        return self.how
+
+
+@dataclass(eq=False)
+class NoReaction(Fault):
+    """The program was told something, and nothing came of it."""
+
+    told: str
+    wanted: str
+    why = "A callback only helps when something comes of it."
+    hint = "Follow the message through your callback: is it called, and does it reach publish()?"
+
+    @property
+    def expected(self) -> str:
+        """What should come."""
+        return f"after {self.told}, {self.wanted}"
+
+    @property
+    def measured(self) -> str:
+        """Nothing."""
+        return f"after {self.told}, nothing came"
+
+
+@dataclass(eq=False)
+class WrongReaction(NoReaction):
+    """Something else came of it."""
+
+    found: str
+    was_seen = True
+    hint = "Follow the number through your callback, with pen and paper: where does it change?"
+
+    @property
+    def measured(self) -> str:
+        """What came."""
+        return f"after {self.told}, {self.found}"
+
+
+@dataclass(eq=False)
+class WrongField(Fault):
+    """A message holds something else in a field."""
+
+    topic: str
+    field_name: str
+    wanted: str
+    found: str
+    why = "Who reads these messages takes each field at its word."
+    hint = "Look where your code fills the message: which field gets which value?"
+    was_seen = True
+
+    @property
+    def expected(self) -> str:
+        """The value."""
+        return f"{self.field_name} is {self.wanted} in each message on {self.topic}"
+
+    @property
+    def measured(self) -> str:
+        """The value that came."""
+        return f"{self.field_name} is {self.found}"

@@ -1,0 +1,68 @@
+"""The student's own files: one for each drill that was begun, in `drills/` of the workspace."""
+
+from __future__ import annotations
+
+import shutil
+from dataclasses import dataclass
+from pathlib import Path
+
+from roslings.drills.course import Drill, all_drills
+from roslings.workspace.progress import read_progress
+from roslings.workspace.student import workspace_root
+from roslings.workspace.trouble import writing
+
+FOLDER = "drills"
+
+
+@dataclass(frozen=True)
+class DrillStatus:
+    """How far one drill is."""
+
+    drill: Drill
+    tries: int
+    done: bool
+    file: Path | None
+    """The student's file, where there is one."""
+
+
+def file_of(drill: Drill, workspace: Path | None = None) -> Path:
+    """Where the student's file for a drill lies, or will lie."""
+    return (workspace or workspace_root()) / FOLDER / drill.day / drill.file_name
+
+
+def start(drill: Drill, workspace: Path | None = None) -> tuple[Path, bool]:
+    """Put the starter into the workspace, never over what is there; the file, and whether it is new.
+
+    Raises DiskFull, CannotWrite.
+    """
+    file = file_of(drill, workspace)
+    if file.exists():
+        return file, False
+    with writing(file):
+        file.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(drill.starter, file)
+    return file, True
+
+
+def statuses(workspace: Path | None = None) -> list[DrillStatus]:
+    """How far each drill is, in the order of the path."""
+    root = workspace or workspace_root()
+    done = read_progress(root).drills
+    return [_status(each, done, root) for each in all_drills()]
+
+
+def _status(drill: Drill, done: dict[str, object], root: Path) -> DrillStatus:
+    found = done.get(drill.name)
+    file = file_of(drill, root)
+    return DrillStatus(
+        drill,
+        getattr(found, "tries", 0),
+        getattr(found, "passed_at", None) is not None,
+        file if file.is_file() else None,
+    )
+
+
+def next_drill(workspace: Path | None = None, day: str | None = None) -> DrillStatus | None:
+    """The first drill that is not done, of a day or of all; None when all are."""
+    every = statuses(workspace)
+    return next((s for s in every if not s.done and day in (None, s.drill.day)), None)

@@ -1,0 +1,196 @@
+"""The one experiment of a drill: run its program, say and ask what the card has, and watch."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+
+from roslings.arena import Process
+from roslings.course import NodeContract, TopicContract
+from roslings.drills.card import PROGRAM, DrillCard, Tell
+from roslings.evidence import Endpoint, ExperimentSeen, GraphSeen
+from roslings.experiment import Run, Scene
+from roslings.experiment.asking import Asker, answering
+from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
+from roslings.experiment.scene import hears
+from roslings.experiment.start import Start
+from roslings.experiment.starting import list_parameters
+from roslings.experiment.telling import nested
+from roslings.near import nearest_endpoint
+
+TRIES = 2
+"""We see that we are joined with a node a little before the node does: what is said in between is
+lost, and is said once more."""
+SHOWS_WITHIN_S = 0.4
+"""After a node's callbacks have run, what they wrote is on its way."""
+TURNS_WITHIN_S = 2.0
+PRINTS_WITHIN_S, ENDS_WITHIN_S = 3.0, 4.0
+BESIDE = "beside"
+
+
+class SeenEnough(Exception):
+    """Nothing more is asked of the program, and nobody judges how it ends."""
+
+
+def watch(card: DrillCard, scene: Scene) -> None:
+    """Run the program once, and see all that the card asks for."""
+    with _companion(card, scene):
+        try:
+            with running(card, scene) as process:
+                _watch_all(card, scene, process)
+                if not card.ends_well:
+                    raise SeenEnough
+        except SeenEnough:
+            pass
+    _forget(card, scene.seen)
+
+
+@contextmanager
+def running(card: DrillCard, scene: Scene) -> Iterator[Process]:
+    """The program, started as the card says; with `ends_well`, Ctrl-C is pressed at the end."""
+    node = card.nodes[0] if card.nodes else NodeContract(node="/program", executable=PROGRAM)
+    start = Start(parameters=card.given)
+    remaps = [*card.remaps, *_renaming(card.named)]
+    if card.exits is not None or not card.nodes:
+        with scene.arena.run(PROGRAM, start.arguments(remaps)) as process:
+            scene.seen.processes[PROGRAM] = process.seen
+            yield process
+    else:
+        with scene.run_all(Run(node, remaps, start)) as (process,):
+            yield process
+
+
+def _renaming(named: str | None) -> list[str]:
+    if named is None:
+        return []
+    space, _, name = named.rpartition("/")
+    return [f"__node:={name}", f"__ns:={space or '/'}"]
+
+
+@contextmanager
+def _companion(card: DrillCard, scene: Scene) -> Iterator[None]:
+    """The program that runs beside, until it is in the graph."""
+    with ExitStack() as stack:
+        if card.beside:
+            stack.enter_context(scene.arena.run(BESIDE))
+            wanted = set(card.beside.nodes)
+            scene.until(lambda: wanted <= set(scene.seen.graph.nodes), FIRST_MESSAGE_WITHIN_S)
+        yield
+
+
+def _forget(card: DrillCard, seen: ExperimentSeen) -> None:
+    """What ran beside is not the student's."""
+    ours = set(card.beside.nodes) if card.beside else set()
+    graph = seen.graph
+    seen.graph = GraphSeen(
+        nodes=[name for name in graph.nodes if name not in ours],
+        endpoints=[each for each in graph.endpoints if each.node not in ours],
+        services=graph.services,
+    )
+
+
+def _watch_all(card: DrillCard, scene: Scene, process: Process) -> None:
+    if len(card.nodes) > 1:
+        scene.appears(lambda: len(scene.seen.graph.nodes) >= len(card.nodes), "all nodes")
+    _let_spin(scene, process)
+    published = [topic for node in card.nodes for topic in node.publishes]
+    if any(node.parameters for node in card.nodes):
+        list_parameters(scene, card.nodes[0])
+    for topic in published[: 0 if card.tells else 1]:
+        scene.watch(topic)
+    for node in card.nodes:
+        _talk_with(node, card, scene, process)
+    for tell in card.tells:
+        _tell(tell, scene, process)
+    _await_output(card, scene, process)
+
+
+def _let_spin(scene: Scene, process: Process) -> None:
+    """Wait until its nodes have run a callback; those that never do are written down."""
+    for name in list(scene.seen.graph.nodes):
+        if process.alive and not scene.turned(name, TURNS_WITHIN_S) and process.alive:
+            scene.seen.stuck.append(name)
+
+
+def _talk_with(node: NodeContract, card: DrillCard, scene: Scene, process: Process) -> None:
+    for topic in node.subscribes if not card.tells else ():
+        ear = _ear(scene, topic)
+        for _ in range(card.says if ear else 0):
+            assert ear
+            _say(scene, process, ear, scene.sentence())
+    if node.serves:
+        asker = Asker(scene, process, node)
+        for service in node.serves:
+            asker.ask_in_a_row(service, service.answers, len(service.answers), service.service)
+    for service in node.calls:
+        with answering(scene, service, service.answers[0].response):
+            scene.until(lambda: len(scene.seen.served) > 0, ENDS_WITHIN_S)
+
+
+def _ear(scene: Scene, topic: TopicContract) -> Endpoint | None:
+    def find() -> Endpoint | None:
+        return nearest_endpoint(scene.seen.graph, "subscription", topic.topic, topic.type)
+
+    scene.appears(lambda: find() is not None, hears(topic))
+    return find()
+
+
+def _say(scene: Scene, process: Process, ear: Endpoint, text: str) -> None:
+    """Say a sentence, once more where nothing came of it, and wait for the line about it."""
+    if ear.type != "std_msgs/msg/String":
+        return
+    said = len(scene.seen.spoken)
+    for _ in range(TRIES):
+        del scene.seen.spoken[said:]  # one sentence, however often it had to be said
+        scene.probe.say(ear, {"data": text}, FIRST_MESSAGE_WITHIN_S)
+        if _comes(scene, process, ear, lambda: scene.is_written(process, text)):
+            return
+
+
+def _comes(scene: Scene, process: Process, ear: Endpoint, shown: object) -> bool:
+    """Wait for what must come of a message, and no longer than until the callbacks have run."""
+    assert callable(shown)
+    if scene.until_own(shown, SHOWS_WITHIN_S) or not process.alive:
+        return True
+    scene.turned(ear.node, TURNS_WITHIN_S)
+    return scene.until_own(shown, SHOWS_WITHIN_S)
+
+
+def _tell(tell: Tell, scene: Scene, process: Process) -> None:
+    topic = TopicContract(topic=tell.topic, type=tell.type)
+    ear = _ear(scene, topic)
+    if ear is None:
+        return
+    said = len(scene.seen.spoken)
+    for _ in range(TRIES):
+        del scene.seen.spoken[said:]
+        before = _heard(scene, tell)
+        scene.probe.say(ear, nested(tell.message), FIRST_MESSAGE_WITHIN_S)
+
+        def shown(before: int = before) -> bool:
+            written = tell.log is None or scene.is_written(process, tell.log)
+            return written and (tell.publishes is None or _heard(scene, tell) > before)
+
+        if _comes(scene, process, ear, shown):
+            return
+
+
+def _heard(scene: Scene, tell: Tell) -> int:
+    if tell.publishes is None:
+        return 0
+    wanted = tell.publishes
+    there = nearest_endpoint(scene.seen.graph, "publisher", wanted.topic, wanted.type)
+    return scene.probe.count(there.topic) if there else 0
+
+
+def _await_output(card: DrillCard, scene: Scene, process: Process) -> None:
+    """Wait for what must be printed, and for the end of a program that ends by itself."""
+    if card.exits is not None:
+        scene.until_own(lambda: not process.alive, ENDS_WITHIN_S)
+        process.wait_ended(0.0 if process.alive else ENDS_WITHIN_S)
+    elif card.prints:
+        texts = [line for line in card.prints]
+        scene.until_own(
+            lambda: all(any(t in line.text for line in process.lines()) for t in texts),
+            PRINTS_WITHIN_S,
+        )
