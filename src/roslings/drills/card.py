@@ -115,6 +115,6 @@ class DrillCard(Contract):
     def follows_the_clock(self) -> bool:
         """All that is seen of it comes from timers, so that simulated time shows it sooner."""
         speaks = any(node.publishes for node in self.nodes)
-        asked = (self.says, self.tells, self.beside, self.exits is not None,
-                 *(node.serves or node.calls or node.subscribes for node in self.nodes))  # fmt: skip
+        talks = any(n.serves or n.calls or n.subscribes for n in self.nodes)
+        asked = (self.says, self.tells, self.beside, self.exits is not None, talks)
         return speaks and self.program == "python" and not any(asked)

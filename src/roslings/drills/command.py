@@ -11,6 +11,7 @@ from roslings.drills import telling
 from roslings.drills.course import Drill, all_drills, drill
 from roslings.drills.judging import DrillVerdict
 from roslings.drills.student import DrillStatus, file_of, next_drill, start, statuses
+from roslings.report.page import Page
 from roslings.timeline import NS_PER_S, process_began_ns
 from roslings.workspace.progress import record_drill
 from roslings.workspace.student import workspace_root
@@ -45,7 +46,7 @@ def run(asked: Asked) -> DrillVerdict | None:
     return verdict
 
 
-def _put_next(page: telling.Page, asked: Asked) -> None:
+def _put_next(page: Page, asked: Asked) -> None:
     """Put the next drill into the workspace, and show it."""
     status = next_drill(day=asked.day)
     if status is None:
@@ -55,14 +56,14 @@ def _put_next(page: telling.Page, asked: Asked) -> None:
     _put_task(page, status, asked)
 
 
-def _put_task(page: telling.Page, status: DrillStatus, asked: Asked) -> None:
+def _put_task(page: Page, status: DrillStatus, asked: Asked) -> None:
     names = [each.name for each in all_drills()]
     file, _ = start(status.drill)
     place = (names.index(status.drill.name) + 1, len(names))
     telling.put_task(page, status.drill, file, place, asked.program)
 
 
-def _check(page: telling.Page, one: Drill, asked: Asked) -> DrillVerdict | None:
+def _check(page: Page, one: Drill, asked: Asked) -> DrillVerdict | None:
     if asked.solution:
         file = one.solution
     elif not (file := file_of(one)).is_file():

@@ -154,8 +154,9 @@ def check_many(
                 own = stack.enter_context(ExitStack())
                 run = own.enter_context(begun(drill, file))
                 under_way[run.answer] = number, run, own
-            for answer in wait(list(under_way)):
-                number, run, own = under_way.pop(answer)  # type: ignore[arg-type]  # one of them
+            ready = wait(list(under_way))
+            for answer in [each for each in under_way if each in ready]:
+                number, run, own = under_way.pop(answer)
                 with own:
                     yield number, run.verdict()
 

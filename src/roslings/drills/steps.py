@@ -62,14 +62,8 @@ class Step:
 
 def steps_of(card: DrillCard, said: Any = None) -> Iterator[Step]:
     """All that is demanded, in order; `said` is what the student has foretold."""
-    if card.nodes:
-        yield from _of_processes(card)
-    elif card.exits is not None:
-        yield _exit_step(card)
-    for text in card.prints:
-        yield Step("prints", f"It prints {text!r}.", _prints(text))
-    for text in card.never_prints:
-        yield Step("silent", f"It does not print {text!r}.", _never_prints(text))
+    yield from _of_processes(card) if card.nodes else ()
+    yield from _of_output(card)
     for node in card.nodes:
         yield from _of_topics(node)
     for node in card.nodes:
@@ -77,13 +71,17 @@ def steps_of(card: DrillCard, said: Any = None) -> Iterator[Step]:
         yield from _of_services(node)
     for tell in card.tells:
         yield Step("answers", f"It makes the right thing of {tell.topic}.", _reacts(tell))
-    if card.nodes and card.exits is not None:
-        yield _exit_step(card)
     if card.answer:
         title = "What you foretold is what the run shows."
         yield Step("foretold", title, lambda view: compare(said, card, view))
-    if card.ends_well:
-        yield from _of_ends(card.nodes[0])
+    yield from _of_ends(card)
+
+
+def _of_output(card: DrillCard) -> Iterator[Step]:
+    for text in card.prints:
+        yield Step("prints", f"It prints {text!r}.", _prints(text))
+    for text in card.never_prints:
+        yield Step("silent", f"It does not print {text!r}.", _never_prints(text))
 
 
 def _of_processes(card: DrillCard) -> Iterator[Step]:
@@ -187,8 +185,9 @@ def _of_what_it_hears(node: NodeContract, card: DrillCard) -> Iterator[Step]:
 
 
 def _hears(view: ExperimentView, node: NodeContract) -> None:
-    names = {nearest.topic for topic in node.subscribes
-             if (nearest := nearest_endpoint(view.seen.graph, "subscription", topic.topic, topic.type))}  # fmt: skip
+    graph = view.seen.graph
+    ends = [nearest_endpoint(graph, "subscription", t.topic, t.type) for t in node.subscribes]
+    names = {each.topic for each in ends if each}
     spoken = [each for each in view.seen.spoken if each.topic in names]
     view.process(node).must(repeat(node, spoken))
 
@@ -207,11 +206,16 @@ def _of_services(node: NodeContract) -> Iterator[Step]:
                        lambda view: view.must(tell_the_answer(node)))  # fmt: skip
 
 
-def _of_ends(node: NodeContract) -> Iterator[Step]:
-    yield Step("ends", "Ctrl-C ends it at once.",
-               lambda view: view.process(node).must(end_within(ENDS_WITHIN_S)))  # fmt: skip
-    yield Step("clean_exit", "After Ctrl-C it ends without an error.",
-               lambda view: view.process(node).must(exit_cleanly))  # fmt: skip
+def _of_ends(card: DrillCard) -> Iterator[Step]:
+    if card.exits is not None:
+        title = f"It ends by itself, with exit code {card.exits}."
+        yield Step("exits", title, lambda view: _require_exit(card, view))
+    if card.ends_well:
+        node = card.nodes[0]
+        yield Step("ends", "Ctrl-C ends it at once.",
+                   lambda view: view.process(node).must(end_within(ENDS_WITHIN_S)))  # fmt: skip
+        yield Step("clean_exit", "After Ctrl-C it ends without an error.",
+                   lambda view: view.process(node).must(exit_cleanly))  # fmt: skip
 
 
 # --- what the program prints, and how it ends --------------------------------------------------
@@ -249,11 +253,6 @@ def _no_traceback(card: DrillCard) -> Callable[[ExperimentView], None]:
             _require_exit(card, view)
 
     return demand
-
-
-def _exit_step(card: DrillCard) -> Step:
-    title = f"It ends by itself, with exit code {card.exits}."
-    return Step("exits", title, lambda view: _require_exit(card, view))
 
 
 def _require_exit(card: DrillCard, view: ExperimentView) -> None:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from roslings.drills.course import Drill, all_drills
 from roslings.workspace.progress import read_progress
+from roslings.workspace.progress_file import DrillProgress
 from roslings.workspace.student import workspace_root
 from roslings.workspace.trouble import writing
 
@@ -31,7 +33,7 @@ def file_of(drill: Drill, workspace: Path | None = None) -> Path:
 
 
 def start(drill: Drill, workspace: Path | None = None) -> tuple[Path, bool]:
-    """Put the starter into the workspace, never over what is there; the file, and whether it is new.
+    """Put the starter into the workspace, never over what is there; file, and whether it is new.
 
     Raises DiskFull, CannotWrite.
     """
@@ -51,15 +53,11 @@ def statuses(workspace: Path | None = None) -> list[DrillStatus]:
     return [_status(each, done, root) for each in all_drills()]
 
 
-def _status(drill: Drill, done: dict[str, object], root: Path) -> DrillStatus:
-    found = done.get(drill.name)
+def _status(drill: Drill, done: Mapping[str, DrillProgress], root: Path) -> DrillStatus:
+    found = done.get(drill.name, DrillProgress())
     file = file_of(drill, root)
-    return DrillStatus(
-        drill,
-        getattr(found, "tries", 0),
-        getattr(found, "passed_at", None) is not None,
-        file if file.is_file() else None,
-    )
+    passed = found.passed_at is not None
+    return DrillStatus(drill, found.tries, passed, file if file.is_file() else None)
 
 
 def next_drill(workspace: Path | None = None, day: str | None = None) -> DrillStatus | None:
