@@ -1,4 +1,4 @@
-"""The rover"s lamp: a node called rover_lamp. It must run until Ctrl-C."""
+"""The rover's lamp: a node called rover_lamp, which runs until Ctrl-C."""
 
 import rclpy
 from rclpy.node import Node
