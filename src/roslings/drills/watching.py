@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 
 from roslings.arena import Process
@@ -12,7 +12,7 @@ from roslings.evidence import Endpoint, ExperimentSeen, GraphSeen
 from roslings.experiment import Run, Scene
 from roslings.experiment.asking import Asker, answering
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
-from roslings.experiment.scene import hears
+from roslings.experiment.scene import hears, publishes
 from roslings.experiment.start import Start
 from roslings.experiment.starting import list_parameters
 from roslings.experiment.telling import nested
@@ -23,7 +23,8 @@ TRIES = 2
 lost, and is said once more."""
 SHOWS_WITHIN_S = 0.4
 """After a node's callbacks have run, what they wrote is on its way."""
-TURNS_WITHIN_S = 2.0
+TURNS_WITHIN_S = 0.8
+"""Of its own time: a node that answers nothing for so long runs no callback."""
 PRINTS_WITHIN_S, ENDS_WITHIN_S = 3.0, 4.0
 BESIDE = "beside"
 
@@ -93,16 +94,30 @@ def _watch_all(card: DrillCard, scene: Scene, process: Process) -> None:
     if len(card.nodes) > 1:
         scene.appears(lambda: len(scene.seen.graph.nodes) >= len(card.nodes), "all nodes")
     _let_spin(scene, process)
+    if scene.seen.stuck:
+        return  # nothing can come of a node that runs no callback
     published = [topic for node in card.nodes for topic in node.publishes]
     if any(node.parameters for node in card.nodes):
         list_parameters(scene, card.nodes[0])
-    for topic in published[: 0 if card.tells else 1]:
-        scene.watch(topic)
+    if published and not card.tells:
+        _watch_first(published[0], card, scene)
     for node in card.nodes:
         _talk_with(node, card, scene, process)
     for tell in card.tells:
         _tell(tell, scene, process)
     _await_output(card, scene, process)
+
+
+def _watch_first(topic: TopicContract, card: DrillCard, scene: Scene) -> None:
+    """Watch what it says; where nobody asks for that, only that it is there."""
+    if topic.rate or topic.text or topic.fields or card.answer:
+        scene.watch(topic)
+    else:
+        scene.appears(lambda: _mouth(scene, topic) is not None, publishes(topic))
+
+
+def _mouth(scene: Scene, topic: TopicContract) -> Endpoint | None:
+    return nearest_endpoint(scene.seen.graph, "publisher", topic.topic, topic.type)
 
 
 def _let_spin(scene: Scene, process: Process) -> None:
@@ -147,9 +162,8 @@ def _say(scene: Scene, process: Process, ear: Endpoint, text: str) -> None:
             return
 
 
-def _comes(scene: Scene, process: Process, ear: Endpoint, shown: object) -> bool:
+def _comes(scene: Scene, process: Process, ear: Endpoint, shown: Callable[[], bool]) -> bool:
     """Wait for what must come of a message, and no longer than until the callbacks have run."""
-    assert callable(shown)
     if scene.until_own(shown, SHOWS_WITHIN_S) or not process.alive:
         return True
     scene.turned(ear.node, TURNS_WITHIN_S)
@@ -178,8 +192,7 @@ def _tell(tell: Tell, scene: Scene, process: Process) -> None:
 def _heard(scene: Scene, tell: Tell) -> int:
     if tell.publishes is None:
         return 0
-    wanted = tell.publishes
-    there = nearest_endpoint(scene.seen.graph, "publisher", wanted.topic, wanted.type)
+    there = _mouth(scene, TopicContract(topic=tell.publishes.topic, type=tell.publishes.type))
     return scene.probe.count(there.topic) if there else 0
 
 

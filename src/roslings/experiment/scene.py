@@ -171,6 +171,7 @@ class Scene:
                 self._turns.busy(),
                 followed_clock(self._probe, self.seen.graph.nodes) as (clock, barrier),
             ):
+                barrier.lives = self._arena.all_alive
                 SimulatedWatch(self._probe, clock, barrier, topic, contract.rate).watch()
             if not self._arena.all_alive():
                 raise NotBelieved("it ended while it was watched")

@@ -160,7 +160,12 @@ class QosCannotMatch(Fault):
 
     @property
     def hint(self) -> str:
-        """The simple way."""
+        """The simple way; a message that is kept for those who come late needs a profile."""
+        if self.policy == "durability":
+            return (
+                "Give QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL) in place of"
+                " the number: only so a message is kept for those who come late."
+            )
         return "Give the number 10 in place of the QoS profile: that is the usual, reliable one."
 
 
