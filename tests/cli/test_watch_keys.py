@@ -19,6 +19,7 @@ import pytest
 
 from roslings.commands.editing import Place, editor_for, first_to_do
 from roslings.course import lab, root
+from roslings.drills import all_drills
 
 PATIENCE_S = 120.0
 """Only a test that fails waits so long."""
@@ -82,7 +83,7 @@ def watching(home: Path, *words: str) -> Iterator[Watched]:
 def in_the_readme() -> list[str]:
     """The lines that the README shows; `...` stands for what it leaves out."""
     readme = (root() / "README.md").read_text("utf-8")
-    (block,) = re.findall(r"^```text\n(Labs  .*?)^```$", readme, re.M | re.S)
+    (block,) = re.findall(r"^```text\n(Day 02-.*?)^```$", readme, re.M | re.S)
     return [line for line in block.splitlines() if line not in ("", "...")]
 
 
@@ -94,9 +95,27 @@ def with_editor(home: Path) -> Path:
     return home
 
 
-def test_without_a_name_todays_lab_is_opened(tmp_path: Path) -> None:
-    """Its starter is put there; the keys tell more, and the editor's save is checked."""
+def test_without_a_name_todays_drill_is_opened_and_then_the_next(tmp_path: Path) -> None:
+    """The program that is mended makes place for the next one, by itself."""
+    first, second = all_drills()[:2]
     with watching(with_editor(tmp_path)) as watch:
+        watch.shows(rf"(?s)Drill 1 of .*drill {first.name}.*Save a file")
+        watch.press("h")
+        watch.shows(f"Hint 1 of 3 for {first.name}")
+        watch.press("r")
+        watch.shows(rf"(?s){re.escape(first.card.starter.names)}.*Save a file")
+        watch.press("n")
+        watch.shows("is not done yet")
+        file = tmp_path / "roslings_ws" / "drills" / first.day / first.file_name
+        shutil.copyfile(first.solution, file)
+        watch.shows(rf"(?s)all that the card asks for.*Drill 2 of .*drill {second.name}.*Save a")
+        assert (file.parent / second.file_name).is_file()
+        watch.press("q")
+
+
+def test_a_labs_starter_is_put_there(tmp_path: Path) -> None:
+    """The keys tell more, and the editor's save is checked."""
+    with watching(with_editor(tmp_path), "nodes") as watch:
         said = watch.shows("h hint .* q quit")
         assert "The starter of 'nodes' is in" in said
         assert [line for line in in_the_readme() if line not in said.splitlines()] == []
@@ -109,7 +128,7 @@ def test_without_a_name_todays_lab_is_opened(tmp_path: Path) -> None:
         watch.press("g")
         watch.shows("No node has run yet")
         watch.press("n")
-        watch.shows("not done yet")
+        watch.shows("is not done yet")
         watch.press("?")
         watch.shows("h hint .* q quit")
         watch.press("e")
@@ -120,8 +139,8 @@ def test_without_a_name_todays_lab_is_opened(tmp_path: Path) -> None:
     assert "# edited" in (package / "rover_status" / "minimal_publisher.py").read_text("utf-8")
 
 
-def test_who_is_done_goes_on_with_the_next_lab(tmp_path: Path) -> None:
-    """The graph is that of the check; the next starter is put there, and nothing else changes."""
+def test_who_is_done_goes_on_with_what_is_next(tmp_path: Path) -> None:
+    """The graph is that of the check; then comes what was left out: here the day's drills."""
     nodes = lab("nodes")
     shutil.copytree(nodes.solution, tmp_path / "roslings_ws" / "src" / nodes.card.package)
     with watching(with_editor(tmp_path), "nodes") as watch:
@@ -131,7 +150,7 @@ def test_who_is_done_goes_on_with_the_next_lab(tmp_path: Path) -> None:
         watch.press("r")
         watch.shows(r"(?s)1 of 7.*100 of 100.*Save a file")
         watch.press("n")
-        watch.shows(r"(?s)The starter of 'topics' is in .*Save a file to check again")
+        watch.shows(r"(?s)Drill \d+ of .*day 2.*Save a file to check again")
         watch.press("q")
 
 

@@ -68,7 +68,7 @@ def drill_options(word: argparse.ArgumentParser) -> None:
 
 def watch_options(word: argparse.ArgumentParser) -> None:
     """What `watch` takes."""
-    word.add_argument("lab", metavar="LAB", nargs="?", help="default: today's")
+    word.add_argument("lab", metavar="LAB|DRILL", nargs="?", help="default: today's")
     path_option(word)
     word.add_argument(
         "--plain", action="store_true", help="no keys, no new screen: lines only, as for a pipe"

@@ -36,7 +36,7 @@ LEARNING = (
         "check", "run what you built, and say what to do next", "learning:check",
         learners.check_options,
     ),
-    Entry("watch", "today's lab: check again at every save", "watching:watch",
+    Entry("watch", "today's drill or lab: check at every save", "watch:watch",
           learners.watch_options),
     Entry("status", "which days and labs are done", "way:status"),
     Entry("diff", "what you changed since the starter", "learning:diff", lab_options),

@@ -36,7 +36,7 @@ def edit(package: Path) -> None:
 
 def first_to_do(package: Path) -> Place:
     """The first line with a TODO; else the first file of the package's own code."""
-    files = sorted(_code_of(package))
+    files = sorted(_code_of(package)) if package.is_dir() else [package]
     for file in files:
         lines = file.read_text("utf-8", "replace").splitlines()
         for number, line in enumerate(lines, start=1):

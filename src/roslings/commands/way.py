@@ -16,11 +16,12 @@ from roslings.workspace import progress
 from roslings.workspace.student import workspace_root
 
 if TYPE_CHECKING:
+    from roslings.course import Lab
     from roslings.workspace.progress import LabStatus, Today
 
 FIRST_DAY = "01-install"
 FIRST_PAGE = "first-15-minutes.md"
-BAR_COLUMNS = 24
+BAR_COLUMNS = 14
 FULL, EMPTY = "#", "."
 """Of the bar; a screen reader says them, and every terminal has them."""
 
@@ -58,12 +59,17 @@ def _next(labs: list[LabStatus], next_step: Today) -> Iterator[str]:
         yield f"{'Now':6}The first 15 minutes: drive a robot, nine commands."
         yield f"{'':6}Read {from_here(_first_page())}"
         yield f"{'Then':6}{program()} lab 1    the lesson of day 1, in JupyterLab"
-        yield f"{'Then':6}{program()} start {lab.name}    the first lab"
+        if drill_before(lab):
+            yield f"{'Then':6}{program()} watch    the first drills, and then the first lab"
+        else:
+            yield f"{'Then':6}{program()} start {lab.name}    the first lab"
         return
     yield f"Day {lab.outline.day}: {lab.outline.title}  ({_how_far(next_step.at)})"
     yield f"{'Read':6}{program()} lab {int(lab.outline.day[:2])}    the lesson"
+    if drill := drill_before(lab):
+        yield f"{'Next':6}{program()} watch    drills come before the lab; now: {drill}"
     verb = "start" if next_step.step is progress.Step.START else "check"
-    yield f"{'Next':6}{program()} {verb} {lab.name}"
+    yield f"{'Then' if drill else 'Next':6}{program()} {verb} {lab.name}"
     yield f"{'Task':6}{from_here(lab.task)}"
 
 
@@ -72,18 +78,45 @@ def _first_page() -> Path:
 
 
 def _has_begun(labs: list[LabStatus]) -> bool:
-    return any(each.package or each.progress.checks for each in labs)
+    tried = progress.read_progress(workspace_root()).drills
+    return bool(tried) or any(each.package or each.progress.checks for each in labs)
 
 
 def bar(labs: list[LabStatus]) -> str:
-    """How much is done: `Labs  ####....  2 of 7   3 days in a row`."""
-    done = sum(each.progress.done for each in labs)
-    full = round(BAR_COLUMNS * done / len(labs))
+    """How much is done: `Labs  ####....  2 of 7   Drills  #...  9 of 70   3 days in a row`."""
     kept = progress.read_progress(workspace_root())
-    row = kept.days_in_a_row(datetime.now().astimezone().date())
-    streak = f"   {row} days in a row" if row > 1 else ""
-    bar = FULL * full + EMPTY * (BAR_COLUMNS - full)
-    return f"{'Labs':6}{bar}  {done} of {len(labs)}{streak}"
+    names = [name for _, name in drills_there()]
+    done = sum(name in kept.drills and kept.drills[name].passed_at is not None for name in names)
+    parts = [_one_bar("Labs", sum(each.progress.done for each in labs), len(labs))]
+    if names:
+        parts.append(_one_bar("Drills", done, len(names)))
+    if (row := kept.days_in_a_row(datetime.now().astimezone().date())) > 1:
+        parts.append(f"{row} days in a row")
+    return "   ".join(parts)
+
+
+def _one_bar(name: str, done: int, of: int) -> str:
+    full = BAR_COLUMNS * done // of
+    return f"{name + ' ':6}{FULL * full + EMPTY * (BAR_COLUMNS - full)}  {done} of {of}"
+
+
+def drills_there() -> list[tuple[str, str]]:
+    """Day and name of each drill, by their folders alone: a card is read by who needs it."""
+    folders = sorted((course.root() / "days").glob("*/drills/[0-9][0-9]_*/"))
+    return [(folder.parents[1].name, folder.name[3:]) for folder in folders if folder.is_dir()]
+
+
+def drill_before(lab: Lab) -> str | None:
+    """The next drill up to this lab's day; None where all of them are done."""
+    done = progress.read_progress(workspace_root()).drills
+    return next(
+        (
+            name for day, name in drills_there()
+            if day <= lab.outline.day
+            and not (name in done and done[name].passed_at)
+        ),
+        None,
+    )  # fmt: skip
 
 
 def _how_far_is_the_first_day(labs: list[LabStatus]) -> str:
