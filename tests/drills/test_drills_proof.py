@@ -1,0 +1,36 @@
+"""Each starter fails for the reason that it teaches, and says so first; each solution passes."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from once import once
+
+from roslings.authoring.drills import prove_drills
+from roslings.authoring.prove import Proof
+from roslings.drills import all_drills, drill
+
+
+def wrong(proofs: list[Proof]) -> list[str]:
+    """What does not hold."""
+    return [proof.line for proof in proofs if not proof.holds]
+
+
+def test_some_drills_are_proven() -> None:
+    """One that ends at once, one that runs no callback, one to foretell, one that is told things."""
+    names = ("brackets", "deaf_to_ros", "private_name", "doubler")
+    proofs = list(prove_drills([drill(name) for name in names]))
+    assert wrong(proofs) == []
+    assert len(proofs) == 4 * 3 + 1
+
+
+@pytest.mark.slow
+def test_all_drills_are_proven(shared_folder: Path) -> None:
+    """Every program of every drill, run for real."""
+
+    def prove() -> str:
+        return json.dumps(wrong(list(prove_drills(all_drills()))))
+
+    assert json.loads(once(shared_folder / "drills.json", prove)) == []
