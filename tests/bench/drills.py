@@ -1,4 +1,4 @@
-"""Prints the time from save to verdict for each drill, beside a bare start of a node; asserts nothing.
+"""Prints the time from save to verdict of each drill, beside a bare node; asserts nothing.
 
     .venv/bin/python tests/bench/drills.py [TIMES] [DAY]
 

@@ -19,7 +19,7 @@ def wrong(proofs: list[Proof]) -> list[str]:
 
 
 def test_some_drills_are_proven() -> None:
-    """One that ends at once, one that runs no callback, one to foretell, one that is told things."""
+    """One that ends, one that runs no callback, one to foretell, one that is told things."""
     names = ("brackets", "deaf_to_ros", "private_name", "doubler")
     proofs = list(prove_drills([drill(name) for name in names]))
     assert wrong(proofs) == []

@@ -17,6 +17,7 @@ from roslings.experiment.start import Start
 from roslings.experiment.starting import list_parameters
 from roslings.experiment.telling import nested
 from roslings.near import nearest_endpoint
+from roslings.probe.services import read_services
 
 TRIES = 2
 """We see that we are joined with a node a little before the node does: what is said in between is
@@ -25,6 +26,7 @@ SHOWS_WITHIN_S = 0.4
 """After a node's callbacks have run, what they wrote is on its way."""
 TURNS_WITHIN_S = 0.8
 """Of its own time: a node that answers nothing for so long runs no callback."""
+ASKS_WITHIN_S = 0.8
 PRINTS_WITHIN_S, ENDS_WITHIN_S = 3.0, 4.0
 BESIDE = "beside"
 
@@ -139,7 +141,26 @@ def _talk_with(node: NodeContract, card: DrillCard, scene: Scene, process: Proce
             asker.ask_in_a_row(service, service.answers, len(service.answers), service.service)
     for service in node.calls:
         with answering(scene, service, service.answers[0].response):
-            scene.until(lambda: len(scene.seen.served) > 0, ENDS_WITHIN_S)
+            _await_request(node, scene, process)
+
+
+def _await_request(node: NodeContract, scene: Scene, process: Process) -> None:
+    """Wait for a request, and then for the line about its answer."""
+
+    def has_clients() -> bool:
+        ends = read_services(scene.probe.eye, scene.seen.graph.nodes)
+        scene.seen.services = ends or scene.seen.services
+        return any(end.kind == "client" for end in ends)
+
+    scene.until(has_clients, FIRST_MESSAGE_WITHIN_S)
+    if not scene.until_own(lambda: len(scene.seen.served) > 0, ASKS_WITHIN_S):
+        return
+    line = (node.log or "").format(text=scene.seen.served[0].response.get("message", ""))
+    if scene.until_own(lambda: scene.is_written(process, line), SHOWS_WITHIN_S):
+        return
+    for name in scene.seen.graph.nodes:
+        if process.alive and not scene.turned(name, TURNS_WITHIN_S) and process.alive:
+            scene.seen.stuck.append(name)
 
 
 def _ear(scene: Scene, topic: TopicContract) -> Endpoint | None:
@@ -198,7 +219,8 @@ def _heard(scene: Scene, tell: Tell) -> int:
 
 def _await_output(card: DrillCard, scene: Scene, process: Process) -> None:
     """Wait for what must be printed, and for the end of a program that ends by itself."""
-    if card.exits is not None:
+    asks = any(node.calls for node in card.nodes)
+    if card.exits is not None and (scene.seen.served or not asks):
         scene.until_own(lambda: not process.alive, ENDS_WITHIN_S)
         process.wait_ended(0.0 if process.alive else ENDS_WITHIN_S)
     elif card.prints:
