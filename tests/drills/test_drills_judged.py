@@ -37,9 +37,7 @@ def test_a_wrong_answer_is_told_without_the_right_one(tmp_path: Path) -> None:
 
 def test_only_the_answer_may_be_changed(tmp_path: Path) -> None:
     """The question is about this program."""
-    file = changed(
-        tmp_path, "full_name", 'namespace="left/front"', 'namespace="left"', of="solution"
-    )
+    file = changed(tmp_path, "full_name", '="left/front"', '="left"', of="solution")
     verdict = check(drill("full_name"), file)
     assert verdict.first and verdict.first.fault == "ProgramChanged"
 

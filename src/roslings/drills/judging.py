@@ -36,7 +36,7 @@ class DrillVerdict:
             return "all that the card asks for"
         lines = [line for line in self.first.log if line.strip()]
         if any(line.startswith("Traceback") for line in lines):
-            return lines[-1].strip() if _is_error(lines[-1]) else _last_error(lines)
+            return _last_error(lines) or self.first.measured or lines[-1]
         return self.first.measured or self.first.why or self.first.title
 
     def taking(self, seconds: float) -> DrillVerdict:
@@ -49,10 +49,12 @@ def _is_error(line: str) -> bool:
 
 
 def _last_error(lines: list[str]) -> str:
-    """The line that names the error of the last traceback; others may stand behind it."""
+    """The line that names the error of the last traceback, others may stand behind it; empty
+    where it is a mere name.
+    """
     begin = max(n for n, line in enumerate(lines) if line.startswith("Traceback"))
     after = (line for line in lines[begin + 1 :] if _is_error(line))
-    return next(after, lines[-1]).strip()
+    return next(after, "").strip()
 
 
 def judged(

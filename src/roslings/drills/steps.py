@@ -38,6 +38,7 @@ from roslings.judge.demands import most_similar, require_its_time, require_stead
 from roslings.judge.faults import NoMessages, NotLogged
 from roslings.judge.services import answer_each, ask, serve, serve_their_types, tell_the_answer
 from roslings.judge.starting import declare_its_parameters
+from roslings.judge.views import Demand, ProcessView
 from roslings.judge.words import describe_end
 from roslings.near import nearest_endpoint
 
@@ -87,10 +88,8 @@ def _of_output(card: DrillCard) -> Iterator[Step]:
 def _of_processes(card: DrillCard) -> Iterator[Step]:
     first = card.nodes[0]
     if card.exits is None:
-        yield Step("runs", "The program starts and makes a node.",
-                   lambda view: view.process(first).must(come_up))  # fmt: skip
-        yield Step("stays", "It runs until Ctrl-C.",
-                   lambda view: view.process(first).must(stay_up))  # fmt: skip
+        yield Step("runs", "The program starts and makes a node.", _unless_asked(first, come_up))
+        yield Step("stays", "It runs until Ctrl-C.", _unless_asked(first, stay_up))
     else:
         yield Step("runs", "The program does its task without an error.", _no_traceback(card))
     if card.exits is None:
@@ -103,6 +102,19 @@ def _of_processes(card: DrillCard) -> Iterator[Step]:
         if node.parameters:
             yield Step("parameter", "It has the parameters that the card names.",
                        lambda view, node=node: view.must(declare_its_parameters(node)))  # type: ignore[misc]  # fmt: skip
+
+
+def _unless_asked(
+    node: NodeContract, look: Demand[ProcessView]
+) -> Callable[[ExperimentView], None]:
+    """Who ended when a service of it was called came up before: that is told by the answers."""
+
+    def demand(view: ExperimentView) -> None:
+        process = view.process(node)
+        if not (view.seen.calls and process.shown):
+            process.must(look)
+
+    return demand
 
 
 def _spins(view: ExperimentView) -> None:

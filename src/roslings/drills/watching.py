@@ -156,11 +156,10 @@ def _await_request(node: NodeContract, scene: Scene, process: Process) -> None:
     if not scene.until_own(lambda: len(scene.seen.served) > 0, ASKS_WITHIN_S):
         return
     line = (node.log or "").format(text=scene.seen.served[0].response.get("message", ""))
-    if scene.until_own(lambda: scene.is_written(process, line), SHOWS_WITHIN_S):
-        return
-    for name in scene.seen.graph.nodes:
-        if process.alive and not scene.turned(name, TURNS_WITHIN_S) and process.alive:
-            scene.seen.stuck.append(name)
+    if not scene.is_written(process, line):
+        _let_spin(scene, process)
+    if not scene.seen.stuck:
+        scene.until_own(lambda: scene.is_written(process, line), SHOWS_WITHIN_S)
 
 
 def _ear(scene: Scene, topic: TopicContract) -> Endpoint | None:
