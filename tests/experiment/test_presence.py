@@ -100,7 +100,7 @@ def test_waiting_is_in_vain_only_for_a_complete_node(domain: int) -> None:
         begin()
         assert probe.until(lambda: presence.in_vain("a lamp"), WITHIN_S)
         assert not absences.holds(["it"], "a lamp")
-        presence.note("a lamp")
+        presence.note("a lamp", came=False)
     assert absences.holds(["it"], "a lamp")
 
 
@@ -116,6 +116,20 @@ def test_what_one_experiment_missed_no_other_waits_for(domain: int) -> None:
         long_s = 3600.0
         assert probe.until(lambda: presence.in_vain("a lamp", long_s), WITHIN_S)
         assert not presence.in_vain("a bell", long_s)
+
+
+@pytest.mark.parametrize("first", ["came", "missed"])
+def test_what_came_once_is_not_absent(first: str) -> None:
+    """An experiment that was held up may have given it up too early; another one has seen it."""
+    absences = Absences()
+    steps = {"came": absences.came, "missed": absences.add}
+    for name in sorted(steps, key=lambda name: name != first):
+        steps[name](["it"], "a lamp")
+    assert not absences.holds(["it"], "a lamp")
+    absences.add(["it"], "a bell")
+    assert absences.holds(["it"], "a bell")
+    absences.came(["another"], "a bell")
+    assert absences.holds(["it"], "a bell")
 
 
 def test_a_node_that_still_grows_is_not_complete(domain: int) -> None:

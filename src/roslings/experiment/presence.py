@@ -27,18 +27,27 @@ TURNS_WITHIN_S = 10.0
 
 
 class Absences:
-    """What the nodes of a package were found not to have: one for all experiments of a grading."""
+    """What the nodes of a package were found not to have: one for all experiments of a grading.
+
+    What came in one experiment is not absent, whatever another one has found: on a busy computer a
+    node may be given up too early.
+    """
 
     def __init__(self) -> None:
         self._known = set[tuple[frozenset[str], str]]()
+        self._came = set[tuple[frozenset[str], str]]()
 
     def add(self, executables: Iterable[str], what: str) -> None:
         """Nobody needs to wait for this again."""
         self._known.add((frozenset(executables), what))
 
+    def came(self, executables: Iterable[str], what: str) -> None:
+        """It was there."""
+        self._came.add((frozenset(executables), what))
+
     def holds(self, executables: Iterable[str], what: str) -> bool:
-        """Some experiment has waited for this, as long as is worth it."""
-        return (frozenset(executables), what) in self._known
+        """Some experiment has waited for this, as long as is worth it, and none has seen it."""
+        return (frozenset(executables), what) in self._known - self._came
 
 
 class Turn:
@@ -85,9 +94,11 @@ class Presence:
         """It was waited for, here or in another experiment."""
         return self.absences.holds(self._executables, what)
 
-    def note(self, what: str) -> None:
-        """It was waited for, and did not come. A stopped clock tells nothing."""
-        if not self.simulated and self.arena.all_alive():
+    def note(self, what: str, came: bool) -> None:
+        """It was waited for; whether it came. Of what did not, a stopped clock tells nothing."""
+        if came:
+            self.absences.came(self._executables, what)
+        elif not self.simulated and self.arena.all_alive():
             self.absences.add(self._executables, what)
 
     @property

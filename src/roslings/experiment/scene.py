@@ -346,9 +346,9 @@ class Scene:
         self._until_alive(
             lambda: condition() or self._presence.in_vain(what, grace_s), LONGEST_WAIT_S * 2
         )
-        if not condition():
-            self._presence.note(what)
-        return condition()
+        there = condition()
+        self._presence.note(what, there)
+        return there
 
     def _publisher(self, contract: TopicContract) -> Endpoint | None:
         return nearest_endpoint(self.seen.graph, "publisher", contract.topic, contract.type)
