@@ -74,6 +74,8 @@ def seen_of(answer: Answer, card: DrillCard, view: ExperimentView) -> Any:
         return len(lines) if answer.shows == "lines" else _number(lines, answer.number)
     if answer.shows == "node":
         return _number(view.seen.graph.nodes, answer.number)
+    if answer.shows == "state":
+        return _number([goal.status for goal in view.seen.goals], answer.number)
     if answer.shows == "rate_hz":
         return _rate_hz(card, view)
     return _of_topic(answer, card, view)

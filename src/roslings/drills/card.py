@@ -6,7 +6,7 @@ from typing import Any, Literal
 
 from pydantic import Field, field_validator, model_validator
 
-from roslings.course.card import Contract, NodeContract, Plain, QosContract
+from roslings.course.card import Contract, GroupName, NodeContract, Plain
 
 PROGRAM = "your program"
 """What the student's one file is called where a lab's card has the name of an executable."""
@@ -17,7 +17,7 @@ KINDS = {
     "write": "Write it.",
 }
 """Kind of drill to its word for the student."""
-Shows = Literal["line", "lines", "node", "topic", "type", "rate_hz", "value", "messages"]
+Shows = Literal["line", "lines", "node", "topic", "type", "rate_hz", "value", "messages", "state"]
 
 
 class Heard(Contract):
@@ -36,6 +36,33 @@ class Tell(Contract):
     type: str
     log: str | None = Field(default=None, description="A line that it writes then")
     publishes: Heard | None = None
+
+
+class Give(Contract):
+    """A goal that is given to the program, and what must come of it."""
+
+    action: str
+    type: str
+    goal: dict[str, float]
+    when: str = "at the end"
+    accepted: bool = True
+    because: str = Field(default="it cannot be done", description="Why it must be refused")
+    cancel: bool = Field(default=False, description="It is cancelled after its first feedback")
+    status: Literal["succeeded", "canceled", "aborted"] = "succeeded"
+    result: dict[str, Plain] = Field(default_factory=dict)
+    feedback: int = Field(default=0, ge=0, description="At least so many come")
+
+
+class Take(Contract):
+    """The goal that the program must give, and what our server makes of it."""
+
+    action: str
+    type: str
+    goal: dict[str, float]
+    accepts: bool = True
+    feedback: tuple[dict[str, float], ...] = ()
+    ends: Literal["succeed", "abort"] = "succeed"
+    result: dict[str, Plain] = Field(default_factory=dict)
 
 
 class Answer(Contract):
@@ -73,15 +100,17 @@ class DrillCard(Contract):
     lesson: str = Field(pattern=r"^days/[0-9]{2}-[a-z0-9-]+#[a-z0-9-]+$")
     idea: str = Field(max_length=200, description="The one thing to take along, one sentence")
     program: Literal["python", "bash"] = "python"
+    groups: tuple[GroupName, ...] = Field(
+        default=(), description="Dependency groups that it needs besides the usual ones"
+    )
     nodes: tuple[NodeContract, ...] = ()
     named: str | None = Field(default=None, description="The full name that it is started with")
     given: dict[str, Plain] = Field(default_factory=dict, description="Parameters at the start")
     remaps: tuple[str, ...] = Field(default=(), description="For example `chatter:=news`")
     says: int = Field(default=0, ge=0, le=3, description="Sentences said to each subscription")
     tells: tuple[Tell, ...] = ()
-    heard_by: QosContract | None = Field(
-        default=None, description="What who listens asks for; says it for all topics at once"
-    )
+    gives: tuple[Give, ...] = ()
+    takes: tuple[Take, ...] = ()
     prints: tuple[str, ...] = Field(default=(), description="Texts that stand in its output")
     never_prints: tuple[str, ...] = ()
     exits: int | None = Field(default=None, description="It ends by itself, with this exit code")
@@ -116,5 +145,6 @@ class DrillCard(Contract):
         """All that is seen of it comes from timers, so that simulated time shows it sooner."""
         speaks = any(node.publishes for node in self.nodes)
         talks = any(n.serves or n.calls or n.subscribes for n in self.nodes)
-        asked = (self.says, self.tells, self.beside, self.exits is not None, talks)
+        told = self.says or self.tells or self.gives or self.takes
+        asked = (told, self.beside, self.exits is not None, talks)
         return speaks and self.program == "python" and not any(asked)

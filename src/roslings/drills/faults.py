@@ -196,6 +196,38 @@ class WrongReaction(NoReaction):
 
 
 @dataclass(eq=False)
+class CancelUnheard(Fault):
+    """The goal was over before the server looked at the request to cancel it."""
+
+    expected = "a request to cancel is heard while the goal is under way"
+    measured = "nobody heard the request to cancel: the goal was over before"
+    why = "A robot that hears Stop only when it has arrived does not stop."
+    hint = "Who hears it while the execute callback works? It needs a thread of its own."
+
+
+@dataclass(eq=False)
+class WrongGoal(Fault):
+    """A goal that the program gives holds something else."""
+
+    action: str
+    wanted: str
+    found: str
+    why = "A robot does what the goal says, and not what you meant."
+    hint = "Look where the goal is made: which field gets which value? A field left out is 0."
+    was_seen = True
+
+    @property
+    def expected(self) -> str:
+        """The goal."""
+        return f"{self.action} gets the goal {self.wanted}"
+
+    @property
+    def measured(self) -> str:
+        """The goal that came."""
+        return f"{self.action} got the goal {self.found}"
+
+
+@dataclass(eq=False)
 class WrongField(Fault):
     """A message holds something else in a field."""
 

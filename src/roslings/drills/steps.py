@@ -5,7 +5,6 @@ The demands are those of the labs. The first one that is not met is the verdict.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -14,6 +13,8 @@ from roslings.course import NodeContract, TopicContract
 from roslings.drills import faults
 from roslings.drills.answers import compare
 from roslings.drills.card import PROGRAM, DrillCard, Heard, Tell
+from roslings.drills.goals import demands_of
+from roslings.drills.same import same
 from roslings.evidence import Spoken
 from roslings.experiment.telling import nested
 from roslings.judge import (
@@ -72,6 +73,8 @@ def steps_of(card: DrillCard, said: Any = None) -> Iterator[Step]:
         yield from _of_services(node)
     for tell in card.tells:
         yield Step("answers", f"It makes the right thing of {tell.topic}.", _reacts(tell))
+    for name, title, demand in demands_of(card):
+        yield Step(name, title, demand)
     if card.answer:
         title = "What you foretold is what the run shows."
         yield Step("foretold", title, lambda view: compare(said, card, view))
@@ -328,14 +331,3 @@ def _field(content: Any, name: str) -> Any:
     for part in name.split("."):
         content = content.get(part) if isinstance(content, dict) else None
     return content
-
-
-def same(found: Any, wanted: Any) -> bool:
-    """Equal, as far as a number of 32 bits can be; infinity and NaN by their names."""
-    if isinstance(found, float) or isinstance(wanted, float):
-        try:
-            a, b = float(found), float(wanted)
-        except (TypeError, ValueError):
-            return False
-        return math.isclose(a, b, rel_tol=1e-6, abs_tol=1e-9) or (math.isnan(a) and math.isnan(b))
-    return bool(found == wanted)

@@ -8,6 +8,7 @@ from contextlib import ExitStack, contextmanager
 from roslings.arena import Process
 from roslings.course import NodeContract, TopicContract
 from roslings.drills.card import PROGRAM, DrillCard, Tell
+from roslings.drills.goals import give_goals, take_goal
 from roslings.evidence import Endpoint, ExperimentSeen, GraphSeen
 from roslings.experiment import Run, Scene
 from roslings.experiment.asking import Asker, answering
@@ -107,6 +108,9 @@ def _watch_all(card: DrillCard, scene: Scene, process: Process) -> None:
         _talk_with(node, card, scene, process)
     for tell in card.tells:
         _tell(tell, scene, process)
+    give_goals(card, scene, process)
+    for take in card.takes:
+        take_goal(take, scene, process)
     _await_output(card, scene, process)
 
 
@@ -140,19 +144,21 @@ def _talk_with(node: NodeContract, card: DrillCard, scene: Scene, process: Proce
         for service in node.serves:
             asker.ask_in_a_row(service, service.answers, len(service.answers), service.service)
     for service in node.calls:
-        with answering(scene, service, service.answers[0].response):
+        scene.until(lambda: _has_clients(scene), FIRST_MESSAGE_WITHIN_S)
+        with answering(scene, service, service.answers[0].response):  # a little late, as real ones
             _await_request(node, scene, process)
+
+
+def _has_clients(scene: Scene) -> bool:
+    """Whether the program is a client of something; a slip in a name is told."""
+    ends = read_services(scene.probe.eye, scene.seen.graph.nodes)
+    scene.seen.services = ends or scene.seen.services
+    return any(end.kind == "client" for end in ends)
 
 
 def _await_request(node: NodeContract, scene: Scene, process: Process) -> None:
     """Wait for a request, and then for the line about its answer."""
 
-    def has_clients() -> bool:
-        ends = read_services(scene.probe.eye, scene.seen.graph.nodes)
-        scene.seen.services = ends or scene.seen.services
-        return any(end.kind == "client" for end in ends)
-
-    scene.until(has_clients, FIRST_MESSAGE_WITHIN_S)
     if not scene.until_own(lambda: len(scene.seen.served) > 0, ASKS_WITHIN_S):
         return
     line = (node.log or "").format(text=scene.seen.served[0].response.get("message", ""))
@@ -218,8 +224,8 @@ def _heard(scene: Scene, tell: Tell) -> int:
 
 def _await_output(card: DrillCard, scene: Scene, process: Process) -> None:
     """Wait for what must be printed, and for the end of a program that ends by itself."""
-    asks = any(node.calls for node in card.nodes)
-    if card.exits is not None and (scene.seen.served or not asks):
+    asks = card.takes or any(node.calls for node in card.nodes)
+    if card.exits is not None and (scene.seen.served or scene.seen.orders or not asks):
         scene.until_own(lambda: not process.alive, ENDS_WITHIN_S)
         process.wait_ended(0.0 if process.alive else ENDS_WITHIN_S)
     elif card.prints:
