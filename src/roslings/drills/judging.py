@@ -9,7 +9,7 @@ from typing import Any, Literal
 from roslings.drills.steps import Step
 from roslings.judge import ExperimentView
 from roslings.judge.faults import NothingToJudge
-from roslings.judge.plugin import words_for
+from roslings.judge.outcome import words_for
 from roslings.verdict import CheckResult
 
 

@@ -7,15 +7,13 @@ import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-
-import pytest
+from typing import TYPE_CHECKING
 
 from roslings.course import Lab
 from roslings.course.files import CourseError
 from roslings.evidence import Evidence, ExperimentSeen, Span
 from roslings.experiment.declare import Experiment, experiments_of, load_grader
 from roslings.judge.dropped import Looks, watched
-from roslings.judge.plugin import Collector, Evidences, evidence_plugin
 from roslings.judge.unrecorded import NotRecordedView
 from roslings.judge.views import ExperimentView, View, views_of
 from roslings.timeline import NS_PER_S, shares_s
@@ -27,6 +25,9 @@ from roslings.verdict import (
     outcome_of,
     score_of,
 )
+
+if TYPE_CHECKING:
+    from roslings.judge.plugin import Collector, Evidences
 
 NO_PLUGINS = "PYTEST_DISABLE_PLUGIN_AUTOLOAD"
 
@@ -54,6 +55,8 @@ def judge_later(lab: Lab, bring: Callable[[], tuple[Evidence, int | None]]) -> V
     looks = Looks()
     brought: list[tuple[Evidence, int | None]] = []
     timeline: list[Span] = []
+
+    from roslings.judge.plugin import Evidences  # pytest takes long to load
 
     def fill() -> None:
         before_ns = time.monotonic_ns()
@@ -86,6 +89,10 @@ def judge_later(lab: Lab, bring: Callable[[], tuple[Evidence, int | None]]) -> V
 
 def run_checks(lab: Lab, evidences: Evidences, looks: Looks) -> tuple[CheckResult, ...]:
     """The outcome of every check, in the grader's order."""
+    import pytest
+
+    from roslings.judge.plugin import Collector, evidence_plugin
+
     collector = Collector(lab, looks)
     options = [
         *map(str, lab.graders),

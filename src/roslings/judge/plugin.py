@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import traceback
 import types
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
@@ -13,9 +12,9 @@ import pytest
 from roslings.course import Lab
 from roslings.judge.check import check_of
 from roslings.judge.dropped import Looks
-from roslings.judge.faults import Fault, Inconclusive, NothingToJudge, Unmet
-from roslings.judge.faults.python_words import hint_for
-from roslings.judge.remarks import begin_remarks, remarks
+from roslings.judge.faults import Fault, Inconclusive, NothingToJudge
+from roslings.judge.outcome import words_for
+from roslings.judge.remarks import begin_remarks
 from roslings.judge.sheet import title_of
 from roslings.judge.unrecorded import NotRecordedView
 from roslings.judge.views import View
@@ -95,7 +94,7 @@ class Collector:
             "max_points": worth,
             "lesson": self._lab.lesson_of(name),
             "hidden": name in self._lab.hidden_checks,
-            **words_for(error, title_of(_function(item))),
+            **_words_for(error, title_of(_function(item))),
         }
         if isinstance(error, Fault) and not error.blocks:
             self._open.add(name)
@@ -104,34 +103,10 @@ class Collector:
         return CheckResult(**words)
 
 
-def words_for(error: BaseException | None, title: str) -> dict[str, Any]:
-    """Outcome and sentences for what a check raised."""
-    if error is None:
-        return {"outcome": "pass", "measured": remarks()}
-    if isinstance(error, AssertionError):
-        error = Unmet(f"{title} ({_first_line(error)})")
-    if isinstance(error, Fault):
-        return {
-            "outcome": "fail",
-            "expected": error.expected,
-            "measured": error.measured,
-            "why": error.why,
-            "hint": hint_for(error.log) or error.hint,
-            "fault": type(error).__name__,
-            "log": error.log,
-        }
-    if isinstance(error, NothingToJudge | pytest.skip.Exception):
+def _words_for(error: BaseException | None, title: str) -> dict[str, Any]:
+    if isinstance(error, pytest.skip.Exception):
         return {"outcome": "skip", "why": str(error)}
-    if isinstance(error, Inconclusive):
-        return {"outcome": "inconclusive", "why": str(error)}
-    words = "".join(traceback.format_exception(error)).strip()
-    why = "the grader itself failed here: tell your instructor"
-    return {"outcome": "inconclusive", "why": why, "log": tuple(words.splitlines()[-12:])}
-
-
-def _first_line(error: AssertionError) -> str:
-    lines = str(error).strip().splitlines()
-    return lines[0] if lines else "assert"
+    return words_for(error, title)
 
 
 def _function(item: pytest.Item) -> Any:

@@ -1,0 +1,40 @@
+"""What a check raised, in the words of a verdict. Knows no pytest: that takes long to load."""
+
+from __future__ import annotations
+
+import traceback
+from typing import Any
+
+from roslings.judge.faults import Fault, Inconclusive, NothingToJudge, Unmet
+from roslings.judge.faults.python_words import hint_for
+from roslings.judge.remarks import remarks
+
+
+def words_for(error: BaseException | None, title: str) -> dict[str, Any]:
+    """Outcome and sentences for what a check raised; for None, that it passed."""
+    if error is None:
+        return {"outcome": "pass", "measured": remarks()}
+    if isinstance(error, AssertionError):
+        error = Unmet(f"{title} ({_first_line(error)})")
+    if isinstance(error, Fault):
+        return {
+            "outcome": "fail",
+            "expected": error.expected,
+            "measured": error.measured,
+            "why": error.why,
+            "hint": hint_for(error.log) or error.hint,
+            "fault": type(error).__name__,
+            "log": error.log,
+        }
+    if isinstance(error, NothingToJudge):
+        return {"outcome": "skip", "why": str(error)}
+    if isinstance(error, Inconclusive):
+        return {"outcome": "inconclusive", "why": str(error)}
+    words = "".join(traceback.format_exception(error)).strip()
+    why = "the grader itself failed here: tell your instructor"
+    return {"outcome": "inconclusive", "why": why, "log": tuple(words.splitlines()[-12:])}
+
+
+def _first_line(error: AssertionError) -> str:
+    lines = str(error).strip().splitlines()
+    return lines[0] if lines else "assert"
