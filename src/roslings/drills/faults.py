@@ -89,7 +89,7 @@ class NotPrinted(Fault):
     """A text that should stand in the output does not."""
 
     wanted: str
-    last: str | None
+    found: str | None
     why = "What a program prints is all that you see of it in a terminal."
 
     @property
@@ -99,8 +99,8 @@ class NotPrinted(Fault):
 
     @property
     def measured(self) -> str:
-        """The last line, or that there is none."""
-        return f"its last line is {self.last!r}" if self.last else "it printed nothing"
+        """The nearest line or the first one, or that there is none."""
+        return f"it printed {self.found!r}" if self.found else "it printed nothing"
 
     @property
     def hint(self) -> str:
@@ -122,7 +122,7 @@ class PrintedAnyway(NotPrinted):
     @property
     def measured(self) -> str:
         """The line."""
-        return f"it printed {self.last!r}"
+        return f"it printed {self.found!r}"
 
 
 @dataclass(eq=False)

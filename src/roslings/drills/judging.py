@@ -37,6 +37,8 @@ class DrillVerdict:
         lines = [line for line in self.first.log if line.strip()]
         if any(line.startswith("Traceback") for line in lines):
             return _last_error(lines) or self.first.measured or lines[-1]
+        if lines and "exit code" in (said := self.first.measured or "") and "code 0" not in said:
+            return next((line for line in lines if not line.startswith("[INFO]")), lines[-1])
         return self.first.measured or self.first.why or self.first.title
 
     def taking(self, seconds: float) -> DrillVerdict:

@@ -27,7 +27,7 @@ from roslings.drills.card import PROGRAM
 from roslings.drills.course import Drill
 from roslings.drills.judging import DrillVerdict, failed, judged
 from roslings.drills.steps import BY_GRAPH, Step, steps_of
-from roslings.drills.watching import BESIDE, watch
+from roslings.drills.watching import BESIDE, CODE, watch
 from roslings.evidence import ExperimentSeen
 from roslings.experiment.assignment import Assignment
 from roslings.experiment.beforehand import TYPES
@@ -224,7 +224,18 @@ def _installed(drill: Drill, name: str, source: bytes, assignment: Assignment) -
         path = folder / f"{BESIDE}_{drill.card.beside.file}"
         shutil.copy(drill.folder / drill.card.beside.file, path)
         _executable(folder / BESIDE, sys.executable, path)
-    return Installed(folder, base_environment(assignment.home), folder)
+    environment = base_environment(assignment.home)
+    if drill.card.program == "bash" and (ours := our_ros2()):
+        _executable(folder / "ros2", sys.executable, ours)
+        environment["PATH"] = os.pathsep.join([str(folder), environment["PATH"]])
+    return Installed(folder, environment, folder)
+
+
+def our_ros2() -> Path | None:
+    """The course's own `ros2`, where this environment has no other: its start, as a file."""
+    found = Path(sys.prefix) / "bin" / "ros2"
+    ours = found.is_file() and b"roslings" in found.read_bytes()
+    return CODE / "roslings" / "ros2" / "__main__.py" if ours else None
 
 
 def _executable(path: Path, program: str, file: Path) -> None:

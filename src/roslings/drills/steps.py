@@ -5,6 +5,7 @@ The demands are those of the labs. The first one that is not met is the verdict.
 
 from __future__ import annotations
 
+import difflib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -245,7 +246,8 @@ def _prints(text: str) -> Callable[[ExperimentView], None]:
         lines = _lines(view)
         if not any(text in line for line in lines):
             require_steady(view.seen.stall_s)
-            raise faults.NotPrinted(text, most_similar(text, lines), log=tuple(lines[-8:]))
+            near = difflib.get_close_matches(text, lines, n=1, cutoff=0.5) or lines[:1]
+            raise faults.NotPrinted(text, near[0] if near else None, log=tuple(lines[-8:]))
 
     return demand
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
+from pathlib import Path
 
 from roslings.arena import Process
 from roslings.course import NodeContract, TopicContract
@@ -28,8 +30,12 @@ SHOWS_WITHIN_S = 0.4
 TURNS_WITHIN_S = 0.8
 """Of its own time: a node that answers nothing for so long runs no callback."""
 ASKS_WITHIN_S = 0.8
-PRINTS_WITHIN_S, ENDS_WITHIN_S = 3.0, 4.0
+COMES_UP_WITHIN_S, SHOWN_WITHIN_S = 5.0, 0.6
+"""A node is in the graph some tenths of a second after its program has begun to speak."""
+PRINTS_WITHIN_S, ENDS_WITHIN_S = 3.0, 8.0
 BESIDE = "beside"
+CODE = Path(__file__).resolve().parents[2]
+"""The engine, in which the course's own `ros2` lies: a script may call it."""
 
 
 class SeenEnough(Exception):
@@ -55,13 +61,28 @@ def running(card: DrillCard, scene: Scene) -> Iterator[Process]:
     node = card.nodes[0] if card.nodes else NodeContract(node="/program", executable=PROGRAM)
     start = Start(parameters=card.given)
     remaps = [*card.remaps, *_renaming(card.named)]
-    if card.exits is not None or not card.nodes:
-        with scene.arena.run(PROGRAM, start.arguments(remaps)) as process:
+    if card.exits is not None or not card.nodes or card.program == "bash":
+        shown = [CODE] if card.program == "bash" else []
+        with scene.arena.run(PROGRAM, start.arguments(remaps), shown) as process:
             scene.seen.processes[PROGRAM] = process.seen
+            _await_nodes(card, scene, process)
             yield process
     else:
         with scene.run_all(Run(node, remaps, start)) as (process,):
             yield process
+
+
+def _await_nodes(card: DrillCard, scene: Scene, process: Process) -> None:
+    """Of a script that stays: until its nodes are there, or it has long been at work without."""
+    wanted = len(card.nodes) + len(card.beside.nodes if card.beside else ())
+    if card.exits is None and card.nodes:
+        there = functools.partial(_are_there, scene, wanted)
+        scene.until_own(lambda: there() or bool(process.lines()), COMES_UP_WITHIN_S)
+        scene.until_own(there, SHOWN_WITHIN_S)
+
+
+def _are_there(scene: Scene, count: int) -> bool:
+    return len(scene.seen.graph.nodes) >= count
 
 
 def _renaming(named: str | None) -> list[str]:
@@ -97,8 +118,8 @@ def _watch_all(card: DrillCard, scene: Scene, process: Process) -> None:
     if len(card.nodes) > 1:
         scene.appears(lambda: len(scene.seen.graph.nodes) >= len(card.nodes), "all nodes")
     _let_spin(scene, process)
-    if scene.seen.stuck:
-        return  # nothing can come of a node that runs no callback
+    if scene.seen.stuck or _stays_hidden(card, scene, process):
+        return  # nothing can come of a node that runs no callback, or that nobody finds
     published = [topic for node in card.nodes for topic in node.publishes]
     if any(node.parameters for node in card.nodes):
         list_parameters(scene, card.nodes[0])
@@ -112,6 +133,13 @@ def _watch_all(card: DrillCard, scene: Scene, process: Process) -> None:
     for take in card.takes:
         take_goal(take, scene, process)
     _await_output(card, scene, process)
+
+
+def _stays_hidden(card: DrillCard, scene: Scene, process: Process) -> bool:
+    """A script is at work, and none of its nodes can be found."""
+    ours = set(card.beside.nodes) if card.beside else set()
+    asked = card.program == "bash" and card.exits is None and bool(card.nodes)
+    return asked and process.alive and not set(scene.seen.graph.nodes) - ours
 
 
 def _watch_first(topic: TopicContract, card: DrillCard, scene: Scene) -> None:

@@ -1,0 +1,3 @@
+# Starts the talker in the domain that the terminal has.
+
+ros2 run demo_nodes_py talker

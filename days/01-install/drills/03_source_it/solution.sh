@@ -1,0 +1,6 @@
+# Reads a setup file, and tells which robot it names.
+
+echo 'export ROBOT=rover' > "$HOME/setup.bash"
+
+source "$HOME/setup.bash"
+echo "the robot is $ROBOT"

@@ -1,0 +1,5 @@
+# Starts the talker. The other terminals must be able to hear it: they have not
+# changed their domain.
+
+export ROS_DOMAIN_ID=42
+ros2 run demo_nodes_py talker

@@ -1,0 +1,6 @@
+# Beside this script, a talker runs. Write two commands that show
+#   1. which nodes there are
+#   2. which topics there are, each with its type
+
+ros2 node list
+ros2 topic list -t
