@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from roslings.judge.faults import Fault
+from roslings.judge.faults.processes import READ_THE_LINES
 
 
 @dataclass(eq=False)
@@ -104,7 +105,9 @@ class NotPrinted(Fault):
 
     @property
     def hint(self) -> str:
-        """Run it by hand."""
+        """Read its last words, or run it by hand."""
+        if any(line.startswith("Traceback") for line in self.log):
+            return READ_THE_LINES
         return "Run the file by hand in a terminal, and read what it prints from the top."
 
 
@@ -147,7 +150,7 @@ class WrongExitCode(Fault):
     wanted: int
     how: str
     why = "The exit code tells the next program whether all went well: 0 means yes."
-    hint = "Read the last lines below: the last one names the error."
+    hint = READ_THE_LINES
     was_seen = True
 
     @property

@@ -247,7 +247,7 @@ def _prints(text: str) -> Callable[[ExperimentView], None]:
         if not any(text in line for line in lines):
             require_steady(view.seen.stall_s)
             near = difflib.get_close_matches(text, lines, n=1, cutoff=0.5) or lines[:1]
-            raise faults.NotPrinted(text, near[0] if near else None, log=tuple(lines[-8:]))
+            raise faults.NotPrinted(text, near[0] if near else None, log=tuple(lines[-40:]))
 
     return demand
 

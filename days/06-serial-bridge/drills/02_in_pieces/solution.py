@@ -1,0 +1,15 @@
+"""The port gives bytes in pieces. Print each whole line: "got ticks 1 2", and so on."""
+
+PIECES = [b"tic", b"ks 1 2\nticks 3", b" 4\n"]
+
+
+def main():
+    rest = b""
+    for piece in PIECES:
+        rest += piece
+        *lines, rest = rest.split(b"\n")
+        for line in lines:
+            print("got", line.decode("ascii"))
+
+
+main()

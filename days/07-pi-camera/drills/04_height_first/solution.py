@@ -1,0 +1,11 @@
+"""Foretell: which two numbers are written? Write them between quotes, for example
+"3 4", then check."""
+
+import numpy
+
+ANSWER = "480 640"
+
+picture = numpy.zeros((480, 640, 3), dtype=numpy.uint8)
+height, width, channels = picture.shape
+
+print(height, width)
