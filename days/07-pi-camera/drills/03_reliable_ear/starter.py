@@ -1,5 +1,5 @@
-"""A viewer: a node called viewer. It listens to a camera on /image. The camera publishes
-with the quality of service of sensors: best effort."""
+"""A viewer: a node called viewer. It listens to a camera on /image. The camera
+publishes with the quality of service of sensors: best effort."""
 
 import rclpy
 from rclpy.node import Node
