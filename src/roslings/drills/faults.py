@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from roslings.judge.faults import Fault
-from roslings.judge.faults.processes import READ_THE_LINES
+from roslings.judge.faults.processes import READ_THE_LINES, DidNotComeUp
 
 
 @dataclass(eq=False)
@@ -83,6 +83,20 @@ class NeverSpins(Fault):
     def measured(self) -> str:
         """That it does not answer."""
         return f"{self.node} is there, but it runs no callback"
+
+
+@dataclass(eq=False)
+class ScriptMakesNoNode(DidNotComeUp):
+    """A script ended before its node could do anything, or no node of it can be found."""
+
+    @property
+    def hint(self) -> str:
+        """What to look at in a script."""
+        if "no node of it" in self.how:
+            return "It runs, but nobody finds it. Which line says who may find it, and where?"
+        return (
+            "Run it by hand with `bash`, and read from the top. Compare each name by its letters."
+        )
 
 
 @dataclass(eq=False)

@@ -33,7 +33,7 @@ class DrillVerdict:
     def headline(self) -> str:
         """The cause, in one line: Python's own last word where the program ended with one."""
         if self.first is None:
-            return "all that the card asks for"
+            return "it does all that is asked"
         lines = [line for line in self.first.log if line.strip()]
         if any(line.startswith("Traceback") for line in lines):
             return _last_error(lines) or self.first.measured or lines[-1]

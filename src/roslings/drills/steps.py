@@ -37,7 +37,7 @@ from roslings.judge import (
     stay_up,
 )
 from roslings.judge.demands import most_similar, require_its_time, require_steady
-from roslings.judge.faults import NoMessages, NotLogged
+from roslings.judge.faults import DidNotComeUp, NoMessages, NotLogged
 from roslings.judge.services import answer_each, ask, serve, serve_their_types, tell_the_answer
 from roslings.judge.starting import declare_its_parameters
 from roslings.judge.views import Demand, ProcessView
@@ -92,7 +92,8 @@ def _of_output(card: DrillCard) -> Iterator[Step]:
 def _of_processes(card: DrillCard) -> Iterator[Step]:
     first = card.nodes[0]
     if card.exits is None:
-        yield Step("runs", "The program starts and makes a node.", _unless_asked(first, come_up))
+        look = _script_comes_up if card.program == "bash" else come_up
+        yield Step("runs", "The program starts and makes a node.", _unless_asked(first, look))
         yield Step("stays", "It runs until Ctrl-C.", _unless_asked(first, stay_up))
     else:
         yield Step("runs", "The program does its task without an error.", _no_traceback(card))
@@ -106,6 +107,14 @@ def _of_processes(card: DrillCard) -> Iterator[Step]:
         if node.parameters:
             yield Step("parameter", "It has the parameters that the card names.",
                        lambda view, node=node: view.must(declare_its_parameters(node)))  # type: ignore[misc]  # fmt: skip
+
+
+def _script_comes_up(process: ProcessView) -> None:
+    """As `come_up`, in words for a script."""
+    try:
+        come_up(process)
+    except DidNotComeUp as fault:
+        raise faults.ScriptMakesNoNode(fault.executable, fault.how, log=fault.log) from None
 
 
 def _unless_asked(

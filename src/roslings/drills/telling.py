@@ -71,7 +71,9 @@ def _put_details(to: Page, verdict: DrillVerdict, file: Path) -> None:
 
 def _of_one_file(text: str, file: Path) -> str:
     """A lab's words for a program that no package has."""
-    return text.replace("`ros2 run`", f"`python3 {file.name}`")
+    runner = "bash" if file.suffix == ".sh" else "python3"
+    by_hand = text.replace("`bash`", f"`bash {file.name}`")
+    return by_hand.replace("`ros2 run`", f"`{runner} {file.name}`")
 
 
 def put_hint(to: Page, drill: Drill, step: int, program: str) -> None:
