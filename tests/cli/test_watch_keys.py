@@ -108,7 +108,7 @@ def test_without_a_name_todays_drill_is_opened_and_then_the_next(tmp_path: Path)
         watch.shows("is not done yet")
         file = tmp_path / "roslings_ws" / "drills" / first.day / first.file_name
         shutil.copyfile(first.solution, file)
-        watch.shows(rf"(?s)all that the card asks for.*Drill 2 of .*drill {second.name}.*Save a")
+        watch.shows(rf"(?s)it does all that is asked.*Drill 2 of .*drill {second.name}.*Save a")
         assert (file.parent / second.file_name).is_file()
         watch.press("q")
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
-from roslings.drills import drill
+from roslings.drills import Drill, drill
 from roslings.drills.running import check
 
 
@@ -73,3 +74,27 @@ def test_a_wrong_sum_is_told_with_both_numbers(tmp_path: Path) -> None:
     verdict = check(drill("doubler"), file)
     assert verdict.first and verdict.first.fault == "WrongReaction"
     assert verdict.headline == "after /number (data: 2.5), /doubled carries data: 4.5"
+
+
+OWN_CHECK = """
+from roslings.drills.steps import Step
+
+
+def demand(view):
+    assert view.seen.graph.nodes == ["/tower"], "it is no tower"
+
+
+def steps(card):
+    yield Step("tower", "It is a tower.", demand)
+"""
+
+
+def test_a_drill_may_bring_a_check_of_its_own(tmp_path: Path) -> None:
+    """For what no card can say."""
+    folder = tmp_path / "01_no_spin"
+    shutil.copytree(drill("no_spin").folder, folder)
+    (folder / "check.py").write_text(OWN_CHECK)
+    one = Drill("no_spin", "02-nodes", 1, folder)
+    verdict = check(one, one.solution)
+    assert verdict.first and (verdict.first.id, verdict.first.fault) == ("tower", "Unmet")
+    assert "it is no tower" in (verdict.first.expected or "")
