@@ -18,7 +18,8 @@ from roslings.drills.judging import DrillVerdict
 from roslings.drills.running import check_many, load
 
 MOST_TRIES = 3
-"""What this computer could not tell is run again."""
+"""What this computer could not tell is run again, and what was wrong beside others, alone: a drill
+is judged in a second, and a student runs one at a time."""
 
 
 def chosen(words: Sequence[str]) -> list[Drill]:
@@ -94,10 +95,11 @@ def _proofs(programs: Sequence[Program], at_once: int) -> Iterator[Proof]:
         again: list[Program] = []
         runs = [(each.drill, each.file) for each in left]
         for number, verdict in check_many(runs, at_once if attempt == 0 else 1):
-            program = left[number]
-            if verdict.outcome == "inconclusive" and attempt + 1 < MOST_TRIES:
+            program, is_open = left[number], verdict.outcome == "inconclusive"
+            problem = program.problem(verdict)
+            beside_others = attempt == 0 and at_once > 1
+            if (is_open and attempt + 1 < MOST_TRIES) or (problem and beside_others):
                 again.append(program)
             else:
-                is_open = verdict.outcome == "inconclusive"
-                yield Proof(program.about, program.problem(verdict), is_open=is_open)
+                yield Proof(program.about, problem, is_open=is_open)
         left = again
