@@ -17,9 +17,7 @@ from roslings.course import all_labs
 from roslings.lessons import Day, read_lessons
 
 COMMANDS = Path(ros2.__file__).with_name("COMMANDS.md")
-PICTURES = Path(__file__).parents[1] / "pictures"
 NOT_A_PAGE = ("quiz.yaml", "lesson.ipynb")
-DRILLS = "drills"
 LINK_TO_LESSON = re.compile(r"\]\(((?:\.\./[0-9a-z-]+/)?)lesson\.ipynb")
 
 
@@ -73,7 +71,6 @@ def gather(course: Path, pages: Path, folder: Path) -> Gathered:
         _gather_day(gathered, course / "days" / day.id, day)
     _gather_labs(gathered, {day.id: day for day in lessons.days})
     gathered.copy(COMMANDS, "reference/commands.md")
-    gathered.copy(PICTURES / "verdict.svg", "verdict.svg")
     gathered.forget_the_rest()
     return gathered
 
@@ -83,8 +80,6 @@ def _gather_day(gathered: Gathered, folder: Path, day: Day) -> None:
     if lesson.is_file():
         gathered.write(f"days/{day.id}/index.ipynb", _linked(lesson), lesson)
         for beside in folder.rglob("*"):
-            if DRILLS in beside.relative_to(folder).parts:
-                continue  # who solves one here has no terminal, and the answer lies beside it
             if beside.suffix == ".md":
                 page = f"---\norphan: true\n---\n{_linked(beside)}"
                 gathered.write(f"days/{day.id}/{beside.relative_to(folder)}", page, beside)
