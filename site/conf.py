@@ -40,6 +40,7 @@ html_theme = "furo"
 html_title = "roslings"
 html_static_path = ["static"]
 templates_path = ["templates"]
+html_logo = "static/roslings.svg"
 html_favicon = "static/roslings.svg"
 html_css_files = ["course.css"]
 # Plain scripts in this order: module scripts do not load from file://.

@@ -8,6 +8,7 @@ labs/NAME/task.md        -> labs/NAME.md
 
 from __future__ import annotations
 
+import json
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -78,11 +79,11 @@ def gather(course: Path, pages: Path, folder: Path) -> Gathered:
 def _gather_day(gathered: Gathered, folder: Path, day: Day) -> None:
     lesson, quiz = folder / "lesson.ipynb", folder / "quiz.yaml"
     if lesson.is_file():
-        gathered.write(f"days/{day.id}/index.ipynb", _linked(lesson), lesson)
+        gathered.write(f"days/{day.id}/index.ipynb", _with_tree(lesson, quiz), lesson)
         for beside in folder.rglob("*"):
             if beside.suffix == ".md":
-                page = f"---\norphan: true\n---\n{_linked(beside)}"
-                gathered.write(f"days/{day.id}/{beside.relative_to(folder)}", page, beside)
+                name = f"days/{day.id}/{beside.relative_to(folder)}"
+                gathered.write(name, _linked(beside), beside)
             elif beside.is_file() and beside.name not in NOT_A_PAGE:
                 gathered.copy(beside, f"days/{day.id}/{beside.relative_to(folder)}")
     if quiz.is_file():
@@ -93,6 +94,19 @@ def _gather_day(gathered: Gathered, folder: Path, day: Day) -> None:
 def _linked(page: Path) -> str:
     """Its text, with links to lessons as they are called here: in JupyterLab they are files."""
     return LINK_TO_LESSON.sub(r"](\1index.ipynb", page.read_text("utf-8"))
+
+
+def _with_tree(lesson: Path, quiz: Path) -> str:
+    """The lesson, with the other pages of its day below it in the side bar."""
+    folder = lesson.parent
+    pages = sorted(str(p.relative_to(folder).with_suffix("")) for p in folder.rglob("*.md"))
+    pages += [f"Quiz <{quiz.stem}>"] if quiz.is_file() else []
+    notebook = json.loads(_linked(lesson))
+    if pages:
+        tree = "\n".join(["```{toctree}", ":hidden:", "", *pages, "```"])
+        cell = {"cell_type": "markdown", "id": "tree-of-the-day", "metadata": {}, "source": tree}
+        notebook["cells"].append(cell)
+    return json.dumps(notebook, indent=1, ensure_ascii=False)
 
 
 def _quiz_page(day: Day) -> str:

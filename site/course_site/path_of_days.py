@@ -76,19 +76,20 @@ class DaysTree(MarkdownDirective):
     """`{days-tree}`: the lessons and quizzes in the side bar; nothing where none is written."""
 
     def markdown(self) -> str:
-        """A hidden table of contents."""
+        """A hidden table of contents: one entry a day; its lesson holds the rest of the day."""
         pages = [
-            (f"Day {day.number}: {title}", page)
+            (f"Day {day.number}: {day.title}", page)
             for day in lessons_of(self.config).days
-            for title, page in (
-                (day.title, f"days/{day.id}/index"), ("quiz", f"days/{day.id}/quiz"),
-            )
-            if page in self.env.found_docs
-        ]  # fmt: skip
+            if (page := self._first_page(day))
+        ]
         if not pages:
             return ""
         lines = "\n".join(f"{title} <{page}>" for title, page in pages)
         return f"```{{toctree}}\n:hidden:\n:caption: The days\n\n{lines}\n```"
+
+    def _first_page(self, day: Day) -> str:
+        pages = (f"days/{day.id}/index", f"days/{day.id}/quiz")
+        return next((page for page in pages if page in self.env.found_docs), "")
 
 
 class LabCards(MarkdownDirective):
@@ -99,7 +100,7 @@ class LabCards(MarkdownDirective):
         labs = all_labs()
         tree = "\n".join(lab.name for lab in labs)
         cards = "\n".join(_lab_card(lab, self._day(lab)) for lab in labs)
-        return f"{cards}\n```{{toctree}}\n:hidden:\n\n{tree}\n```"
+        return f"{cards}\n\n```{{toctree}}\n:hidden:\n\n{tree}\n```"
 
     def _day(self, lab: Lab) -> str:
         days = {day.id: day.name for day in lessons_of(self.config).days}
@@ -108,17 +109,16 @@ class LabCards(MarkdownDirective):
 
 def _lab_card(lab: Lab, day: str) -> str:
     card = lab.card
-    nodes_ = "".join(
-        f"| node | `{node.node}`, started by `{node.executable}` |\n"
-        + "".join(f"| publishes | {_topic(t.topic, t.type, t.rate)} |\n" for t in node.publishes)
-        + "".join(f"| subscribes to | {_topic(t.topic, t.type)} |\n" for t in node.subscribes)
+    rows = "".join(
+        f"- node `{node.node}`, started by `{node.executable}`\n"
+        + "".join(f"- publishes {_topic(t.topic, t.type, t.rate)}\n" for t in node.publishes)
+        + "".join(f"- subscribes to {_topic(t.topic, t.type)}\n" for t in node.subscribes)
         for node in card.nodes
     )
     return (
-        f"## {card.title}\n\n| {day} | |\n| --- | --- |\n| package | `{card.package}` |\n{nodes_}"
-        f"| checks | {len(card.points)}, 100 points together |\n"
-        f"| begin | `./roslings start {lab.name}` |\n| check | `./roslings check {lab.name}` |\n\n"
-        f"[Read the task]({lab.name}.md)\n"
+        f":::{{container}} lab-card\n**[{card.title}]({lab.name}.md)**\n\n"
+        f"{day} · package `{card.package}` · {len(card.points)} checks\n\n{rows}\n"
+        f"`./roslings start {lab.name}`\n:::\n"
     )
 
 

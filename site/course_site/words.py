@@ -175,8 +175,9 @@ def add_definitions(app: Sphinx, document: nodes.document, page: str) -> None:
     to = app.builder.get_relative_uri(page, PAGE)
     entries = "".join(_definition(glossary.by_id[each], to) for each in used)
     document += html(
-        '<section class="page-words" aria-labelledby="page-words">'
-        f'<h2 id="page-words">Words on this page</h2><dl>{entries}</dl></section>'
+        '<section class="page-words" aria-labelledby="page-words"><details>'
+        f'<summary><h2 id="page-words">Words on this page ({len(used)})</h2></summary>'
+        f"<dl>{entries}</dl></details></section>"
     )
 
 

@@ -6,7 +6,7 @@
 
   // --- wide code and tables ---------------------------------------------------------------------
 
-  const WIDE = "article pre, .table-wrapper, .sidebar-scroll, .toc-scroll";
+  const WIDE = "article pre, article p:has(> img), .table-wrapper, .sidebar-scroll, .toc-scroll";
 
   function reachWideParts() {
     for (const part of document.querySelectorAll(WIDE)) {
@@ -29,7 +29,8 @@
   // Sphinx's own scripts mark them; pages that nobody came to from a search do not load them.
   function markSearched(here) {
     const asked = new URLSearchParams(location.search).has("highlight");
-    if (window.Documentation || !(asked || remembered())) return;
+    const there = document.querySelector('script[src*="documentation_options"]');
+    if (there || !(asked || remembered())) return;
     for (const name of ["documentation_options", "doctools", "sphinx_highlight"]) {
       const script = document.createElement("script");
       script.src = new URL(`${name}.js`, here);
@@ -51,15 +52,22 @@
   // --- the path of days -------------------------------------------------------------------------
 
   function showPath() {
+    let hereFound = false;
     for (const element of document.querySelectorAll(".path-day")) {
       const day = roslings.dayOf(element);
       const missing = roslings.missing(day);
       const answered = day.questions.length - missing.questions.length;
       const state = element.querySelector(".path-state");
+      const isHere = !missing.done && !hereFound;
+      hereFound = hereFound || isHere;
+      element.classList.toggle("here", isHere);
+      if (isHere) element.setAttribute("aria-current", "step");
+      else element.removeAttribute("aria-current");
       element.classList.toggle("done", missing.done);
       if (missing.done) state.textContent = "✓ Done";
       else if (answered) state.textContent = `${answered} of ${day.questions.length} questions answered`;
       else state.textContent = "";
+      if (isHere) state.textContent = ["You are here", state.textContent].filter(Boolean).join(" · ");
     }
     showDueReviews();
   }
@@ -110,4 +118,35 @@
     applyFilter();
     entry.scrollIntoView();
   }
+
+  // --- copy buttons -----------------------------------------------------------------------------
+
+  for (const pre of document.querySelectorAll("article .highlight pre, [data-copy]")) {
+    if (!pre.closest(".cell_output") && navigator.clipboard) addCopy(pre);
+  }
+
+  function addCopy(pre) {
+    const button = document.createElement("button");
+    button.type = "button";
+    button.className = "copy";
+    button.textContent = "Copy";
+    button.addEventListener("click", async () => {
+      try {
+        await navigator.clipboard.writeText(pre.textContent.trimEnd());
+        button.textContent = "Copied";
+      } catch {
+        button.textContent = "Not allowed here";
+      }
+    });
+    const holder = document.createElement("div");
+    holder.className = "copy-holder";
+    pre.replaceWith(holder);
+    holder.append(pre, button);
+  }
+
+  // --- print: what is folded is unfolded --------------------------------------------------------
+
+  addEventListener("beforeprint", () => {
+    for (const part of document.querySelectorAll(".page-words details")) part.open = true;
+  });
 })();

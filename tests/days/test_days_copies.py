@@ -23,7 +23,8 @@ from roslings.lessons import Day, read_lessons
 def copies(tmp_path: Path) -> Copies:
     """The tiny course, and a workspace that is not there yet."""
     write_course(tmp_path / "course")
-    return Copies(tmp_path / "course", tmp_path / "ws")
+    lessons = read_lessons(tmp_path / "course")
+    return Copies(tmp_path / "course", tmp_path / "ws", lessons.glossary)
 
 
 def days_of(copies: Copies) -> tuple[Day, ...]:

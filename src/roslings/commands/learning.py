@@ -188,8 +188,9 @@ def lab(options: argparse.Namespace) -> int:
     from roslings.jupyter.server import open_lab
     from roslings.lessons import read_lessons
 
-    days = read_lessons(course.root()).days
-    copies = Copies(course.root(), workspace_root())
+    lessons = read_lessons(course.root())
+    days = lessons.days
+    copies = Copies(course.root(), workspace_root(), lessons.glossary)
     place = place_for(options.day, days, copies, options.port, not options.no_browser)
     place = replace(place, ip=options.ip)
     for told in copies.copy_all(days):

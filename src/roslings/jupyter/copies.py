@@ -9,13 +9,13 @@
 
 from __future__ import annotations
 
-import filecmp
 import shutil
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from roslings.lessons import Day
+from roslings.jupyter.meanings import with_meanings
+from roslings.lessons import Day, Glossary
 from roslings.workspace.trouble import shown, writing
 
 LESSON, PICTURES, LIST = "lesson.ipynb", "pictures", "Days.md"
@@ -28,6 +28,7 @@ class Copies:
 
     course: Path
     workspace: Path
+    glossary: Glossary
 
     @property
     def folder(self) -> Path:
@@ -52,20 +53,20 @@ class Copies:
         return told
 
     def _copy(self, day: Day) -> Iterator[str]:
-        own, theirs = self.folder / day.id / LESSON, self.lesson_of(day)
+        own, before = self.folder / day.id / LESSON, self._before(day)
+        theirs = with_meanings(self.lesson_of(day).read_bytes(), self.glossary)
         self._copy_beside(day)
-        before = self._before(day)
         if not own.exists():
-            _copy_file(theirs, own)
-        elif before.is_file() and filecmp.cmp(before, theirs, shallow=False):
+            _write(own, theirs)
+        elif _holds(before, theirs):
             return  # the course's lesson is the one that was copied
-        elif filecmp.cmp(own, before if before.is_file() else theirs, shallow=False):
-            _copy_file(theirs, own)  # nothing was written in it
-        elif not filecmp.cmp(own, theirs, shallow=False):
+        elif _holds(own, before.read_bytes() if before.is_file() else theirs):
+            _write(own, theirs)  # nothing was written in it
+        elif not _holds(own, theirs):
             new = _free_name(own)
-            _copy_file(theirs, new)
+            _write(new, theirs)
             yield f"{day.name} has changed. Your work stays in {shown(own)}; the new is {new.name}."
-        _copy_file(theirs, before)
+        _write(before, theirs)
 
     def _before(self, day: Day) -> Path:
         return self.workspace / ".roslings" / "lessons" / f"{day.id}.ipynb"
@@ -104,9 +105,13 @@ def _title_of(page: Path) -> str:
     return lines[0].removeprefix("# ")
 
 
-def _copy_file(source: Path, target: Path) -> None:
+def _holds(path: Path, content: bytes) -> bool:
+    return path.is_file() and path.read_bytes() == content
+
+
+def _write(target: Path, content: bytes) -> None:
     target.parent.mkdir(parents=True, exist_ok=True)
-    shutil.copyfile(source, target)
+    target.write_bytes(content)
 
 
 def _free_name(path: Path) -> Path:
