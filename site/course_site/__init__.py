@@ -33,7 +33,17 @@ def setup(app: Sphinx) -> dict[str, Any]:
     """Called by Sphinx."""
     app.add_config_value("course_root", "", "env")
     app.add_config_value("course_digest", "", "env")
-    for part in (maths, words, tables, glossary_page, quizzes, path_of_days, day_box, run_box, landing):
+    for part in (
+        maths,
+        words,
+        tables,
+        glossary_page,
+        quizzes,
+        path_of_days,
+        day_box,
+        run_box,
+        landing,
+    ):
         part.setup(app)
     for part in (doctor_page, api, navigation, few_scripts, few_tags, small_scripts, one_sheet):
         part.setup(app)

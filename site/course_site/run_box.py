@@ -42,7 +42,7 @@ def _box(day: Day) -> str:
     return (
         '<div class="run-box"><p><b>Run this page on your computer.</b> '
         "In a terminal, in the roslings folder:</p>"
-        f'<pre data-copy>./roslings lab {day.number}</pre></div>'
+        f"<pre data-copy>./roslings lab {day.number}</pre></div>"
     )
 
 

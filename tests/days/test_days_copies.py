@@ -14,6 +14,7 @@ from tiny_course import DAY, write_course
 from roslings.course import root
 from roslings.jupyter.choosing import chosen_day, place_for
 from roslings.jupyter.copies import Copies
+from roslings.jupyter.meanings import with_meanings
 from roslings.jupyter.server import Place, command, write_kernel
 from roslings.jupyter.trouble import NoSuchDay, NotWritten
 from roslings.lessons import Day, read_lessons
@@ -32,12 +33,30 @@ def days_of(copies: Copies) -> tuple[Day, ...]:
     return read_lessons(copies.course).days
 
 
+def as_opened(lesson: Path, copies: Copies) -> bytes:
+    """The course's lesson, its words with their meanings."""
+    return with_meanings(lesson.read_bytes(), copies.glossary)
+
+
+def test_a_word_brings_its_meaning(copies: Copies) -> None:
+    """As a title, which JupyterLab shows; every word that the lesson links."""
+    lesson = copies.course / "days" / DAY / "lesson.ipynb"
+    word = next(iter(copies.glossary.by_id.values()))
+    book = json.loads(lesson.read_text("utf-8"))
+    book["cells"][0]["source"] = f"A [thing](#word-{word.id}) and [none](#word-no-such)."
+    told = with_meanings(json.dumps(book).encode(), copies.glossary)
+    source = json.loads(told)["cells"][0]["source"]
+    assert f'[thing](#word-{word.id} "{word.title}: ' in source
+    assert source.endswith("and [none](#word-no-such).")
+
+
 def test_the_first_time_all_is_copied(copies: Copies) -> None:
     """Lesson, pictures, pages, and a list of them and of the days, those to come too."""
     (copies.course / "days" / DAY / "first-look.md").write_text("# The first look\n\nLook.\n")
     assert copies.copy_all(days_of(copies)) == []
     own = copies.folder / DAY / "lesson.ipynb"
-    assert own.read_bytes() == (copies.course / "days" / DAY / "lesson.ipynb").read_bytes()
+    theirs = copies.course / "days" / DAY / "lesson.ipynb"
+    assert own.read_bytes() == as_opened(theirs, copies)
     assert (copies.folder / DAY / "pictures" / "lamp.svg").is_file()
     listed = (copies.folder / "Days.md").read_text("utf-8")
     assert "[Day 1: A lamp](01-lamp/lesson.ipynb)" in listed
@@ -57,7 +76,7 @@ def test_work_is_never_overwritten(copies: Copies) -> None:
     (told,) = copies.copy_all(days_of(copies))
     assert "Your work stays" in told and "lesson-2.ipynb" in told
     assert own.read_text("utf-8") == "my work"
-    assert own.with_name("lesson-2.ipynb").read_bytes() == lesson.read_bytes()
+    assert own.with_name("lesson-2.ipynb").read_bytes() == as_opened(lesson, copies)
     assert copies.copy_all(days_of(copies)) == []
 
 
@@ -67,7 +86,7 @@ def test_an_untouched_copy_follows_the_course(copies: Copies) -> None:
     lesson = copies.course / "days" / DAY / "lesson.ipynb"
     lesson.write_text(lesson.read_text("utf-8") + "\n", "utf-8")
     assert copies.copy_all(days_of(copies)) == []
-    assert (copies.folder / DAY / "lesson.ipynb").read_bytes() == lesson.read_bytes()
+    assert (copies.folder / DAY / "lesson.ipynb").read_bytes() == as_opened(lesson, copies)
     assert not (copies.folder / DAY / "lesson-2.ipynb").exists()
 
 

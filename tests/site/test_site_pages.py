@@ -72,6 +72,46 @@ def test_search_finds_words_and_pages(visit: Visit) -> None:
     page.locator("#word-deadlock").wait_for(state="visible")
 
 
+def test_search_puts_titles_first_and_raises_no_error(visit: Visit) -> None:
+    """Also where words of an earlier search are remembered; errors are looked at by `visit`."""
+    page = visit.go("index.html")
+    page.evaluate("localStorage.setItem('sphinx_highlight_terms', 'topic')")
+    page = visit.go("search.html?q=topic")
+    first = page.locator("#search-results li a").first
+    first.wait_for()
+    assert "topic" in first.inner_text().lower().split(" > ")[-1]
+    assert not first.inner_text().startswith("The engine")
+
+
+def test_the_front_page_begins_and_tells_where_the_reader_is(visit: Visit) -> None:
+    """One button, a rover that is there, a verdict of the engine, and the first open day."""
+    page = visit.go("index.html")
+    rover = page.locator(".hero img")
+    assert rover.evaluate("image => image.complete && image.naturalWidth > 0")
+    assert "fail" in page.locator("pre.verdict").inner_text()
+    here = page.locator(".path-day.here")
+    assert here.get_attribute("data-day") == "01-install"
+    page.evaluate("roslings.finishDay('01-install')")
+    assert here.get_attribute("data-day") == "02-nodes"
+    page.get_by_role("link", name="Drive a robot in 15 minutes").click()
+    assert page.locator("h1").first.is_visible()
+
+
+def test_a_lesson_tells_how_to_open_it(visit: Visit) -> None:
+    """Nothing runs on the page, so it asks for no keys."""
+    page = visit.go("days/03-topics/index.html")
+    assert page.locator(".run-box pre").inner_text().strip() == "./roslings lab 3"
+    assert "press Shift" not in page.locator("article").inner_text()
+
+
+def test_the_side_bar_has_one_entry_a_day(visit: Visit) -> None:
+    """The quiz stands below its day."""
+    page = visit.go("index.html")
+    days = page.locator(".sidebar-tree .toctree-l1", has_text="Day ")
+    assert days.count() == 2
+    assert days.first.locator(".toctree-l2", has_text="Quiz").count() == 1
+
+
 def test_dark_mode_is_a_choice_that_stays(visit: Visit) -> None:
     """The button goes round, and the next page remembers."""
     page = visit.go("index.html")

@@ -108,6 +108,7 @@ def test_without_javascript_a_word_is_a_link(browser: object, site: Path) -> Non
     page = context.new_page()
     page.goto((site / DAY_1).as_uri())
     link = page.locator("a.word").first
+    page.locator(".page-words summary").click()  # folded, and opened without a script
     assert page.locator(".page-words dd").first.is_visible()
     link.click()
     assert page.url.endswith("glossary.html#word-node")

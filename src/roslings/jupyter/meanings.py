@@ -25,7 +25,8 @@ def with_meanings(notebook: bytes, glossary: Glossary) -> bytes:
         return notebook
     for cell in cells:
         cell["source"] = _told(cell["source"], glossary)
-    return (json.dumps(content, indent=1, ensure_ascii=False) + "\n").encode()
+    end = notebook[len(notebook.rstrip()) :]
+    return json.dumps(content, indent=1, ensure_ascii=False).encode() + end
 
 
 def _told(source: Any, glossary: Glossary) -> Any:
