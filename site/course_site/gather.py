@@ -19,6 +19,7 @@ from roslings.lessons import Day, read_lessons
 
 COMMANDS = Path(ros2.__file__).with_name("COMMANDS.md")
 NOT_A_PAGE = ("quiz.yaml", "lesson.ipynb")
+DRILLS = "drills"
 LINK_TO_LESSON = re.compile(r"\]\(((?:\.\./[0-9a-z-]+/)?)lesson\.ipynb")
 
 
@@ -81,6 +82,8 @@ def _gather_day(gathered: Gathered, folder: Path, day: Day) -> None:
     if lesson.is_file():
         gathered.write(f"days/{day.id}/index.ipynb", _with_tree(lesson, quiz), lesson)
         for beside in folder.rglob("*"):
+            if DRILLS in beside.relative_to(folder).parts:
+                continue  # a drill is run in a terminal, and its answer lies beside it
             if beside.suffix == ".md":
                 name = f"days/{day.id}/{beside.relative_to(folder)}"
                 gathered.write(name, _linked(beside), beside)
