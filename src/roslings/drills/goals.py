@@ -156,11 +156,17 @@ def _require_end(view: ExperimentView, give: Give, goal: GoalSeen) -> None:
 
 
 def _require_cancel(goal: GoalSeen) -> None:
-    """Raises CancelUnheard where it was over before anybody took the request from the queue."""
-    if goal.cancel_accepted:
+    """Raises CancelUnheard where it was over before anybody took the request from the queue.
+
+    Who refuses it answers at once, and works on. Else answer and result come one after the other,
+    in either order.
+    """
+    if goal.cancel_accepted or goal.cancel_sent_ns is None:
         return
-    ended_ns = goal.ended_ns or math.inf
-    if goal.cancel_answered_ns is None or ended_ns <= goal.cancel_answered_ns:
+    if goal.cancel_answered_ns is None:
+        raise CancelUnheard
+    waited_ns = goal.cancel_answered_ns - goal.cancel_sent_ns
+    if waited_ns > ((goal.ended_ns or math.inf) - goal.cancel_sent_ns) / 2:
         raise CancelUnheard
     raise faults.CancelRefused
 

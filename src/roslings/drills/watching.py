@@ -129,10 +129,17 @@ def _watch_all(card: DrillCard, scene: Scene, process: Process) -> None:
         _talk_with(node, card, scene, process)
     for tell in card.tells:
         _tell(tell, scene, process)
+    if not (published or _is_asked(card)):
+        _let_spin(scene, process)  # once more: its first timer may have come after that
     give_goals(card, scene, process)
     for take in card.takes:
         take_goal(take, scene, process)
     _await_output(card, scene, process)
+
+
+def _is_asked(card: DrillCard) -> bool:
+    """Whether something is said or given to it, which shows that it runs its callbacks."""
+    return bool(card.says or card.tells or card.gives or card.takes)
 
 
 def _stays_hidden(card: DrillCard, scene: Scene, process: Process) -> bool:
