@@ -118,8 +118,12 @@ def _watch_all(card: DrillCard, scene: Scene, process: Process) -> None:
     if len(card.nodes) > 1:
         scene.appears(lambda: len(scene.seen.graph.nodes) >= len(card.nodes), "all nodes")
     _let_spin(scene, process)
-    if scene.seen.stuck or _stays_hidden(card, scene, process):
-        return  # nothing can come of a node that runs no callback, or that nobody finds
+    if not scene.seen.stuck and not _stays_hidden(card, scene, process):
+        _watch_what_comes(card, scene, process)
+
+
+def _watch_what_comes(card: DrillCard, scene: Scene, process: Process) -> None:
+    """Of a node that runs its callbacks, and that can be found."""
     published = [topic for node in card.nodes for topic in node.publishes]
     if any(node.parameters for node in card.nodes):
         list_parameters(scene, card.nodes[0])
