@@ -10,7 +10,9 @@ from sphinx.application import Sphinx
 from course_site.course import html, lessons_of
 from roslings.lessons import Day
 
-PRESS_KEYS = re.compile(r"[^.]*\b(?:press|hold)\b[^.]*\bShift\b[^.]*\.")
+SENTENCE_ENDS = re.compile(r"(?<=\.)")
+PRESS = re.compile(r"\b(?:press|hold)\b")
+KEY = "Shift"
 INSTEAD = "In JupyterLab, you run the cell below."
 
 
@@ -24,9 +26,21 @@ def forget_keys(app: Sphinx, document: nodes.document) -> None:
     if day_of(app, app.env.docname) is None:
         return
     for text in list(document.findall(nodes.Text)):
-        if not isinstance(text.parent, nodes.literal) and PRESS_KEYS.search(text.astext()):
-            told = PRESS_KEYS.sub(INSTEAD, text.astext(), count=1)
-            text.parent.replace(text, nodes.Text(told))
+        if KEY in text and not isinstance(text.parent, (nodes.literal, nodes.literal_block)):
+            text.parent.replace(text, nodes.Text(without_keys(text.astext())))
+
+
+def without_keys(text: str) -> str:
+    """Each sentence that tells to press Shift is another one."""
+    return "".join(map(_instead, SENTENCE_ENDS.split(text)))
+
+
+def _instead(sentence: str) -> str:
+    """With the blanks before it. Output of a cell can be long, and is no sentence."""
+    if KEY not in sentence or not PRESS.search(sentence):
+        return sentence
+    blanks = sentence[: len(sentence) - len(sentence.lstrip())]
+    return blanks + INSTEAD
 
 
 def add_box(app: Sphinx, document: nodes.document, page: str) -> None:
