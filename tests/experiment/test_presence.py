@@ -132,6 +132,16 @@ def test_what_came_once_is_not_absent(first: str) -> None:
     assert absences.holds(["it"], "a bell")
 
 
+def test_what_a_busy_computer_did_not_see_is_waited_for_again() -> None:
+    """Of that run's programs, and of no others."""
+    absences = Absences()
+    absences.add(["it"], "a bell")
+    absences.add(["it", "another"], "a bell")
+    absences.forget(["it"])
+    assert not absences.holds(["it"], "a bell")
+    assert absences.holds(["it", "another"], "a bell")
+
+
 def test_a_node_that_still_grows_is_not_complete(domain: int) -> None:
     """Its time begins again with each new thing."""
     from std_msgs.msg import Empty

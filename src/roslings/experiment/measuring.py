@@ -252,6 +252,7 @@ class Stage:
             yield (seen := self.run(each, "wall", number, earlier))
             if seen.machine_fault is None:
                 return
+            self.absences.forget(process.executable for process in seen.processes.values())
             say("This computer was too busy to tell; once more")
 
     def run(

@@ -45,6 +45,11 @@ class Absences:
         """It was there."""
         self._came.add((frozenset(executables), what))
 
+    def forget(self, executables: Iterable[str]) -> None:
+        """What these were found not to have tells nothing: this computer was too busy to see it."""
+        them = frozenset(executables)
+        self._known = {each for each in self._known if not each[0] <= them}
+
     def holds(self, executables: Iterable[str], what: str) -> bool:
         """Some experiment has waited for this, as long as is worth it, and none has seen it."""
         return (frozenset(executables), what) in self._known - self._came
