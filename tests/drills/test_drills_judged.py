@@ -5,8 +5,15 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
-from roslings.drills import Drill, drill
-from roslings.drills.running import check
+from fresh import in_fresh_process
+
+from roslings.drills import Drill, drill, running
+from roslings.drills.judging import DrillVerdict
+
+
+def check(one: Drill, file: Path) -> DrillVerdict:
+    """The verdict on the program in `file`."""
+    return in_fresh_process(running.check, one, file)
 
 
 def changed(tmp_path: Path, name: str, before: str, after: str, of: str = "starter") -> Path:

@@ -6,9 +6,9 @@ import json
 from pathlib import Path
 
 import pytest
+from fresh import proofs_of
 from once import once
 
-from roslings.authoring.drills import prove_drills
 from roslings.authoring.prove import Proof
 from roslings.drills import all_drills, drill
 
@@ -21,7 +21,7 @@ def wrong(proofs: list[Proof]) -> list[str]:
 def test_some_drills_are_proven() -> None:
     """One that ends, one that runs no callback, one to foretell, one that is told things."""
     names = ("brackets", "deaf_to_ros", "private_name", "doubler")
-    proofs = list(prove_drills([drill(name) for name in names]))
+    proofs = proofs_of([drill(name) for name in names])
     assert wrong(proofs) == []
     assert len(proofs) == 4 * 3 + 1
 
@@ -31,6 +31,6 @@ def test_all_drills_are_proven(shared_folder: Path) -> None:
     """Every program of every drill, run for real."""
 
     def prove() -> str:
-        return json.dumps(wrong(list(prove_drills(all_drills()))))
+        return json.dumps(wrong(proofs_of(list(all_drills()))))
 
     assert json.loads(once(shared_folder / "drills.json", prove)) == []
