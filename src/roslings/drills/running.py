@@ -1,8 +1,7 @@
 """Run a drill's program behind the machine's wall, and judge what was seen, all in one process.
 
 The process is a fork of one that has loaded ROS and the judge: a drill begun in `watch` waits for
-nothing but its own program. Whoever forks must have no threads of its own, and must never have
-made a node: in the fork, the middleware would be there without its threads, and would see nobody.
+nothing but its own program. Who may fork stands in `experiment.forked`.
 """
 
 from __future__ import annotations

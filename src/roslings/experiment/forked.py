@@ -2,7 +2,9 @@
 
 It has a session of its own: Ctrl-C in the terminal reaches the command alone, which then asks the
 process to end in order. It works in the run's folder, not in the student's: a file `random.py`
-there would be imported in Python's place. Whoever forks must have no threads of its own.
+there would be imported in Python's place. Whoever forks must have no threads of its own,
+and must never have made a node: in the fork, the middleware would be there without its threads, and
+would see nobody.
 """
 
 from __future__ import annotations

@@ -252,7 +252,6 @@ class Stage:
             yield (seen := self.run(each, "wall", number, earlier))
             if seen.machine_fault is None:
                 return
-            self.absences.forget(process.executable for process in seen.processes.values())
             say("This computer was too busy to tell; once more")
 
     def run(
@@ -289,6 +288,8 @@ class Stage:
                 self.absences,
             )  # fmt: skip
             each.function(scene, *earlier)
+        if seen.machine_fault:
+            self.absences.forget(process.executable for process in seen.processes.values())
         if self.assignment.keeps_bags:
             write_bag(fresh_folder(self.assignment.bags / each.name), seen, probe.recorders)
         return seen
