@@ -21,6 +21,7 @@ COMMANDS = Path(ros2.__file__).with_name("COMMANDS.md")
 NOT_A_PAGE = ("quiz.yaml", "lesson.ipynb")
 DRILLS = "drills"
 LINK_TO_LESSON = re.compile(r"\]\(((?:\.\./[0-9a-z-]+/)?)lesson\.ipynb")
+LINK_TO_PAGE = "](../../site/pages/"
 
 
 @dataclass
@@ -95,8 +96,9 @@ def _gather_day(gathered: Gathered, folder: Path, day: Day) -> None:
 
 
 def _linked(page: Path) -> str:
-    """Its text, with links to lessons as they are called here: in JupyterLab they are files."""
-    return LINK_TO_LESSON.sub(r"](\1index.ipynb", page.read_text("utf-8"))
+    """Its text, with links to lessons and pages as they are called here: in JupyterLab, as files."""
+    text = page.read_text("utf-8").replace(LINK_TO_PAGE, "](../../")
+    return LINK_TO_LESSON.sub(r"](\1index.ipynb", text)
 
 
 def _with_tree(lesson: Path, quiz: Path) -> str:

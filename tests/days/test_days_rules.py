@@ -30,7 +30,12 @@ WRONG: dict[str, tuple[Sequence[Cell], str, str]] = {
     "title": (with_cell("head", text=("A lamp", "The lamp")), "", "does not begin with"),
     "second h1": (with_cell("lab", text=("## The lab", "# The lab")), "cell lab", "second H1"),
     "no goal": (with_cell("head", text=("Goal", "Aim")), "", "no 'Goal'"),
-    "no section": (without("ros-1"), "", "'If you know ROS 1' is missing"),
+    "no section": (without("real"), "", "'On a real robot' is missing"),
+    "too long": (with_cell("check", text="## The check\n\n" + "Run. " * 3000), "", "words"),
+    "long aside": (
+        with_cell("real", text="## On a real robot\n\n" + "A [motor](#word-motor) runs. " * 40), "",
+        "'On a real robot' has 125 words",
+    ),
     "order": ((*CELLS[:2], CELLS[3], CELLS[2], *CELLS[4:]), "", "not in order"),
     "concept too late": (
         (*CELLS[:4], *CELLS[9:14], *CELLS[4:9], *CELLS[14:]), "", "no section of its place",
@@ -46,7 +51,6 @@ WRONG: dict[str, tuple[Sequence[Cell], str, str]] = {
     "one mistake": (without("wrong-2"), "", "has 3 code cells"),
     "no times": (with_cell("lab", text=(" (10 min)", "")), "", "tell no times"),
     "no check": (with_cell("check-run", text="print(lamp)"), "", "checks nothing"),
-    "no table": (with_cell("ros-1", text="## If you know ROS 1\n\nNothing."), "", "no table"),
     "no links": (
         with_cell("reading", text="## Further reading and watching\n\nSee."), "", "no link",
     ),
@@ -77,7 +81,8 @@ WRONG: dict[str, tuple[Sequence[Cell], str, str]] = {
     "answer is no python": (
         with_cell("blink-change", answer=[["period = 0.5", "period = "]]), "blink-change", "Python",
     ),
-    "long cell": (with_cell("first", text="x = 1\n" * 16), "first, line 16", "16 lines"),
+    "long cell": (with_cell("wrong-1-mended", text="x = 1\n" * 16), "mended, line 16", "16 lines"),
+    "long first cell": (with_cell("first", text="x = 1\n" * 9), "first, line 9", "9 lines"),
     "wide cell": (with_cell("first", text="x = 1\n" + "y" * 89), "first, line 2", "89 columns"),
     "empty cell": (with_cell("first", text=" "), "cell first", "is empty"),
     "sleeps": (

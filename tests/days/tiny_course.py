@@ -137,7 +137,6 @@ CELLS = (
     Cell("check", "## The check\n\nRun this cell."),
     Cell("check-run", "lab = 'lamp'\nprint(f'check({lab})')", code=True),
     Cell("reading", "## Further reading and watching\n\n- [Lamps](https://example.org/lamps)"),
-    Cell("ros-1", "## If you know ROS 1\n\n| ROS 1 | ROS 2 |\n| --- | --- |\n| lamp | lamp |"),
     Cell("quiz", "## Quiz\n\nNow ask yourself."),
     Cell("quiz-run", 'quiz("01-lamp")', code=True),
 )  # fmt: skip

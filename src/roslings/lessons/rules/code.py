@@ -10,6 +10,8 @@ from roslings.lessons.rules.concept import parsed
 from roslings.lessons.rules.lesson_file import Broken, Cell, Lesson
 
 MOST_LINES, MOST_COLUMNS = 15, 88
+FIRST_LINES = 8
+"""Of the first cell: something happens before anything is explained."""
 SHELLS = ("bash", "console", "sh", "shell", "shell-session")
 MACHINE = re.compile(r"\b(terminal|pi|laptop|robot)\b", re.IGNORECASE)
 PLACE = re.compile(r"folder|~|directory", re.IGNORECASE)
@@ -17,20 +19,20 @@ PLACE = re.compile(r"folder|~|directory", re.IGNORECASE)
 
 def broken(lesson: Lesson) -> Iterator[Broken]:
     """Every rule on code that `lesson` breaks."""
-    for cell in lesson.cells:
-        if cell.is_code:
-            yield from _size(lesson, cell)
-            yield from _sleeps(lesson, cell)
+    cells = [cell for cell in lesson.cells if cell.is_code]
+    for cell in cells:
+        yield from _size(lesson, cell, FIRST_LINES if cell is cells[0] else MOST_LINES)
+        yield from _sleeps(lesson, cell)
     yield from _commands(lesson)
 
 
-def _size(lesson: Lesson, cell: Cell) -> Iterator[Broken]:
+def _size(lesson: Lesson, cell: Cell, most: int) -> Iterator[Broken]:
     lines = cell.text.splitlines()
     if not cell.text.strip():
         yield lesson.broken_at(cell, 1, "The cell is empty.", "Delete it.")
-    if len(lines) > MOST_LINES:
+    if len(lines) > most:
         what = f"The cell has {len(lines)} lines."
-        yield lesson.broken_at(cell, MOST_LINES + 1, what, f"At most {MOST_LINES}: make two of it.")
+        yield lesson.broken_at(cell, most + 1, what, f"At most {most}: make two of it.")
     for number, line in enumerate(lines, 1):
         if len(line) > MOST_COLUMNS:
             what = f"The line has {len(line)} columns."

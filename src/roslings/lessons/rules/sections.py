@@ -11,15 +11,17 @@ from roslings.lessons.rules.prose import LINK
 
 WORDS = "Words of the day"
 GOES_WRONG, REAL, LAB, CHECK = "What goes wrong", "On a real robot", "The lab", "The check"
-READING, ROS_1, QUIZ = "Further reading and watching", "If you know ROS 1", "Quiz"
+READING, QUIZ = "Further reading and watching", "Quiz"
 BEFORE = ("Like in everyday life", WORDS)
-AFTER = (GOES_WRONG, REAL, LAB, CHECK, READING, ROS_1, QUIZ)
-FREE = frozenset({REAL, READING, ROS_1})
+AFTER = (GOES_WRONG, REAL, LAB, CHECK, READING, QUIZ)
+FREE = frozenset({REAL, READING})
 """Sections that may use words of later days, where they link them."""
 
 HEAD = ("Goal", "Level", "Time", "You need")
 FIRST_CODE_LINES, FIRST_CODE_SIGNS = 40, 1500
 FEWEST_WORDS, MOST_WORDS = 6, 12
+LONGEST_LESSON, LONGEST_ASIDE = 3000, 80
+"""Words of prose, tables and commands. Aside: of the section on real robots."""
 TIMED = re.compile(r"\d+\s*(?:min|minutes?|h|hours?)\b")
 EMBEDDED = re.compile(r"<iframe|<video|<embed|YouTubeVideo|IFrame\(")
 
@@ -39,6 +41,7 @@ def broken(lesson: Lesson) -> Iterator[Broken]:
     yield from _goes_wrong(lesson)
     yield from _ends(lesson)
     yield from _no_video(lesson)
+    yield from _length(lesson)
 
 
 def _title(lesson: Lesson) -> Iterator[Broken]:
@@ -119,13 +122,21 @@ def _ends(lesson: Lesson) -> Iterator[Broken]:
         yield lesson.broken("The steps of the lab tell no times.", "Say for each: (10 min).")
     if "check(" not in _text(lesson, CHECK) and CHECK in lesson.sections:
         yield lesson.broken(f"'{CHECK}' checks nothing.", 'Add a cell: check("LAB").')
-    if "|" not in _text(lesson, ROS_1) and ROS_1 in lesson.sections:
-        yield lesson.broken(f"'{ROS_1}' has no table.", "Add a table of two columns.")
     if "](http" not in _text(lesson, READING) and READING in lesson.sections:
         yield lesson.broken(f"'{READING}' has no link.", "Add links to the official pages.")
     last = lesson.cells[-1].text.strip() if lesson.cells else ""
     if last != f'quiz("{lesson.day.id}")':
         yield lesson.broken("The last cell is not the quiz.", f'Add: quiz("{lesson.day.id}")')
+
+
+def _length(lesson: Lesson) -> Iterator[Broken]:
+    count = sum(len(cell.text.split()) for cell in lesson.cells if not cell.is_code)
+    if count > LONGEST_LESSON:
+        mend = f"At most {LONGEST_LESSON}: what the lab does not need stands on a page beside it."
+        yield lesson.broken(f"It has {count} words.", mend)
+    if (aside := len(_text(lesson, REAL).split())) > LONGEST_ASIDE:
+        mend = f"At most {LONGEST_ASIDE}, and a link: site/pages/reference/real-robot.md."
+        yield lesson.broken(f"'{REAL}' has {aside} words.", mend)
 
 
 def _text(lesson: Lesson, title: str) -> str:
