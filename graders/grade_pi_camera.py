@@ -152,9 +152,9 @@ def some_light(scene: Scene) -> Light:
 @experiment
 def filming(scene: Scene) -> None:
     """The camera node alone; a ball jumps about before its camera."""
-    with camera_beside(scene) as camera, scene.run(CAMERA, start=camera.start()):
+    with camera_beside(scene, IMAGE) as camera, scene.run(CAMERA, start=camera.start()):
         scene.watch(IMAGE)
-        camera.await_pictures(IMAGE, PICTURES)
+        camera.await_pictures(PICTURES)
 
 
 @experiment
@@ -167,13 +167,13 @@ def untold(scene: Scene) -> None:
 @experiment
 def lighting(scene: Scene) -> None:
     """The camera node, while its brightness is changed."""
-    with camera_beside(scene) as camera, scene.run(CAMERA, start=camera.start()):
+    with camera_beside(scene, IMAGE) as camera, scene.run(CAMERA, start=camera.start()):
         for value in LIT:
             camera.expect_lighter((value - NEUTRAL) * LEVELS)
-        camera.await_pictures(IMAGE, 2)
+        camera.await_pictures(2)
         for value in LIT:
             if change_parameter(scene, CAMERA, BRIGHTNESS.name, value):
-                camera.await_pictures(IMAGE, 8)
+                camera.await_pictures(8)
         for wrong in WRONG_BRIGHTNESS:
             change_parameter(scene, CAMERA, BRIGHTNESS.name, wrong)
 
@@ -181,7 +181,7 @@ def lighting(scene: Scene) -> None:
 @experiment
 def unplugged(scene: Scene) -> None:
     """A camera that is missing, forbidden, busy, there, gone, and there again."""
-    with camera_beside(scene, plugged_in=False) as beside:
+    with camera_beside(scene, IMAGE, plugged_in=False) as beside:
         beside.expect_lighter((LIGHT - NEUTRAL) * LEVELS)
         beside.begin("missing")
         with scene.run(CAMERA, start=beside.start({BRIGHTNESS.name: LIGHT})) as process:
@@ -192,13 +192,13 @@ def unplugged(scene: Scene) -> None:
                 beside.await_trouble(process, *numbers)
             beside.refuse(0)
             beside.begin("there")
-            beside.await_return(IMAGE, 3)
+            beside.await_return(3)
             beside.begin("gone")
             beside.camera.unplug()
             beside.await_trouble(process, *GONE)
             beside.begin("there again")
             beside.camera.plug_in()
-            beside.await_return(IMAGE, 3)
+            beside.await_return(3)
 
 
 @experiment

@@ -94,6 +94,7 @@ def labs() -> None:
         f" {'CPU ours':>8} {'nodes':>7} {'ratio':>6} {'MB':>6} {'nodes':>6}"
     )
     for each in all_labs():
+        timed_s([str(root() / "roslings"), "check", each.name, "--solution"], root())  # first use
         show(f"{each.name} solution", grade(each, each.solution))
         show(f"{each.name} starter", grade(each, each.starter))
 

@@ -28,6 +28,7 @@ TRICKY = {
     "publishes_clock": "right",
     "sets_use_sim_time_false": "right",
     "sleeping_thread": "TooFast",
+    "slow_thread": "TooSlow",
     "steady_clock": "right",
     "stops_reading": "NoMessages",
     "ten_milliseconds": "TooFast",

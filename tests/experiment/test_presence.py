@@ -142,6 +142,17 @@ def test_what_a_busy_computer_did_not_see_is_waited_for_again() -> None:
     assert absences.holds(["it", "another"], "a bell")
 
 
+def test_a_clock_that_stands_still_tells_nothing_but_one_that_went_on_does(domain: int) -> None:
+    """In simulated time only what was missed while that time went by is known for good."""
+    absences = Absences()
+    with probing(domain) as probe:
+        presence = Presence(probe, ARENA, absences, simulated=True)
+        presence.note("a lamp", came=False)
+        presence.note_for_good("a bell")
+    assert not absences.holds(["it"], "a lamp")
+    assert absences.holds(["it"], "a bell")
+
+
 def test_a_node_that_still_grows_is_not_complete(domain: int) -> None:
     """Its time begins again with each new thing."""
     from std_msgs.msg import Empty

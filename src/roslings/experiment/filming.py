@@ -14,7 +14,7 @@ from roslings.devices.camera import Frame, Light, SocketCamera, SyntheticCamera
 from roslings.devices.rover import Disc
 from roslings.evidence import StageMark
 from roslings.experiment.looking import IMAGE, FilmLooker
-from roslings.experiment.scene import Scene, says
+from roslings.experiment.scene import Scene, publishes, says
 from roslings.experiment.start import Start
 from roslings.experiment.timing import accounting
 from roslings.near import nearest, nearest_endpoint
@@ -41,12 +41,14 @@ COMES_WITHIN_S = 20.0
 
 @contextmanager
 def camera_beside(
-    scene: Scene, plugged_in: bool = True, parameter: str = "device"
+    scene: Scene, shows: TopicContract, plugged_in: bool = True, parameter: str = "device"
 ) -> Iterator[Filming]:
     """A camera that films a ball which jumps about; the node finds it by a parameter.
 
-    >>> with camera_beside(scene) as filming, scene.run(CAMERA, start=filming.start()):
-    ...     scene.watch(PICTURES)
+    The node shows its pictures on the topic `shows`.
+
+    >>> with camera_beside(scene, IMAGE) as filming, scene.run(CAMERA, start=filming.start()):
+    ...     filming.await_pictures(PICTURES)
     """
     film = _film(scene)
     looker = FilmLooker(film)
@@ -55,7 +57,7 @@ def camera_beside(
     with SocketCamera(path, lambda number: film[number % PICTURES]) as camera:
         if plugged_in:
             camera.plug_in()
-        yield Filming(scene, camera, looker, parameter)
+        yield Filming(scene, shows, camera, looker, parameter)
 
 
 def _film(scene: Scene) -> list[Frame]:
@@ -73,9 +75,15 @@ class Filming:
     """The camera, and what is done to it and to the node that reads it."""
 
     def __init__(
-        self, scene: Scene, camera: SocketCamera, looker: FilmLooker, parameter: str
+        self,
+        scene: Scene,
+        shows: TopicContract,
+        camera: SocketCamera,
+        looker: FilmLooker,
+        parameter: str,
     ) -> None:
         self.camera = camera
+        self._shows = shows
         self._scene, self._looker, self._parameter = scene, looker, parameter
         self._speechless, self._part = False, "film"
         """It did not tell of the last trouble."""
@@ -89,19 +97,17 @@ class Filming:
         self._part = part
         self._scene.seen.stages.append(StageMark(part=part, at_ns=time.monotonic_ns()))
 
-    def await_pictures(self, topic: TopicContract, count: int) -> bool:
-        """Wait until so many more pictures came on a topic, or on the one nearest to it.
+    def await_pictures(self, count: int) -> bool:
+        """Wait until so many more pictures came on its topic, or on the one nearest to it.
 
         The camera is there: a node that shows nothing at all for long is not waited for again.
         """
         began_ns = time.monotonic_ns()
-        if not self._scene.hear(topic, grace_s=SHOWS_WITHIN_S):
+        if not self._scene.hear(self._shows, grace_s=SHOWS_WITHIN_S):
             return False
-        return self._scene.until_own(
-            lambda: self._came_after(began_ns, topic) >= count, COMES_WITHIN_S
-        )
+        return self._scene.until_own(lambda: self._came_after(began_ns) >= count, COMES_WITHIN_S)
 
-    def await_return(self, topic: TopicContract, count: int) -> bool:
+    def await_return(self, count: int) -> bool:
         """The same after the camera was away: a node may take long until it looks again.
 
         Where it shows nothing beside a camera that is there, it is not waited for.
@@ -109,9 +115,9 @@ class Filming:
         began_ns = time.monotonic_ns()
 
         def come() -> bool:
-            return self._came_after(began_ns, topic) >= count
+            return self._came_after(began_ns) >= count
 
-        missed = functools.partial(self._scene.is_missed, says(topic))
+        missed = functools.partial(self._scene.is_missed, says(self._shows))
         with accounting(self._scene, self._part):
             self._scene.until_own(lambda: come() or missed(), COMES_WITHIN_S)
         return come()
@@ -123,7 +129,10 @@ class Filming:
             self.camera.plug_in()
 
     def await_trouble(self, process: Process, *numbers: int) -> bool:
-        """Wait until the node writes a line with the system's words for one of these errors."""
+        """Wait until the node writes a line with the system's words for one of these errors.
+
+        A node without a publisher for its pictures is no camera yet: it is not waited for.
+        """
         return self._await_words(process, [os.strerror(number) for number in numbers])
 
     def _await_words(self, process: Process, words: Sequence[str]) -> bool:
@@ -132,17 +141,20 @@ class Filming:
         def said() -> bool:
             return any(word in line.text for line in process.lines()[before:] for word in words)
 
+        no_camera_yet = functools.partial(self._scene.is_missed, publishes(self._shows))
         within_s = SILENT_WITHIN_S if self._speechless else SAYS_WITHIN_S
         with accounting(self._scene, self._part):
-            self._speechless = not self._scene.until_own(said, within_s)
+            self._scene.until_own(lambda: said() or no_camera_yet(), within_s)
+        self._speechless = not said()
         return not self._speechless
 
     def expect_lighter(self, levels: float) -> None:
         """From now on, pictures may be lighter by so many levels of 255."""
         self._looker.expect_lighter(levels)
 
-    def _came_after(self, began_ns: int, topic: TopicContract) -> int:
+    def _came_after(self, began_ns: int) -> int:
         """By when they were sent: on a busy computer, pictures of before may still wait here."""
+        topic = self._shows
         found = nearest_endpoint(self._scene.seen.graph, "publisher", topic.topic, topic.type)
         came = self._scene.probe.messages(found.topic) if found else []
         to_wall_ns = time.time_ns() - time.monotonic_ns()

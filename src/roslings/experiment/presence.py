@@ -106,6 +106,11 @@ class Presence:
         elif not self.simulated and self.arena.all_alive():
             self.absences.add(self._executables, what)
 
+    def note_for_good(self, what: str) -> None:
+        """It did not come, and simulated time did go by: that clock does tell something."""
+        if self.arena.all_alive():
+            self.absences.add(self._executables, what)
+
     @property
     def _executables(self) -> list[str]:
         return [process.seen.executable for process in self.arena.processes]

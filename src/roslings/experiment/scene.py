@@ -21,6 +21,7 @@ from roslings.experiment.presence import GRACE_S, Absences, Presence, Turn
 from roslings.experiment.simulated import (
     IgnoresTheClock,
     NotBelieved,
+    SaysNothing,
     SimulatedWatch,
     followed_clock,
 )
@@ -42,7 +43,11 @@ LOOK_AGAIN_S = 0.005
 FIRST_PERIODS = 3
 """So many periods of its rate may pass before a complete node speaks for the first time."""
 SILENT_PERIODS = 10
-"""Who says nothing for so many periods in real time is silent, and not only slow or in groups."""
+"""Who says nothing for so many periods in real time is silent, and not only slow or in groups.
+
+Of whom many periods of robot time went by in silence, FIRST_PERIODS of real time tell the rest: no
+timer of it speaks, so only a thread of its own could.
+"""
 
 
 @dataclass(frozen=True)
@@ -178,6 +183,8 @@ class Scene:
         except NotBelieved as reason:
             self.seen.not_believed = str(reason)
             self.seen.ignores_clock = isinstance(reason, IgnoresTheClock)
+            if isinstance(reason, SaysNothing):
+                self._presence.note_for_good(no_timer_says(contract))
 
     def _publisher_in_time(self, contract: TopicContract) -> Endpoint:
         self._until_there(lambda: self._publisher(contract) is not None, publishes(contract))
@@ -189,7 +196,8 @@ class Scene:
     def _watch_on_the_wall(self, contract: TopicContract) -> None:
         if contract.rate:
             find = functools.partial(self._publisher, contract)
-            grace_s = SILENT_PERIODS / contract.rate.hz
+            quiet = self.is_missed(no_timer_says(contract))
+            grace_s = (FIRST_PERIODS if quiet else SILENT_PERIODS) / contract.rate.hz
             WallWatch(
                 self._probe, self._arena, contract.rate, find, self._until_alive,
                 lambda: self._until_heard(contract, grace_s=grace_s), self._turns,
@@ -328,11 +336,14 @@ class Scene:
     ) -> bool:
         """First its publisher, then the connection to it, then what it says."""
         self._until_there(lambda: self._publisher(contract) is not None, publishes(contract))
-        if publisher := self._publisher(contract):
-            self._until_alive(
-                lambda: self._probe.connected(publisher.topic) or not can_record(publisher),
-                FIRST_MESSAGE_WITHIN_S,
-            )
+        publisher = self._publisher(contract)
+        if publisher is None:
+            self._presence.note(says(contract), came=False)
+            return False
+        self._until_alive(
+            lambda: self._probe.connected(publisher.topic) or not can_record(publisher),
+            FIRST_MESSAGE_WITHIN_S,
+        )
         limit = contract.rate
         periods_s = FIRST_PERIODS / limit.hz if limit else 0.0
         return self._until_there(
@@ -378,6 +389,11 @@ def hears(contract: TopicContract) -> str:
 def says(contract: TopicContract) -> str:
     """The name of the first message on a topic, where it is missed."""
     return f"a message on {contract.topic}"
+
+
+def no_timer_says(contract: TopicContract) -> str:
+    """The name of what did not come while simulated time went by."""
+    return f"a timer's message on {contract.topic}"
 
 
 def mending(node: NodeContract, seen: ExperimentSeen) -> list[str]:

@@ -61,6 +61,10 @@ class IgnoresTheClock(NotBelieved):
     """The node has another source of time."""
 
 
+class SaysNothing(IgnoresTheClock):
+    """The node let much simulated time go by, and no message came."""
+
+
 @dataclass
 class SimulatedWatch:
     """One topic, watched in simulated time."""
@@ -117,7 +121,7 @@ class SimulatedWatch:
             ticks += 1
             robot_s = ticks * step_ns / NS_PER_S
             if robot_s > FIRST_MESSAGE_WITHIN_S + self.period_s:
-                raise IgnoresTheClock(f"no message came in {robot_s:.0f} s of simulated time")
+                raise SaysNothing(f"no message came in {robot_s:.0f} s of simulated time")
             self._require_keeping_up(began_s, robot_s)
 
     def _stretch(self, step_ns: int, length_s: float, speed: float | None = None) -> Segment:
