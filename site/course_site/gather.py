@@ -22,6 +22,7 @@ NOT_A_PAGE = ("quiz.yaml", "lesson.ipynb")
 DRILLS = "drills"
 LINK_TO_LESSON = re.compile(r"\]\(((?:\.\./[0-9a-z-]+/)?)lesson\.ipynb")
 LINK_TO_PAGE = "](../../site/pages/"
+LINK_TO_TASK = re.compile(r"\]\(\.\./\.\./labs/([0-9a-z-]+)/task\.md")
 
 
 @dataclass
@@ -96,8 +97,9 @@ def _gather_day(gathered: Gathered, folder: Path, day: Day) -> None:
 
 
 def _linked(page: Path) -> str:
-    """Its text, with links to lessons and pages as they are called here: in JupyterLab, as files."""
+    """Its text, with links to pages of the course as they are called here: there they are files."""
     text = page.read_text("utf-8").replace(LINK_TO_PAGE, "](../../")
+    text = LINK_TO_TASK.sub(r"](../../labs/\1.md", text)
     return LINK_TO_LESSON.sub(r"](\1index.ipynb", text)
 
 

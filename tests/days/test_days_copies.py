@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -63,6 +64,24 @@ def test_the_first_time_all_is_copied(copies: Copies) -> None:
     assert "Day 2: A motor (to come)" in listed
     assert "Begin with [The first look](01-lamp/first-look.md)." in listed
     assert (copies.folder / DAY / "first-look.md").is_file()
+
+
+def test_what_a_lesson_links_to_lies_where_its_copy_looks(copies: Copies) -> None:
+    """A reference page, and a lab's task with its picture: what has no day is one folder nearer."""
+    page = copies.course / "site" / "pages" / "reference" / "robots.md"
+    task = copies.course / "labs" / "lamp" / "task.md"
+    picture = task.parent / "pictures" / "works.svg"
+    for file, text in ((page, "# Robots\n"), (task, "# A lamp\n"), (picture, "<svg/>")):
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text, "utf-8")
+    own = copies.folder / DAY
+    more = copies.course / "days" / DAY / "more.md"
+    links = ["../../site/pages/reference/robots.md#legs", "../../labs/lamp/task.md", "lesson.ipynb"]
+    more.write_text("".join(f"[it]({link})\n" for link in links), "utf-8")
+    copies.copy_all(days_of(copies))
+    found = re.findall(r"\((.+?)(?:#\w+)?\)", (own / "more.md").read_text("utf-8"))
+    assert len(found) == len(links) and all((own / link).is_file() for link in found)
+    assert (own / "../labs/lamp/pictures/works.svg").is_file()
 
 
 def test_work_is_never_overwritten(copies: Copies) -> None:

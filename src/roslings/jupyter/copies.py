@@ -4,11 +4,14 @@
 ~/roslings_ws/notebooks/03-topics/lesson.ipynb    the student's; never overwritten
 ~/roslings_ws/notebooks/03-topics/pictures/       the course's, brought up to date
 ~/roslings_ws/notebooks/01-install/PAGE.md        the course's, too
+~/roslings_ws/notebooks/reference/PAGE.md         the course's, from site/pages/reference
+~/roslings_ws/notebooks/labs/topics/task.md       the course's
 ~/roslings_ws/.roslings/lessons/03-topics.ipynb   the lesson as it was when it was copied
 """
 
 from __future__ import annotations
 
+import re
 import shutil
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -20,6 +23,9 @@ from roslings.workspace.trouble import shown, writing
 
 LESSON, PICTURES, LIST = "lesson.ipynb", "pictures", "Days.md"
 MOST_COPIES = 1000
+REFERENCE, LABS, TASK = "site/pages/reference", "labs", "task.md"
+OUTSIDE = re.compile(rb"\]\(\.\./\.\./(?:site/pages/)?(?=reference/|labs/)")
+"""A link from a day to a page that has no day: in the copies it is one folder nearer."""
 
 
 @dataclass(frozen=True)
@@ -46,6 +52,7 @@ class Copies:
         """
         told: list[str] = []
         with writing(self.folder):
+            self._copy_shared()
             for day in (day for day in days if self.lesson_of(day).is_file()):
                 told += self._copy(day)
             self.folder.mkdir(parents=True, exist_ok=True)
@@ -54,7 +61,7 @@ class Copies:
 
     def _copy(self, day: Day) -> Iterator[str]:
         own, before = self.folder / day.id / LESSON, self._before(day)
-        theirs = with_meanings(self.lesson_of(day).read_bytes(), self.glossary)
+        theirs = with_meanings(_linked(self.lesson_of(day)), self.glossary)
         self._copy_beside(day)
         if not own.exists():
             _write(own, theirs)
@@ -77,7 +84,17 @@ class Copies:
         if pictures.is_dir():
             shutil.copytree(pictures, self.folder / day.id / PICTURES, dirs_exist_ok=True)
         for page in self._pages_of(day):  # the lesson links to them
-            shutil.copy(page, self.folder / day.id)
+            _write(self.folder / day.id / page.name, _linked(page))
+
+    def _copy_shared(self) -> None:
+        """What lessons of several days link to: reference pages, and the labs' tasks."""
+        for page in sorted((self.course / REFERENCE).glob("*.md")):
+            _write(self.folder / "reference" / page.name, page.read_bytes())
+        for task in sorted((self.course / LABS).glob(f"*/{TASK}")):
+            own = self.folder / LABS / task.parent.name
+            _write(own / TASK, task.read_bytes())
+            if (task.parent / PICTURES).is_dir():
+                shutil.copytree(task.parent / PICTURES, own / PICTURES, dirs_exist_ok=True)
 
     def _pages_of(self, day: Day) -> list[Path]:
         """What lies beside a lesson, to be read."""
@@ -98,6 +115,10 @@ class Copies:
             name = f"[{day.name}]({day.id}/{LESSON})" if there else f"{day.name} (to come)"
             yield f"| {name} | {day.can} | {day.hours:g} |"
         yield from ("", "These are your own copies: change what you like.", "")
+
+
+def _linked(page: Path) -> bytes:
+    return OUTSIDE.sub(b"](../", page.read_bytes())
 
 
 def _title_of(page: Path) -> str:
