@@ -62,9 +62,10 @@ def named(claims: list[Claim]) -> list[str]:
 
 @pytest.mark.parametrize("claim", CLAIMS, ids=named(CLAIMS))
 def test_a_claim_stands_in_its_lesson(claim: Claim) -> None:
-    """Or in its lab's task. Who rewords it rewords the claim; each is typed or seen in one cell."""
+    """Or in a page beside it, or the task. Who rewords it rewords the claim; each has one proof."""
     cells = LESSONS[claim.day].cells
     texts = [cell.text for cell in cells if not cell.is_code]
+    texts += [page.read_text("utf-8") for page in LESSONS[claim.day].path.parent.glob("*.md")]
     texts += [lab(claim.lab).task.read_text("utf-8")] if claim.lab else []
     assert " ".join(claim.says.split()) in " ".join(" ".join(texts).split())
     assert bool(claim.types) != bool(claim.cell)

@@ -60,18 +60,23 @@ def check(
 ) -> Callable[[Examine], Examine]:
     """Register a function as a check. Its docstring is the symptom as the student sees it.
 
-    `lesson` is a place in the course: `01-install#domain`.
+    `lesson` is a place in the course: `01-install#domain`, or `reference/real-robot#clock`.
     """
 
     def register(examine: Examine) -> Examine:
         theme = examine.__module__.rpartition(".")[2]
         symptom = " ".join(inspect.cleandoc(examine.__doc__ or "").split())
         _checks[id] = Check(
-            id, title, looks_at, symptom, f"days/{lesson}", theme, examine, rows, needs, live
+            id, title, looks_at, symptom, _place(lesson), theme, examine, rows, needs, live
         )
         return examine
 
     return register
+
+
+def _place(lesson: str) -> str:
+    """Where a paragraph stands in the course's folder."""
+    return f"site/pages/{lesson}" if lesson.startswith("reference/") else f"days/{lesson}"
 
 
 def all_checks() -> tuple[Check, ...]:

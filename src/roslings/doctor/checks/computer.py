@@ -134,7 +134,7 @@ def memory(machine: Machine) -> Finding:
     "clock",
     "The clock is right",
     looks_at="today's date, and files of the workspace that are dated in the future",
-    lesson="07-pi-camera#clock",
+    lesson="reference/real-robot#clock",
 )
 def clock(machine: Machine) -> Finding:
     """Downloads fail with 'certificate is not yet valid', or messages look too old for ROS."""
@@ -158,7 +158,7 @@ def clock(machine: Machine) -> Finding:
     "shared-memory",
     "Shared memory (/dev/shm) works",
     looks_at="the size of /dev/shm, and whether you may write there",
-    lesson="03-topics#same-machine",
+    lesson="03-topics/step-by-step#same-machine",
 )
 def shared_memory(machine: Machine) -> Finding:
     """Nodes see each other, but no message arrives; 'Failed to create segment' is printed."""

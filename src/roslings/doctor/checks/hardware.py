@@ -223,7 +223,7 @@ def camera(machine: Machine) -> Finding:
     "pi",
     "The Raspberry Pi is strong enough",
     looks_at="/proc/device-tree/model and the size of the memory",
-    lesson="07-pi-camera#prepare-the-pi",
+    lesson="reference/real-robot#prepare-the-pi",
 )
 def pi(machine: Machine) -> Finding:
     """Every command takes long, or a program ends with 'Killed'."""
@@ -247,7 +247,7 @@ def pi(machine: Machine) -> Finding:
     "pi-power",
     "The Raspberry Pi gets enough power and stays cool",
     looks_at="vcgencmd get_throttled, and the temperature of the processor",
-    lesson="07-pi-camera#prepare-the-pi",
+    lesson="reference/real-robot#prepare-the-pi",
     live=True,
 )
 def pi_power(machine: Machine) -> Finding:
@@ -288,7 +288,7 @@ def _throttled(machine: Machine) -> int | None:
     "pi-camera",
     "libcamera knows the camera of a Raspberry Pi 5",
     looks_at="the file ipa_rpi_pisp.so, which only the Raspberry Pi's libcamera has",
-    lesson="07-pi-camera#libcamera",
+    lesson="reference/real-robot#the-ribbon-camera",
     rows=(29,),
 )
 def pi_camera(machine: Machine) -> Finding:

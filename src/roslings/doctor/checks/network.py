@@ -109,7 +109,7 @@ def discovery_range(machine: Machine) -> Finding:
     "Settings of the middleware point to files that exist",
     looks_at="FASTRTPS_DEFAULT_PROFILES_FILE, FASTDDS_DEFAULT_PROFILES_FILE, CYCLONEDDS_URI,"
     " ROS_DISCOVERY_SERVER",
-    lesson="07-pi-camera#network",
+    lesson="reference/real-robot#network",
 )
 def dds_settings(machine: Machine) -> Finding:
     """Nodes behave differently in two terminals, or do not see each other in one."""
@@ -134,7 +134,7 @@ def dds_settings(machine: Machine) -> Finding:
     "transport",
     "Discovery range and transport fit together",
     looks_at="FASTDDS_BUILTIN_TRANSPORTS and ROS_AUTOMATIC_DISCOVERY_RANGE",
-    lesson="03-topics#same-machine",
+    lesson="03-topics/step-by-step#same-machine",
 )
 def transport(machine: Machine) -> Finding:
     """ros2 topic list shows the topic, but ros2 topic echo prints nothing."""
@@ -230,7 +230,7 @@ def _sender(address: str) -> socket.socket:
     "firewall",
     "No firewall stands between you and a robot",
     looks_at="/etc/ufw/ufw.conf and the start list of firewalld",
-    lesson="07-pi-camera#network",
+    lesson="reference/real-robot#network",
     rows=(22,),
 )
 def firewall(machine: Machine) -> Finding:

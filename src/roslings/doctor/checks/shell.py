@@ -128,7 +128,7 @@ def _parents(paths: list[Path]) -> set[Path]:
     "build-terminal",
     "You build in one terminal and run in another",
     looks_at="the variables that colcon noted in log/latest_build/events.log",
-    lesson="03-topics#two-terminals",
+    lesson="03-topics/step-by-step#two-terminals",
     rows=(10,),
 )
 def build_terminal(machine: Machine) -> Finding:
