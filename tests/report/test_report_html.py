@@ -19,6 +19,7 @@ from roslings.report.html import Asked, html_of
 from roslings.report.html.interval_plot import BOTTOM, TOP, interval_plot
 from roslings.report.html.intervals import watched
 from roslings.report.html.markup import prose, tag
+from roslings.report.html.slips import marked
 from roslings.verdict import Verdict
 
 ASKED = [Asked("/chatter", STRING, 2.0, 1.9, 2.1)]
@@ -110,7 +111,42 @@ def test_a_failure_says_all_that_the_verdict_says() -> None:
     for key in ("expected", "measured", "why", "hint", "lesson"):
         assert str(TOO_SLOW[key]) in found.text
     assert all(hint in found.text for hint in HINTS)
-    assert found.tags["details"] == len(HINTS) + 1  # and colcon's output
+    passed_and_colcon = 2
+    assert found.tags["details"] == len(HINTS) + passed_and_colcon
+
+
+def test_the_page_says_what_is_next() -> None:
+    """As the terminal does, below the score."""
+    assert 'Next Mend "rate", then check again: ./roslings check topics' in page(
+        evidence(), too_slow()
+    ).text.replace("\n", " ")
+    assert "./roslings pack topics" in page(evidence()).text
+
+
+def test_a_rate_that_failed_has_its_plot_in_its_card() -> None:
+    """Once on the page, and above the checks that pass."""
+    text = html_of(too_slow(), evidence(talking(messages(steady(1.0, 12)))), ASKED)
+    article = text[text.index("<article") : text.index("</article>")]
+    assert 'class="plot"' in article
+    assert text.count('class="plot"') == article.count('class="plot"')
+    passed = html_of(verdict(), evidence(talking(messages(steady(0.5, 12)))), ASKED)
+    assert passed.index('class="plot"') > passed.index("The checks")
+
+
+@pytest.mark.parametrize(
+    ("text", "other", "shown"),
+    [
+        ("there is /alve", "a node /alive", "there is /alve"),
+        ("there is /alivee", "a node /alive", "there is /alive<mark>e</mark>"),
+        ("a node /alive", "there is /alve", "a node /al<mark>i</mark>ve"),
+        ("'hello <b>'", "'hallo <b>'", "h<mark>e</mark>llo &lt;b&gt;"),
+        ("/chatter", "/chatter", "/chatter"),
+        ("2 Hz", "1 Hz", "2 Hz"),
+    ],
+)
+def test_what_differs_between_two_names_is_marked(text: str, other: str, shown: str) -> None:
+    """Letters alone, and nothing that a student wrote becomes HTML."""
+    assert shown in marked(text, other)
 
 
 def test_a_package_that_was_not_built_has_a_page_too() -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from roslings.evidence import Evidence
 from roslings.report.html import seen_part, shown_part, verdict_part
-from roslings.report.html.intervals import Asked
+from roslings.report.html.intervals import Asked, watched
 from roslings.report.html.markup import Markup, joined, tag
 from roslings.report.whole_file import write_whole
 from roslings.verdict import Verdict
@@ -43,11 +43,15 @@ def _head(verdict: Verdict) -> Markup:
 
 
 def _body(verdict: Verdict, evidence: Evidence, asked: Sequence[Asked]) -> Markup:
+    heard = watched(evidence, asked)
+    plots = seen_part.rate_plots(verdict, heard)
+    figures = {check: seen_part.topic(each) for check, each in plots.items()}
+    rest = [each for each in heard if not any(each is plot for plot in plots.values())]
     parts = joined(
-        *verdict_part.body(verdict),
+        *verdict_part.body(verdict, figures),
         *shown_part.pictures(evidence),
         *shown_part.ways(evidence),
-        *seen_part.topics(evidence, asked),
+        *seen_part.topics(evidence, rest),
         *seen_part.said(evidence),
         *seen_part.graphs(evidence),
         *seen_part.processes(evidence),

@@ -10,11 +10,11 @@ from roslings.rates import Rate
 from roslings.report.graph_words import describe_graph
 from roslings.report.html.graph_svg import graph_pictures
 from roslings.report.html.interval_plot import describe, interval_plot, legend
-from roslings.report.html.intervals import Asked, Watched, unheard, watched
+from roslings.report.html.intervals import Watched, unheard
 from roslings.report.html.markup import Markup, joined, tag
 from roslings.report.html.scale import rate_text, time_text
 from roslings.report.node_logs import NodeLog, logs_of
-from roslings.verdict import Verdict
+from roslings.verdict import CheckResult, Verdict
 
 WIDE, NARROW = (720.0, 270.0), (340.0, 230.0)
 CLOCKS = {"sim": "in simulated time", "wall": "in real time"}
@@ -22,9 +22,24 @@ SECOND_END = "a node did not end well, so it was made once more, to be sure"
 MOST_LOG_LINES = 400
 
 
-def topics(evidence: Evidence, asked: Sequence[Asked]) -> Iterator[Markup]:
-    """Each topic that was heard."""
-    figures = [_topic(each) for each in watched(evidence, asked)]
+def rate_plots(verdict: Verdict, heard: Sequence[Watched]) -> dict[str, Watched]:
+    """For each check that failed for a rate, by its id, the topic of which it asks that rate."""
+    found: dict[str, Watched] = {}
+    for check in verdict.failed():
+        for each in heard:
+            of_another = any(each is other for other in found.values())
+            if each.intervals and not of_another and _asks(check, each):
+                found.setdefault(check.id, each)
+    return found
+
+
+def _asks(check: CheckResult, each: Watched) -> bool:
+    return bool(each.asked and f"{each.asked.hz:g} Hz" in (check.expected or ""))
+
+
+def topics(evidence: Evidence, heard: Sequence[Watched]) -> Iterator[Markup]:
+    """Each topic that was heard, but for those that stand beside a check already."""
+    figures = [topic(each) for each in heard]
     silent = [
         tag(
             "li",
@@ -38,7 +53,8 @@ def topics(evidence: Evidence, asked: Sequence[Asked]) -> Iterator[Markup]:
         yield tag("section", tag("h2", "What came on the topics"), *figures, *rest)
 
 
-def _topic(each: Watched) -> Markup:
+def topic(each: Watched) -> Markup:
+    """Its periods as a plot, and its figures as a table."""
     heading = tag("h3", tag("code", each.seen.name), f" in {each.experiment.name}")
     return tag("figure", heading, *_plots(each), _measures(each))
 

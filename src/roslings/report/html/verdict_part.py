@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from roslings.report.check_lines import LOG_LINES, points_of
-from roslings.report.hint_page import STEPS
+from roslings.report.groups import by_reason, of_outcome
+from roslings.report.hint_page import STEPS, first_failed
 from roslings.report.html.markup import Markup, joined, prose, tag
+from roslings.report.html.slips import marked
 from roslings.report.log_lines import helpful
+from roslings.report.typed import Typed
 from roslings.verdict import CheckOutcome, CheckResult, Outcome, Verdict
 
 HEADLINES: dict[Outcome, str] = {
@@ -32,8 +35,22 @@ def head(verdict: Verdict) -> Markup:
         tag("h1", HEADLINES[verdict.outcome]),
         _score(verdict),
         _counts(verdict),
+        _next(verdict),
         class_=verdict.outcome,
     )
+
+
+def _next(verdict: Verdict) -> Markup:
+    """One thing to do now, in the words of the terminal."""
+    typed, first = Typed(verdict.lab), first_failed(verdict)
+    if verdict.outcome == "pass":
+        words, command = "Make the file to hand in:", typed.pack
+    elif first:
+        order = " first" if len(verdict.failed()) > 1 else ""
+        words, command = f'Mend "{first.id}"{order}, then check again:', typed.check()
+    else:
+        words, command = "Check again:", typed.check()
+    return tag("p", tag("b", "Next"), f" {words} ", tag("code", command), class_="next")
 
 
 def _score(verdict: Verdict) -> Markup:
@@ -55,35 +72,58 @@ def _counts(verdict: Verdict) -> Markup:
     counts = [
         tag("li", f"{MARKS[outcome]} {len(some)} {word}", class_=outcome)
         for outcome, word in WORDS.items()
-        if (some := _of(verdict, outcome))
+        if (some := of_outcome(verdict, outcome))
     ]
     return tag("ul", *counts, class_="counts")
 
 
-def _of(verdict: Verdict, outcome: CheckOutcome) -> list[CheckResult]:
-    return [check for check in verdict.checks if check.outcome == outcome]
+def body(verdict: Verdict, plots: Mapping[str, Markup]) -> Iterator[Markup]:
+    """The checks: those to mend first, each whole; then the others, folded.
 
-
-def body(verdict: Verdict) -> Iterator[Markup]:
-    """The checks: those to mend first, each whole; then the others."""
-    failed = [_failed(check, verdict.package) for check in verdict.failed()]
+    `plots` are the figures that show what a check found wrong, by the check's id.
+    """
+    failed = [
+        _failed(check, verdict.package, plots.get(check.id, Markup())) for check in verdict.failed()
+    ]
     if failed:
         yield tag("section", tag("h2", "What to mend"), *failed)
     if verdict.advice:
         remarks = [tag("li", prose(remark)) for remark in verdict.advice]
         heading = tag("h2", "Remarks that cost no points")
         yield tag("section", heading, tag("ul", *remarks))
-    others = [_row(check) for outcome in ("inconclusive", "skip", "pass")
-              for check in _of(verdict, outcome)]  # fmt: skip
+    others = [*_not_judged(verdict), *_passed(verdict, folded=bool(failed))]
     if others:
         heading = tag("h2", "All other checks" if failed else "The checks")
-        yield tag("section", heading, tag("ul", *others, class_="checks"))
+        yield tag("section", heading, *others)
 
 
-def _failed(check: CheckResult, package: str) -> Markup:
+def _not_judged(verdict: Verdict) -> Iterator[Markup]:
+    """Those that wait for another one, its name said once."""
+    for outcome in ("inconclusive", "skip"):
+        for why, checks in by_reason(of_outcome(verdict, outcome)):
+            count = "1 check" if len(checks) == 1 else f"{len(checks)} checks"
+            words = [MARKS[outcome], f" {count} {WORDS[outcome]}: ", prose(why)]
+            yield tag("details", tag("summary", *words, class_=outcome), _rows(checks))
+
+
+def _passed(verdict: Verdict, folded: bool) -> Iterator[Markup]:
+    checks = of_outcome(verdict, "pass")
+    if checks and folded:
+        count = "1 check passes" if len(checks) == 1 else f"{len(checks)} checks pass"
+        words = tag("summary", f"{MARKS['pass']} {count}", class_="pass")
+        yield tag("details", words, _rows(checks))
+    elif checks:
+        yield _rows(checks)
+
+
+def _rows(checks: Sequence[CheckResult]) -> Markup:
+    return tag("ul", *map(_row, checks), class_="checks")
+
+
+def _failed(check: CheckResult, package: str, plot: Markup) -> Markup:
+    expected, measured = check.expected or "", check.measured or ""
+    seen = {"expected": marked(expected, measured), "measured": marked(measured, expected)}
     rows = {
-        "expected": check.expected,
-        "measured": check.measured,
         "why": check.why,
         "try": check.hint,
         "read": check.lesson,
@@ -92,15 +132,20 @@ def _failed(check: CheckResult, package: str) -> Markup:
         "article",
         tag("h3", _mark("fail"), " ", prose(check.title)),
         tag("p", tag("code", check.id), f" · {points_of(check)} points", class_="about"),
-        tag("dl", *(_row_of(label, text) for label, text in rows.items() if text)),
+        tag(
+            "dl",
+            *(_row_of(label, tag("strong", text)) for label, text in seen.items() if text),
+            *(_row_of(label, prose(text)) for label, text in rows.items() if text),
+        ),
+        plot,
         *_log(check, package),
         *_hints(check.hints),
         id=f"check-{check.id}",
     )
 
 
-def _row_of(label: str, text: str) -> Markup:
-    return tag("div", tag("dt", label), tag("dd", prose(text)))
+def _row_of(label: str, text: Markup) -> Markup:
+    return tag("div", tag("dt", label), tag("dd", text))
 
 
 def _log(check: CheckResult, package: str) -> Iterator[Markup]:
@@ -118,13 +163,11 @@ def _hints(hints: Sequence[str]) -> Iterator[Markup]:
 
 
 def _row(check: CheckResult) -> Markup:
-    why = tag("span", prose(check.why), class_="why") if check.why else ""
     return tag(
         "li",
         _mark(check.outcome),
         tag("span", prose(check.title), class_="title"),
         tag("span", points_of(check), class_="points"),
-        why,
         class_=check.outcome,
     )
 
