@@ -77,7 +77,7 @@ MORE_DIGITS = 0.0013
 
 WEST, EAST = SERVER.constant("west"), SERVER.constant("east")
 SOUTH, NORTH = SERVER.constant("south"), SERVER.constant("north")
-INSIDE_M = OUTSIDE_M = 0.02
+OUTSIDE_M = 0.02
 OUTSIDE = "it lies outside of the map"
 IMPOSSIBLE = {
     "too far east": ({"x": EAST + OUTSIDE_M}, OUTSIDE),
@@ -139,14 +139,14 @@ def refusing(scene: Scene) -> None:
 
 @experiment
 def north_east(scene: Scene) -> None:
-    """The server gets a goal just inside of one corner of the map."""
-    _give_alone(scene, "north east", EAST - INSIDE_M, NORTH - INSIDE_M)
+    """The server gets a goal at one corner of the map."""
+    _give_alone(scene, "north east", EAST, NORTH)
 
 
 @experiment
 def south_west(scene: Scene) -> None:
-    """The server gets a goal just inside of the other corner."""
-    _give_alone(scene, "south west", WEST + INSIDE_M, SOUTH + INSIDE_M)
+    """The server gets a goal at the other corner."""
+    _give_alone(scene, "south west", WEST, SOUTH)
 
 
 def _give_alone(scene: Scene, part: str, x: float, y: float) -> None:

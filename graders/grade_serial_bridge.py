@@ -44,6 +44,7 @@ from roslings.judge.cable import (
     reckon_by_its_settings,
     send_good_lines,
     set_its_speed,
+    stand_until_told,
     stop_by_itself,
     tell_every_line,
     tell_nothing_else,
@@ -268,8 +269,8 @@ def test_drives(driving: ExperimentView) -> None:
 
 @check(needs=["cmd_topic", "checksums"])
 def test_stops(driving: ExperimentView) -> None:
-    """The motors stop when no command comes any more."""
-    driving.must(stop_by_itself("straight, driving"))
+    """The motors stop when no command comes any more, and do not run before the first one."""
+    driving.must(stand_until_told("start"), stop_by_itself("straight, driving"))
 
 
 # --- from the board to ROS ---------------------------------------------------------------------

@@ -55,7 +55,7 @@ def talking(scene: Scene) -> None:
 def hearing(scene: Scene) -> None:
     """The listener alone, while somebody says sentences that it cannot know."""
     with scene.run(LISTENER) as listener:
-        scene.say_sentences(listener, HEARD, count=3)
+        scene.say_sentences(listener, HEARD, count=12)
 
 
 @experiment

@@ -343,3 +343,19 @@ def test_one_command_at_a_time(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
         kept_results(),
     ):
         pass
+
+
+@pytest.mark.parametrize("each", all_labs(), ids=lambda each: each.name)
+def test_every_module_that_is_made_knows_its_names(each: Lab, tmp_path: Path) -> None:
+    """One that is split lacks no import that a later rewrite needs; all pairs are tried."""
+    solution = Sources.read(each.solution, each.card)
+    after_splitting = [
+        all_at_once(solution, ["one file into three", name])
+        for name in REWRITES
+        if name != "one file into three"
+    ]
+    for number, made in enumerate([*made_from(solution), *after_splitting]):
+        made.sources.write(each.solution, tmp_path / f"{number}")
+    words = [sys.executable, "-m", "ruff", "check", "--isolated", "--select", "F821", tmp_path]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout

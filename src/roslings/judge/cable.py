@@ -290,6 +290,17 @@ def _drive_fault(
     return kind(motion, wanted, got)
 
 
+def stand_until_told(part: str) -> Demand[ExperimentView]:
+    """At the mark `part`, before the first command, the motors stood still."""
+
+    def demand(experiment: ExperimentView) -> None:
+        got = _pwm_at(experiment, part)
+        if not _alike(got, (0, 0)):
+            raise cable_faults.MovesUntold(got)
+
+    return demand
+
+
 def stop_by_itself(after: str) -> Demand[ExperimentView]:
     """After the mark `after`, when nobody commands any more, it sends a stop of its own."""
 

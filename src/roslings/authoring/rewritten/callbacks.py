@@ -108,7 +108,7 @@ def a_rate_in_a_thread(sources: Sources) -> Sources:
         changed = {one: _looping(one) for one in classes(tree) if _has_one_timer(one)}
         if not changed:
             return tree
-        return importing(swapped(tree, changed), "threading")
+        return importing(importing(swapped(tree, changed), "threading"), "rclpy")
 
     return sources.mapped(change)
 

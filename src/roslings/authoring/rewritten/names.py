@@ -153,6 +153,8 @@ def _with_locals(tree: cst.Module, said: Collection[str]) -> cst.Module:
             for assignment in scope.assignments:
                 if _stays(assignment.name, said) or not isinstance(assignment, Assignment):
                     continue
+                if isinstance(assignment, ImportAssignment):
+                    continue  # the name is another package's
                 node = assignment.node
                 places = [node.name if isinstance(node, cst.Param) else node]
                 places += [access.node for access in assignment.references]

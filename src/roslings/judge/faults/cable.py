@@ -256,6 +256,21 @@ class WheelsSwapped(WrongDrive):
 
 
 @dataclass(eq=False)
+class MovesUntold(Fault):
+    """The motors run, and nobody has said anything yet."""
+
+    got: tuple[int, int]
+    expected = "before the first command, the motors stand still"
+    why = "A robot that drives off when it is switched on runs over what lies before it."
+    hint = "Until the first message comes, the motion is zero: 0.0 forward and 0.0 turn."
+
+    @property
+    def measured(self) -> str:
+        """What reached the motors."""
+        return f"nobody had said anything, and the motors had PWM {self.got[0]} and {self.got[1]}"
+
+
+@dataclass(eq=False)
 class SettingIgnored(WrongDrive):
     """The node has the parameter, and drives as if nobody had set it."""
 
