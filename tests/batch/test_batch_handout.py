@@ -177,6 +177,16 @@ def test_the_files_and_pages_tell_the_same(tmp_path: Path) -> None:
     links = re.findall(r'href="([^"]+)"', page)
     assert len(links) == 3
     assert all((tmp_path / link).is_file() for link in links)
+    names = ["Zoe", "Ben Kaya", "Anna Berg", "=cmd"]
+    places = [page.index(f"<td>{name}") for name in names]
+    assert places == sorted(places), "the lowest score comes first"
+    assert page.index("Everybody") < page.index("What most have to mend")
+    assert "Scores: mean" in page
+    for link in links:
+        own = (tmp_path / link).read_text("utf-8")
+        assert 'href="../../class.html"' in own
+    anna = next(link for link in links if "1001" in link)
+    assert re.search(r"<title>Anna Berg: ", (tmp_path / anna).read_text("utf-8"))
 
 
 def test_a_refused_hand_in_never_beats_a_graded_one(tmp_path: Path) -> None:

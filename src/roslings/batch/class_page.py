@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import statistics
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
@@ -23,6 +24,11 @@ th, td { padding: .3rem .6rem .3rem 0; text-align: left; vertical-align: top; }
 th { border-bottom: 1px solid var(--edge); }
 th, td code { overflow-wrap: normal; white-space: nowrap; }
 td.number, th.number { text-align: right; }
+th:first-child, td:first-child { position: sticky; left: 0; background: var(--ground); }
+.outcome.pass { color: var(--good); }
+.outcome.fail { color: var(--bad); }
+.outcome.inconclusive, .outcome.refused { color: var(--open); }
+.axis-ends { display: flex; justify-content: space-between; font-size: .85rem; }
 svg.part { width: 8rem; height: .7rem; vertical-align: middle; }
 svg.part rect { fill: var(--link); }
 svg.spread { display: block; width: 100%; height: 5rem; }
@@ -54,9 +60,9 @@ def _head(lab: Lab) -> Markup:
 def _body(lab: Lab, found: Class, common: Iterable[int]) -> Markup:
     results = [grade.result for grade in found.grades if grade.result]
     parts = (
-        *_overview(found), *_scores(found.grades), *_checks(results),
-        *_rates(lab, results), *_alike(results, common), *_loose_ends(found),
-        *_missing(found.missing), *_everybody(found.grades),
+        *_overview(found), *_everybody(found.grades), *_missing(found.missing),
+        *_loose_ends(found), *_checks(results), *_scores(found.grades),
+        *_rates(lab, results), *_alike(results, common),
     )  # fmt: skip
     header = tag("header", tag("p", f"Lab {lab.name}", class_="over"), tag("h1", lab.card.title))
     return tag("body", header, tag("main", *parts))
@@ -64,8 +70,12 @@ def _body(lab: Lab, found: Class, common: Iterable[int]) -> Markup:
 
 def _overview(found: Class) -> Iterator[Markup]:
     counts = Counter(grade.outcome for grade in found.grades)
-    items = [tag("li", f"{count} {word}") for word, count in counts.most_common()]
+    items = [tag("li", f"{count} {word}", class_=word) for word, count in counts.most_common()]
     yield tag("ul", *items, class_="counts")
+    scores = [grade.final for grade in found.grades if grade.final is not None]
+    if scores:
+        mean, middle = statistics.fmean(scores), statistics.median(scores)
+        yield tag("p", f"Scores: mean {mean:.0f}, middle {middle:g}, of {len(scores)}.")
 
 
 def _scores(grades: Sequence[Grade]) -> Iterator[Markup]:
@@ -92,13 +102,27 @@ def _checks(results: Sequence[Result]) -> Iterator[Markup]:
     if not failing:
         return
     failing.sort(key=lambda name: (-counts[name]["fail"], -counts[name]["skip"]))
-    rows = [
-        _row((tag("code", name), prose(titles[name]), _part(_failed_part(counts[name])),
-              str(counts[name]["fail"]), str(counts[name]["skip"])))
+    rows = {
+        name: _row((tag("code", name), prose(titles[name]), _part(_failed_part(counts[name])),
+                    str(counts[name]["fail"]), str(counts[name]["skip"])))
         for name in failing
-    ]  # fmt: skip
-    head = ("check", "what it asks", "", "fail", "skipped")
-    yield tag("section", tag("h2", "What most have to mend"), _table(head, rows))
+    }  # fmt: skip
+    failed = [row for name, row in rows.items() if counts[name]["fail"]]
+    waiting = [row for name, row in rows.items() if not counts[name]["fail"]]
+    heading = tag("h2", "What most have to mend")
+    yield tag("section", heading, *_check_table(failed), *_folded_checks(waiting))
+
+
+def _check_table(rows: Sequence[Markup]) -> Iterator[Markup]:
+    if rows:
+        yield _table(("check", "what it asks", "", "fail", "skipped"), rows)
+
+
+def _folded_checks(rows: Sequence[Markup]) -> Iterator[Markup]:
+    """Those that nobody failed: they wait for another check."""
+    if rows:
+        words = tag("summary", f"{len(rows)} that were only skipped")
+        yield tag("details", words, *_check_table(rows))
 
 
 def _failed_part(counts: Counter[str]) -> float:
@@ -119,7 +143,9 @@ def _rates(lab: Lab, results: Sequence[Result]) -> Iterator[Markup]:
                 f" {asked.low_hz:.4g} to {asked.high_hz:.4g} Hz is right"
             )
             picture = _spread(rates, (asked.low_hz, asked.high_hz), (low, high))
-            figures.append(tag("figure", picture, tag("figcaption", words)))
+            axis = tag("p", tag("span", f"{low:.4g} Hz"), tag("span", f"{high:.4g} Hz"),
+                       class_="axis-ends")  # fmt: skip
+            figures.append(tag("figure", picture, axis, tag("figcaption", words)))
     if figures:
         yield tag("section", tag("h2", "How the rates spread"), *figures)
 
@@ -194,13 +220,19 @@ def _missing(grades: Sequence[Grade]) -> Iterator[Markup]:
 
 
 def _everybody(grades: Sequence[Grade]) -> Iterator[Markup]:
+    """The lowest score first: these are to be looked at."""
     rows = [
-        _row((grade.name, _link(grade.submission) if grade.submission else "", grade.outcome,
+        _row((grade.name, _link(grade.submission) if grade.submission else "", _outcome(grade),
               _score(grade), _remark(grade)))
-        for grade in grades
+        for grade in sorted(grades, key=lambda grade: (-1.0 if grade.final is None
+                                                       else grade.final))
     ]  # fmt: skip
     head = ("who", "submission", "outcome", "score", "")
     yield tag("section", tag("h2", "Everybody"), _table(head, rows))
+
+
+def _outcome(grade: Grade) -> Markup:
+    return tag("span", grade.outcome, class_=f"outcome {grade.outcome}")
 
 
 def _score(grade: Grade) -> str:

@@ -13,6 +13,7 @@ from roslings.batch.grading import unpacked
 from roslings.batch.result import Result
 from roslings.course import Lab
 from roslings.report import Refusal, write_check50, write_gradescope, write_json, write_junit
+from roslings.report.html import OfClass
 from roslings.report.html.document import POLICY, STYLE
 from roslings.report.html.markup import Markup, prose, tag
 from roslings.report.whole_file import write_whole
@@ -20,6 +21,8 @@ from roslings.saving import Graded
 from roslings.verdict import Verdict
 
 LONGEST_NAME = 60
+CLASS_PAGE = "../../class.html"
+"""Seen from the folder of a submission."""
 STAMP = "made-from"
 """Holds the name of the result that a folder was made from, so that it is made once."""
 _UNSAFE = re.compile(r"[^\w-]+", re.ASCII)
@@ -38,11 +41,11 @@ def write_pages(book: Gradebook, lab: Lab, grades: list[Grade], folder: Path) ->
     for grade in (grade for grade in grades if grade.result):
         assert grade.result
         place = folder / folder_name(grade.result.submission)
-        stamp = f"{grade.result.digest} {grade.result.attempt}\n"
+        stamp = f"{grade.result.digest} {grade.result.attempt} {grade.name}\n"
         if _stamp_of(place) == stamp:
             continue
         place.mkdir(parents=True, exist_ok=True)
-        _write(book, lab, grade.result, place)
+        _write(book, lab, grade, grade.result, place)
         write_whole(place / STAMP, stamp.encode())
 
 
@@ -51,17 +54,22 @@ def _stamp_of(place: Path) -> str:
     return stamp.read_text("utf-8") if stamp.is_file() else ""
 
 
-def _write(book: Gradebook, lab: Lab, result: Result, place: Path) -> None:
+def _write(book: Gradebook, lab: Lab, grade: Grade, result: Result, place: Path) -> None:
     verdict = result.verdict
     told = verdict or _refusal(lab, result)
     write_gradescope(told, place / "results.json")
     write_junit(told, place / "junit.xml")
     write_check50(told, place / "check50.json")
     if verdict is None:
-        write_whole(place / "report.html", _page_without(result).encode())
+        write_whole(place / "report.html", _page_without(grade.name, result).encode())
         return
     write_json(verdict, place / "verdict.json")
-    _write_report(book, lab, result, verdict, place / "report.html")
+    content = book.evidence(result)
+    if content is not None:
+        graded = Graded(lab, verdict, unpacked(content))
+        graded.write_page(place / "report.html", OfClass(grade.name, CLASS_PAGE))
+    else:
+        write_whole(place / "report.html", _page_of_lines(grade.name, verdict).encode())
 
 
 def _refusal(lab: Lab, result: Result) -> Refusal:
@@ -70,22 +78,18 @@ def _refusal(lab: Lab, result: Result) -> Refusal:
     return Refusal(lab.name, result.reason, result.next_step if refused else "", refused)
 
 
-def _write_report(book: Gradebook, lab: Lab, result: Result, verdict: Verdict, path: Path) -> None:
-    content = book.evidence(result)
-    if content is not None:
-        Graded(lab, verdict, unpacked(content)).write_page(path)
-    else:
-        lines = [f"{check.outcome}: {check.title}" for check in verdict.checks]
-        score = "no score" if verdict.score is None else f"{verdict.score:g} of 100"
-        write_whole(path, _page(result.submission, score, lines).encode())
+def _page_of_lines(name: str, verdict: Verdict) -> str:
+    lines = [f"{check.outcome}: {check.title}" for check in verdict.checks]
+    score = "no score" if verdict.score is None else f"{verdict.score:g} of 100"
+    return _page(name, score, lines)
 
 
-def _page_without(result: Result) -> str:
+def _page_without(name: str, result: Result) -> str:
     words = {
         "refused": "This could not be graded as it was handed in",
         "inconclusive": "No verdict yet: not everything could be told",
     }
-    return _page(result.submission, words[result.word], _told(result))
+    return _page(name, words[result.word], _told(result))
 
 
 def _told(result: Result) -> Iterator[str]:
@@ -94,18 +98,19 @@ def _told(result: Result) -> Iterator[str]:
         yield from result.next_step.splitlines()
 
 
-def _page(submission: str, heading: str, lines: Iterator[str] | list[str]) -> str:
+def _page(name: str, heading: str, lines: Iterator[str] | list[str]) -> str:
     """A short page, where there is no evidence to show."""
     head = tag(
         "head",
         tag("meta", charset="utf-8"),
         tag("meta", http_equiv="Content-Security-Policy", content=POLICY),
         tag("meta", name_="viewport", content="width=device-width, initial-scale=1"),
-        tag("title", f"{submission}: {heading}"),
+        tag("title", f"{name}: {heading}"),
         tag("style", Markup(STYLE.read_text("utf-8"))),
     )
-    over = tag("p", submission, class_="over")
+    over = tag("p", name, class_="over")
+    back = tag("nav", tag("a", "The class", href=CLASS_PAGE))
     body = tag(
-        "body", tag("header", over, tag("h1", heading)), *(tag("p", prose(x)) for x in lines)
+        "body", back, tag("header", over, tag("h1", heading)), *(tag("p", prose(x)) for x in lines)
     )
     return f"<!DOCTYPE html>\n{tag('html', head, body, lang='en')}\n"

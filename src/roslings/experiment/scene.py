@@ -24,6 +24,7 @@ from roslings.experiment.simulated import (
     SaysNothing,
     SimulatedWatch,
     followed_clock,
+    let_pass,
 )
 from roslings.experiment.start import PLAIN, Start
 from roslings.experiment.turns import Turns
@@ -46,9 +47,12 @@ FIRST_PERIODS = 3
 SILENT_PERIODS = 10
 """Who says nothing for so many periods in real time is silent, and not only slow or in groups.
 
-Of whom many periods of robot time went by in silence, FIRST_PERIODS of real time tell the rest: no
+Of whom many periods of robot time went by in silence, QUIET_PERIODS of real time tell the rest: no
 timer of it speaks, so only a thread of its own could.
 """
+QUIET_PERIODS = 2.5
+TIMERS_MAKE_WITHIN_S, THREADS_MAKE_WITHIN_S = 2.0, 0.5
+"""For a publisher that a complete node has not got: of robot time, then of real time."""
 
 
 @dataclass(frozen=True)
@@ -191,14 +195,27 @@ class Scene:
         self._until_there(lambda: self._publisher(contract) is not None, publishes(contract))
         publisher = self._publisher(contract)
         if publisher is None:
+            self._let_time_go_by(contract)
             raise NotBelieved("it publishes nothing")
         return publisher
+
+    def _let_time_go_by(self, contract: TopicContract) -> None:
+        """What no timer has made in some seconds of robot time, only a thread could still make."""
+        with (
+            self._turns.busy(),
+            followed_clock(self._probe, self.seen.graph.nodes) as (clock, barrier),
+        ):
+            barrier.lives = self._arena.all_alive
+            let_pass(clock, barrier, TIMERS_MAKE_WITHIN_S)
+            self._probe.look_now()
+        if self._publisher(contract) is None:
+            self._presence.note_for_good(no_timer_makes(contract))
 
     def _watch_on_the_wall(self, contract: TopicContract) -> None:
         if contract.rate:
             find = functools.partial(self._publisher, contract)
             quiet = self.is_missed(no_timer_says(contract))
-            grace_s = (FIRST_PERIODS if quiet else SILENT_PERIODS) / contract.rate.hz
+            grace_s = (QUIET_PERIODS if quiet else SILENT_PERIODS) / contract.rate.hz
             WallWatch(
                 self._probe, self._arena, contract.rate, find, self._until_alive,
                 lambda: self._until_heard(contract, grace_s=grace_s), self._turns,
@@ -342,7 +359,12 @@ class Scene:
         self, contract: TopicContract, count: int = 1, grace_s: float = GRACE_S
     ) -> bool:
         """First its publisher, then the connection to it, then what it says."""
-        self._until_there(lambda: self._publisher(contract) is not None, publishes(contract))
+        missed = self.is_missed(no_timer_makes(contract))
+        self._until_there(
+            lambda: self._publisher(contract) is not None,
+            publishes(contract),
+            THREADS_MAKE_WITHIN_S if missed else GRACE_S,
+        )
         publisher = self._publisher(contract)
         if publisher is None:
             self._presence.note(says(contract), came=False)
@@ -401,6 +423,11 @@ def says(contract: TopicContract) -> str:
 def no_timer_says(contract: TopicContract) -> str:
     """The name of what did not come while simulated time went by."""
     return f"a timer's message on {contract.topic}"
+
+
+def no_timer_makes(contract: TopicContract) -> str:
+    """The name of a publisher that was not made while simulated time went by."""
+    return f"a timer's publisher on {contract.topic}"
 
 
 def mending(node: NodeContract, seen: ExperimentSeen) -> list[str]:

@@ -242,6 +242,13 @@ def followed_clock(probe: Probe, node_names: Sequence[str]) -> Iterator[tuple[Si
         yield clock, barrier
 
 
+def let_pass(clock: SimClock, barrier: Barrier, length_s: float) -> None:
+    """Let simulated time go by in a few steps. Raises IgnoresTheClock."""
+    for _ in range(FIRST_STEPS):
+        if not clock.tick(round(length_s / FIRST_STEPS * NS_PER_S), barrier, TICK_WITHIN_S):
+            raise IgnoresTheClock("it did not handle a step of the clock in time")
+
+
 def clock_publishers(seen: ExperimentSeen) -> list[str]:
     """The student's nodes that publish simulated time."""
     ends = seen.graph.endpoints

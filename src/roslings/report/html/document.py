@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from roslings.evidence import Evidence
@@ -18,18 +19,36 @@ POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:"
 script, no address, whatever stands in it."""
 
 
-def write_html(verdict: Verdict, evidence: Evidence, asked: Sequence[Asked], path: Path) -> None:
+@dataclass(frozen=True)
+class OfClass:
+    """Whose page it is, and the address of the page that lists all of the class."""
+
+    student: str
+    everybody: str
+
+
+def write_html(
+    verdict: Verdict,
+    evidence: Evidence,
+    asked: Sequence[Asked],
+    path: Path,
+    of_class: OfClass | None = None,
+) -> None:
     """Write the page to `path`, whole or not at all. Raises CannotWrite."""
-    write_whole(path, html_of(verdict, evidence, asked).encode("utf-8"))
+    write_whole(path, html_of(verdict, evidence, asked, of_class).encode("utf-8"))
 
 
-def html_of(verdict: Verdict, evidence: Evidence, asked: Sequence[Asked]) -> str:
+def html_of(
+    verdict: Verdict, evidence: Evidence, asked: Sequence[Asked], of_class: OfClass | None = None
+) -> str:
     """The page; `asked` are the rates that the lab asks for."""
-    page = tag("html", _head(verdict), _body(verdict, evidence, asked), lang="en")
+    whose = of_class.student if of_class else ""
+    body = _body(verdict, evidence, asked, of_class)
+    page = tag("html", _head(verdict, whose), body, lang="en")
     return f"<!DOCTYPE html>\n{page}\n"
 
 
-def _head(verdict: Verdict) -> Markup:
+def _head(verdict: Verdict, whose: str) -> Markup:
     score = "no score" if verdict.score is None else f"{verdict.score:g} of 100"
     return tag(
         "head",
@@ -37,12 +56,14 @@ def _head(verdict: Verdict) -> Markup:
         tag("meta", http_equiv="Content-Security-Policy", content=POLICY),
         tag("meta", name_="viewport", content="width=device-width, initial-scale=1"),
         tag("meta", name_="color-scheme", content="light dark"),
-        tag("title", f"{verdict.package}: {score} (lab {verdict.lab})"),
+        tag("title", f"{whose or verdict.package}: {score} (lab {verdict.lab})"),
         tag("style", Markup(STYLE.read_text("utf-8"))),
     )
 
 
-def _body(verdict: Verdict, evidence: Evidence, asked: Sequence[Asked]) -> Markup:
+def _body(
+    verdict: Verdict, evidence: Evidence, asked: Sequence[Asked], of_class: OfClass | None
+) -> Markup:
     heard = watched(evidence, asked)
     plots = seen_part.rate_plots(verdict, heard)
     figures = {check: seen_part.topic(each) for check, each in plots.items()}
@@ -63,4 +84,12 @@ def _body(verdict: Verdict, evidence: Evidence, asked: Sequence[Asked]) -> Marku
         "Judge the saved evidence again, without running anything: ",
         tag("code", f"./roslings regrade {verdict.lab} EVIDENCE"),
     )
-    return tag("body", verdict_part.head(verdict), tag("main", parts), tag("footer", again))
+    whose = of_class.student if of_class else ""
+    head = joined(_way_back(of_class), verdict_part.head(verdict, whose))
+    return tag("body", head, tag("main", parts), tag("footer", again))
+
+
+def _way_back(of_class: OfClass | None) -> Markup:
+    if of_class is None:
+        return Markup()
+    return tag("nav", tag("a", "The class", href=of_class.everybody))

@@ -27,11 +27,12 @@ WORDS: dict[CheckOutcome, str] = {
 MARKS: dict[CheckOutcome, str] = {"pass": "✓", "fail": "✗", "skip": "-", "inconclusive": "?"}
 
 
-def head(verdict: Verdict) -> Markup:
-    """What was checked, and what came of it."""
+def head(verdict: Verdict, whose: str = "") -> Markup:
+    """What was checked, of whom, and what came of it."""
+    of_whom = [tag("b", whose), " · "] if whose else []
     return tag(
         "header",
-        tag("p", f"Lab {verdict.lab} · package {verdict.package}", class_="over"),
+        tag("p", *of_whom, f"Lab {verdict.lab} · package {verdict.package}", class_="over"),
         tag("h1", HEADLINES[verdict.outcome]),
         _score(verdict),
         _counts(verdict),
