@@ -9,10 +9,14 @@ from __future__ import annotations
 import ast
 import difflib
 import hashlib
+import re
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
+from pathlib import Path
+
+import libcst as cst
 
 from roslings.authoring.generated.operators import OPERATORS
 from roslings.authoring.generated.source import Source, read_source
@@ -105,10 +109,25 @@ def modules_of(lab: Lab) -> Iterator[str]:
 def _changed(lab: Lab, source: Source) -> Iterator[Generated]:
     for node in source.nodes():
         for operator, change in OPERATORS.items():
+            if operator == "text" and not _is_promised(lab, node):
+                continue
             for new in change(node, source):
                 text = source.with_new(node, new)
                 line = _first_difference(source.text, text)
                 yield Generated(lab, operator, source.file, line, source.text, text)
+
+
+def _is_promised(lab: Lab, node: cst.CSTNode) -> bool:
+    """The card has some word of this text: other texts are the author's own."""
+    code = cst.Module([]).code_for_node(node)
+    words = re.findall(r"[A-Za-z]{4,}", re.sub(r"{[^}]*}", " ", code))
+    return any(word in _texts_of(lab.folder) for word in words)
+
+
+@cache
+def _texts_of(folder: Path) -> str:
+    """What the card says, without its remarks."""
+    return re.sub(r"#.*", "", (folder / "card.yaml").read_text("utf-8"))
 
 
 def _first_difference(before: str, after: str) -> int:

@@ -9,13 +9,20 @@ import libcst as cst
 from roslings.authoring.generated.source import New, Source, is_documentation
 
 LATE_S, FOR_EVER_S = 1.0, 1000.0
-BREAKS_IN_CALL = (1, 2, 5, 10)
+BREAKS_IN_CALL = (1, 2, 3, 5, 7, 10)
 STOPS_IN_CALL = 3
 CALLED_ONCE = ("__init__", "main")
+NODE = "self()"
+SAME_TWICE = ("__init__", "try_shutdown", "spin", "spin_until_future_complete")
+"""Calls that end something, or wait until it ends: the second one finds it so."""
+SEEN_FROM_OUTSIDE = ("create_publisher", "create_subscription", "create_timer", "create_service")
+"""What these make works on, though nobody has a name for it any more."""
 
 
 def drop(node: cst.CSTNode, source: Source) -> Iterator[New]:
     """A statement is left out."""
+    if _ends_ros(node):
+        return
     if is_statement(node) or (isinstance(node, cst.If) and node.orelse is None):
         parent = source.parent(node)
         alone = isinstance(parent, cst.IndentedBlock) and len(parent.body) == 1
@@ -66,7 +73,8 @@ def too_early(node: cst.CSTNode, source: Source) -> Iterator[New]:
     if isinstance(node, cst.IndentedBlock):
         for at, made in enumerate(node.body):
             for later in range(at + 1, len(node.body)):
-                if _made_in(made) & _names_in(node.body[later]):
+                if any(_touch(one, other) for one in _made_in(made)
+                       for other in _names_in(node.body[later])):  # fmt: skip
                     yield node.with_changes(body=_moved(node.body, later, at))
     match node:
         case cst.Assign(
@@ -95,14 +103,30 @@ def is_statement(node: cst.CSTNode) -> bool:
 
 
 def _does_more(node: cst.SimpleStatementLine) -> bool:
-    """More than to give a name to a value: twice is not the same as once."""
+    """Twice is not the same as once: it adds, or does something that does not end or only wait."""
     match node.body[0]:
-        case cst.Expr() | cst.AugAssign():
+        case cst.AugAssign():
             return True
-        case cst.Assign(targets=[cst.AssignTarget(cst.Name())]):
-            return False
-        case cst.Assign(value=value):
-            return _calls(value)
+        case cst.Expr(value=cst.Call() as call):
+            return _name_of(call) not in SAME_TWICE
+        case cst.Assign(targets=[cst.AssignTarget(cst.Attribute())], value=cst.Call() as call):
+            return _name_of(call) in SEEN_FROM_OUTSIDE
+    return False
+
+
+def _name_of(call: cst.Call) -> str:
+    """The last part of what is called."""
+    match call.func:
+        case cst.Name(value=name) | cst.Attribute(attr=cst.Name(value=name)):
+            return name
+    return ""
+
+
+def _ends_ros(node: cst.CSTNode) -> bool:
+    """Where `main` ends: Ctrl-C has ended ROS already, and the process is over."""
+    match node:
+        case cst.SimpleStatementLine(body=[cst.Expr(value=cst.Call() as call)]):
+            return _name_of(call) == "try_shutdown"
     return False
 
 
@@ -158,35 +182,45 @@ def _is_in_init(node: cst.CSTNode, source: Source) -> bool:
 
 
 def _made_in(node: cst.CSTNode) -> set[str]:
-    """What a statement makes or fills: `x`, `self.x`, `x` of `x.y`, and the node itself."""
+    """What a statement makes or fills: `x`, `self.x`, `x.y`; the node itself as `self()`."""
     match node:
         case cst.SimpleStatementLine(
             body=[cst.Expr(cst.Call(cst.Attribute(cst.Call(cst.Name("super")))))]
         ):
-            return {"self"}
+            return {NODE}
         case cst.SimpleStatementLine(body=[cst.Assign(targets=targets)]):
-            return {name for each in targets for name in _roots(each.target)}
+            return {path for each in targets for path in _paths(each.target)}
         case cst.SimpleStatementLine(body=[cst.AugAssign(target=target)]):
-            return set(_roots(target))
+            return set(_paths(target))
     return set()
 
 
-def _roots(node: cst.CSTNode) -> Iterator[str]:
+def _paths(node: cst.CSTNode) -> Iterator[str]:
+    """Each name with all its dots."""
     match node:
         case cst.Name(value=name):
             yield name
-        case cst.Attribute(value=cst.Name("self"), attr=cst.Name(value=name)):
-            yield f"self.{name}"
-        case cst.Attribute(value=value):
-            yield from _roots(value)
+        case cst.Attribute(value=value, attr=cst.Name(value=name)):
+            yield from (f"{path}.{name}" for path in _paths(value))
         case cst.Tuple(elements=elements):
             for each in elements:
-                yield from _roots(each.value)
+                yield from _paths(each.value)
 
 
 def _names_in(node: cst.CSTNode) -> set[str]:
-    """Names that are used somewhere in it, `self.x` as one."""
-    if isinstance(node, cst.Name | cst.Attribute):
-        found = set(_roots(node))
-        return found if isinstance(node, cst.Name) else found | _names_in(node.value)
-    return {name for child in node.children for name in _names_in(child)}
+    """Names that stand somewhere in it, with all their dots; a node that is asked as `self()`."""
+    if isinstance(node, cst.Name | cst.Attribute) and (found := set(_paths(node))):
+        return found
+    asked = {NODE} if isinstance(node, cst.Call) and _asks_the_node(node) else set()
+    return asked | {name for child in node.children for name in _names_in(child)}
+
+
+def _asks_the_node(call: cst.Call) -> bool:
+    """`self.create_timer(...)`, or the node given to somebody."""
+    given = any(isinstance(arg.value, cst.Name) and arg.value.value == "self" for arg in call.args)
+    return given or any(path.startswith("self.") for path in _paths(call.func))
+
+
+def _touch(made: str, used: str) -> bool:
+    """The same, or a part of the other: `x` and `x.y`, but not `x.y` and `x.z`."""
+    return made == used or made.startswith(f"{used}.") or used.startswith(f"{made}.")

@@ -1,4 +1,9 @@
-"""The ways in which a solution is made wrong, each by its name. They were fixed before any run."""
+"""The ways in which a solution is made wrong, each by its name.
+
+They were fixed before any run. After the first whole one, what does the same by its form was left
+out, by rules that know no lab: the depth of a queue, a text that no card names, statements moved
+past others that they do not touch, calls that end ROS or wait for an end.
+"""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ from roslings.authoring.generated.source import New, Source
 
 UNIT = re.compile(r"\b(m|mm|cm|s|ms|seconds?|metres?|rad|degrees?|Hz|m/s|rad/s|points?)\b")
 ANGLE = re.compile(r"\brad\b")
-OFF_BY = (1.5, 0.5, 10, 0.1)
+OFF_BY = (1.5, 0.5, 2, 10, 0.1)
 FACTORS = (1000, 100)
 DEGREES = 57.29578
 TURNED = ("sin", "cos", "tan")
@@ -23,13 +23,25 @@ NAME = re.compile(r"[~/]?[A-Za-z]\w*(?:[/.]\w+)*")
 
 
 def number(node: cst.CSTNode, source: Source) -> Iterator[New]:
-    """A whole number is one off; any other is by a half, or its point is elsewhere."""
-    if isinstance(node, cst.Integer):
+    """A whole number is one off, or ten; any other is by a half, or its point is elsewhere."""
+    if isinstance(node, cst.Integer) and not _is_depth(node, source):
         value = int(node.value, 0)
-        yield from (cst.Integer(str(each)) for each in (value + 1, value - 1) if each >= 0)
+        yield from (cst.Integer(str(each)) for each in (value + 1, value - 1, value + 10) if each >= 0)
     if isinstance(node, cst.Float):
         seen = float(node.value)
         yield from (_float(seen * factor) for factor in OFF_BY) if seen else [_float(1.0)]
+
+
+def _is_depth(node: cst.Integer, source: Source) -> bool:
+    """The depth of a queue: nobody can tell whether there was room for one more."""
+    arg = source.parent(node)
+    call = source.parent(arg)
+    match call:
+        case cst.Call(func=cst.Attribute(attr=cst.Name(value="create_publisher"))):
+            return call.args[-1] is arg
+        case cst.Call(func=cst.Attribute(attr=cst.Name(value="create_subscription"))):
+            return len(call.args) > 3 and call.args[3] is arg
+    return False
 
 
 def unit(node: cst.CSTNode, source: Source) -> Iterator[New]:
@@ -183,12 +195,16 @@ def _misspelt(text: str) -> Iterator[str]:
     middle = len(text) // 2
     yield text[:-1]
     yield f"{text}s"
+    yield f"{text}_"
     yield text[: middle - 1] + text[middle] + text[middle - 1] + text[middle + 1 :]
     yield _in_other_case(text)
 
 
 def text(node: cst.CSTNode, source: Source) -> Iterator[New]:
-    """Another text: a part lost, a blank added, another case, the `f` forgotten."""
+    """Another text: a part lost, a blank added, another case, the `f` forgotten.
+
+    A text that no card names is the author's own; `choice` leaves it out.
+    """
     if isinstance(node, cst.SimpleString) and not NAME.fullmatch(node.raw_value):
         yield from (_said(node, each) for each in _garbled(node.raw_value))
     if isinstance(node, cst.FormattedStringText):
@@ -203,7 +219,7 @@ def _garbled(text: str) -> Iterator[str]:
     yield text.partition(" ")[2]
     middle = len(text) // 2
     yield text[:middle] + text[middle + 1 :]
-    yield f"{text} "
+    yield text.replace(" ", "  ", 1)
     yield _in_other_case(text)
 
 
