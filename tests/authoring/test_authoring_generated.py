@@ -53,7 +53,10 @@ def made(operator: str, program: str, folder: Path) -> list[str]:
 
 LINES: dict[str, tuple[str, str, list[str]]] = {
     "a whole number": ("number", "n = 10", ["n = 11", "n = 9", "n = 20"]),
-    "another number": ("number", "t = 0.5", ["t = 0.75", "t = 0.25", "t = 1.0", "t = 5.0", "t = 0.05"]),
+    "another number": (
+        "number", "t = 0.5",
+        ["t = 0.75", "t = 0.25", "t = 1.0", "t = 5.0", "t = 0.05"],
+    ),
     "nothing": ("number", "t = 0.0", ["t = 1.0"]),
     "seconds": ("unit", "t = 2.0", ["t = 2000.0", "t = 200.0", "t = 0.002"]),
     "a number alone": ("unit", "depth = 10", []),

@@ -26,7 +26,9 @@ def number(node: cst.CSTNode, source: Source) -> Iterator[New]:
     """A whole number is one off, or ten; any other is by a half, or its point is elsewhere."""
     if isinstance(node, cst.Integer) and not _is_depth(node, source):
         value = int(node.value, 0)
-        yield from (cst.Integer(str(each)) for each in (value + 1, value - 1, value + 10) if each >= 0)
+        yield from (
+            cst.Integer(str(each)) for each in (value + 1, value - 1, value + 10) if each >= 0
+        )
     if isinstance(node, cst.Float):
         seen = float(node.value)
         yield from (_float(seen * factor) for factor in OFF_BY) if seen else [_float(1.0)]
