@@ -25,7 +25,7 @@ def alt_of(shown: dict[str, str]) -> str:
 
 def content_of(shown: dict[str, str]) -> bytes:
     """The picture itself."""
-    found = re.search(r"base64,([^\"]+)\"", shown["text/html"])
+    found = re.search(r' src="data:[^,]+;base64,([^"]+)"', shown["text/html"])
     assert found
     return base64.b64decode(found[1])
 
@@ -94,7 +94,9 @@ with session() as ros:
     words = [alt_of(shown) for shown in ran.shown]
     assert "It is at x 0." in words[0] and "A drive on the rover's map" in words[1]
     assert "640 by 480 pixels, encoding rgb8" in words[2]
-    assert all(content_of(shown).startswith(b"\x89PNG") for shown in ran.shown)
+    drawn = [content_of(shown) for shown in ran.shown]
+    assert b"@keyframes drive" in drawn[0] and b"@keyframes drive" in drawn[1]
+    assert drawn[2].startswith(b"\x89PNG")
 
 
 IMAGE = """

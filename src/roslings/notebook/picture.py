@@ -43,6 +43,8 @@ class Picture:
     alt: str
     width_px: int | None = None
     pixelated: bool = False
+    still: bytes | None = None
+    """The same without motion, for who asks for less of it: an `img` is not told of that."""
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, str]:
         """What Jupyter shows: the picture, or the sentences where there are no pictures."""
@@ -50,11 +52,17 @@ class Picture:
 
     def html(self) -> str:
         """An `img` that holds everything: it needs no file."""
-        held = base64.b64encode(self.content).decode("ascii")
         width = f' width="{self.width_px}"' if self.width_px else ""
         style = STYLE + (";image-rendering:pixelated" if self.pixelated else "")
         alt = html.escape(self.alt)
-        return f'<img src="data:{self.kind};base64,{held}" alt="{alt}"{width} style="{style}">'
+        image = f'<img src="{self._held(self.content)}" alt="{alt}"{width} style="{style}">'
+        if self.still is None:
+            return image
+        less = f'media="(prefers-reduced-motion: reduce)" srcset="{self._held(self.still)}"'
+        return f"<picture><source {less}>{image}</picture>"
+
+    def _held(self, content: bytes) -> str:
+        return f"data:{self.kind};base64,{base64.b64encode(content).decode('ascii')}"
 
 
 def svg_picture(svg: str, alt: str) -> Picture:

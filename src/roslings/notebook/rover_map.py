@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-import io
 import math
 from collections.abc import Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
+from roslings.devices.rover.body import Body, Pose
+from roslings.devices.rover.moving_map import moving_map
+from roslings.devices.rover.rover import Moment
+from roslings.devices.rover.world import default_world
 from roslings.notebook.picture import Picture, show
 from roslings.notebook.trouble import Trouble
 
 if TYPE_CHECKING:
     from roslings.devices.rover.notebook import LiveRover
-
-SIZE_IN = (5.6, 5.1)
-PATH_COLOUR = "#1f6feb"
 
 
 class NoWay(Trouble):
@@ -28,14 +28,15 @@ class NoWay(Trouble):
 
 
 def show_map(rover: LiveRover) -> None:
-    """Show the map of the rover that `ros.rover()` gave, with its path until now."""
+    """Show the map of the rover that `ros.rover()` gave; its drive until now is seen once more."""
     pose = rover.pose
     degrees = math.degrees(pose.heading_rad)
     alt = (
         f"The rover's map. It is at x {pose.x_m:.2f} m, y {pose.y_m:.2f} m,"
         f" heading {degrees:.0f} degrees."
     )
-    show(Picture(rover.picture(), "image/png", alt))
+    still = rover.map(moves=False).encode()
+    show(Picture(rover.map().encode(), "image/svg+xml", alt, still=still))
 
 
 def show_path(odometry: Sequence[Any]) -> None:
@@ -43,14 +44,33 @@ def show_path(odometry: Sequence[Any]) -> None:
 
     Also takes what `collect(..., stamps=True)` gave. Raises NoWay.
     """
-    messages = [getattr(each, "message", each) for each in odometry]
-    places = [(each.pose.pose.position.x, each.pose.pose.position.y) for each in messages]
-    if not places:
+    show(path_picture(odometry))
+
+
+def path_picture(odometry: Sequence[Any]) -> Picture:
+    """The picture that `show_path` shows. Raises NoWay."""
+    trail = _trail([getattr(each, "message", each) for each in odometry])
+    if not trail:
         raise NoWay
-    show(Picture(_drawn(places), "image/png", _in_words(places)))
+    moving, still = (_drawn(trail, moves).encode() for moves in (True, False))
+    return Picture(moving, "image/svg+xml", _in_words(trail), still=still)
 
 
-def _in_words(places: Sequence[tuple[float, float]]) -> str:
+def _trail(messages: Sequence[Any]) -> list[Moment]:
+    """As their stamps tell; each 0.1 s after the one before where these do not grow."""
+    times_s = [each.header.stamp.sec + each.header.stamp.nanosec * 1e-9 for each in messages]
+    if any(later <= earlier for earlier, later in pairwise(times_s)):
+        times_s = [0.1 * number for number in range(len(messages))]
+    return [Moment(time_s, _pose(each)) for time_s, each in zip(times_s, messages, strict=True)]
+
+
+def _pose(odometry: Any) -> Pose:
+    place, turned = odometry.pose.pose.position, odometry.pose.pose.orientation
+    return Pose(place.x, place.y, 2 * math.atan2(turned.z, turned.w))
+
+
+def _in_words(trail: Sequence[Moment]) -> str:
+    places = [(each.pose.x_m, each.pose.y_m) for each in trail]
     (x0, y0), (x1, y1) = places[0], places[-1]
     way_m = sum(math.dist(a, b) for a, b in pairwise(places))
     return (
@@ -59,22 +79,5 @@ def _in_words(places: Sequence[tuple[float, float]]) -> str:
     )
 
 
-def _drawn(places: Sequence[tuple[float, float]]) -> bytes:
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    from roslings.devices.rover.picture import draw_world, name_what_is_drawn
-    from roslings.devices.rover.world import default_world
-
-    figure = Figure(figsize=SIZE_IN, layout="constrained")
-    FigureCanvasAgg(figure)
-    axes = figure.add_subplot()
-    draw_world(default_world(), axes)
-    xs, ys = [x for x, _ in places], [y for _, y in places]
-    axes.plot(xs, ys, ".-", color=PATH_COLOUR, label="path", zorder=5)
-    axes.plot(xs[:1], ys[:1], "o", color=PATH_COLOUR, label="start", zorder=5)
-    axes.plot(xs[-1:], ys[-1:], "s", color="#0b2f6b", label="end", zorder=5)
-    name_what_is_drawn(axes)
-    file = io.BytesIO()
-    figure.savefig(file, format="png")
-    return file.getvalue()
+def _drawn(trail: Sequence[Moment], moves: bool) -> str:
+    return moving_map(default_world(), trail, Body().radius_m, dots=True, moves=moves)

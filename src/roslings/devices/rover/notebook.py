@@ -8,13 +8,13 @@ rover.stop()        # the last cell
 
 from __future__ import annotations
 
-import io
 import os
 import threading
 
 from roslings.devices.rover.body import Pose
+from roslings.devices.rover.moving_map import moving_map
 from roslings.devices.rover.node import RoverNode
-from roslings.devices.rover.rover import Rover
+from roslings.devices.rover.rover import Moment, Rover
 
 
 class LiveRover:
@@ -44,23 +44,20 @@ class LiveRover:
         self._stopping.set()
         self._thread.join()
 
-    def picture(self) -> bytes:
-        """The map with the path, as a PNG file."""
-        from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.figure import Figure
+    @property
+    def trail(self) -> list[Moment]:
+        """Where it has been, and when; the last moment is now."""
+        rover = self._rover
+        return [*rover.trail, Moment(rover.time_s, rover.pose)]
 
-        from roslings.devices.rover.picture import draw
+    def map(self, moves: bool = True) -> str:
+        """The map as an SVG file, in which the drive until now is seen once more if it `moves`."""
+        rover = self._rover
+        return moving_map(rover.world, self.trail, rover.body.radius_m, moves=moves)
 
-        figure = Figure(figsize=(6, 5.5), layout="constrained")
-        FigureCanvasAgg(figure)
-        draw(self._rover, figure.add_subplot())
-        file = io.BytesIO()
-        figure.savefig(file, format="png")
-        return file.getvalue()
-
-    def _repr_png_(self) -> bytes:
+    def _repr_svg_(self) -> str:
         """Jupyter shows what a cell ends with through this."""
-        return self.picture()
+        return self.map()
 
     def _run(self) -> None:
         try:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import random
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from roslings.devices.rover.body import Body, Motion, Pose, Wheels, moved
 from roslings.devices.rover.sensors import RangeSensor, Reading, Scanner
@@ -19,6 +19,15 @@ TOUCH_M = 0.02
 
 PATH_STEP_M = 0.02
 PATH_POINTS = 20_000
+TURN_STEP_RAD = math.radians(10)
+
+
+@dataclass(frozen=True)
+class Moment:
+    """Where the rover was at a time of its own clock."""
+
+    time_s: float
+    pose: Pose
 
 
 class Rover:
@@ -43,6 +52,9 @@ class Rover:
         self.touches = False
         """Its rim is against something, and it was told to go on."""
         self.path: list[Pose] = [pose]
+        """A place for every 2 cm of its way."""
+        self.trail: list[Moment] = [Moment(0.0, pose)]
+        """A moment for every 2 cm and for every turn of 10 degrees."""
         self.range_sensor, self.scanner, self.eye = RangeSensor(), Scanner(), Eye()
         self._chance = random.Random(seed)
 
@@ -112,6 +124,15 @@ class Rover:
         went_m = math.hypot(self.pose.x_m - last.x_m, self.pose.y_m - last.y_m)
         if went_m >= PATH_STEP_M and len(self.path) < PATH_POINTS:
             self.path.append(self.pose)
+        self._remember_the_time()
+
+    def _remember_the_time(self) -> None:
+        last = self.trail[-1].pose
+        went_m = math.hypot(self.pose.x_m - last.x_m, self.pose.y_m - last.y_m)
+        turned_rad = abs(math.remainder(self.pose.heading_rad - last.heading_rad, math.tau))
+        moved_on = went_m >= PATH_STEP_M or turned_rad >= TURN_STEP_RAD
+        if moved_on and len(self.trail) < PATH_POINTS:
+            self.trail.append(Moment(self.time_s, self.pose))
 
     def range(self) -> Reading:
         """One reading of the ultrasonic sensor."""
