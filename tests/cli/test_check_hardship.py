@@ -288,6 +288,32 @@ def test_two_at_once_do_not_meet(package: Path, tmp_path: Path) -> None:
     assert [each.wait() for each in running] == [0, 0]
 
 
+DEAF = """
+import pathlib, time
+deaf = pathlib.Path({flag!r})
+if {once}not deaf.exists():
+    deaf.touch()
+    print("[RTPS_TRANSPORT_SHM Error] Failed init_port fastrtps_port7004", flush=True)
+    time.sleep(600)
+"""
+
+
+def test_a_run_without_a_working_middleware_is_made_again(tmp_path: Path) -> None:
+    """As it was seen on a busy machine: the node runs, and nobody can see it."""
+    deaf = at_start(DEAF.format(flag=str(tmp_path / "flag"), once="") + "\n")
+    found = verdict(tmp_path, injured(tmp_path, deaf), ROSLINGS_ISOLATION="domain")
+    assert (tmp_path / "flag").exists() and found["score"] == 100, faults(found)
+
+
+def test_a_middleware_that_never_works_is_not_held_against_the_student(tmp_path: Path) -> None:
+    """No verdict on that node, and the reason."""
+    deaf = at_start(DEAF.format(flag=str(tmp_path / "flag"), once="True or ") + "\n")
+    found = verdict(tmp_path, injured(tmp_path, deaf))
+    (runs,) = (each for each in found["checks"] if each["id"] == "talker_runs")
+    assert runs["outcome"] == "inconclusive", runs
+    assert "middleware could not open a port" in json.dumps(runs)
+
+
 def test_a_full_disk_is_said(package: Path, tmp_path: Path) -> None:
     """A temporary folder without room: the machine's fault, so no verdict."""
     small = tmp_path / "small"

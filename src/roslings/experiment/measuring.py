@@ -33,6 +33,7 @@ from roslings.experiment.assignment import Assignment
 from roslings.experiment.beforehand import load_beforehand
 from roslings.experiment.declare import Experiment, experiments_of, load_grader
 from roslings.experiment.machine import look_at_machine
+from roslings.experiment.middleware import note_a_deaf_node
 from roslings.experiment.packets import Tap, tapped
 from roslings.experiment.presence import Absences
 from roslings.experiment.scene import Scene
@@ -288,6 +289,7 @@ class Stage:
                 self.absences,
             )  # fmt: skip
             each.function(scene, *earlier)
+        note_a_deaf_node(seen)
         if seen.machine_fault:
             self.absences.forget(process.executable for process in seen.processes.values())
         if self.assignment.keeps_bags:

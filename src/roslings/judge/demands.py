@@ -138,6 +138,7 @@ def come_up(process: ProcessView) -> None:
         raise faults.DidNotComeUp(seen.executable, how, log=process.last_lines())
     if not process.shown:
         require_steady(process.experiment.stall_s)
+        require_believable(process.experiment)
         how = "it runs, but no node of it appeared in the graph"
         raise faults.DidNotComeUp(seen.executable, how, log=process.last_lines())
 
