@@ -3,7 +3,7 @@
 site/pages/**            -> the same place
 days/NN-name/lesson.ipynb -> days/NN-name/index.ipynb, with the pictures and pages beside it
 days/NN-name/quiz.yaml   -> days/NN-name/quiz.md and answers.md
-labs/NAME/task.md        -> labs/NAME.md
+labs/NAME/task.md        -> labs/NAME.md, with its pictures in labs/NAME/pictures
 """
 
 from __future__ import annotations
@@ -131,4 +131,7 @@ def _gather_labs(gathered: Gathered, days: dict[str, Day]) -> None:
     for lab in all_labs():
         senses = days[lab.card.day].senses if lab.card.day in days else ()
         front = f"---\nsenses: [{', '.join(senses)}]\n---\n"
-        gathered.write(f"labs/{lab.name}.md", front + lab.task.read_text("utf-8"), lab.task)
+        task = lab.task.read_text("utf-8").replace("](pictures/", f"]({lab.name}/pictures/")
+        gathered.write(f"labs/{lab.name}.md", front + task, lab.task)
+        for picture in (lab.folder / "pictures").glob("*"):
+            gathered.copy(picture, f"labs/{lab.name}/pictures/{picture.name}")
