@@ -21,9 +21,12 @@ sys.path[:0] = [str(HERE), str(HERE.parent / "src")]
 
 from course_site.gather import Gathered, gather  # noqa: E402  found by the line above
 from course_site.links import external_links  # noqa: E402
+from course_site.yours import tell  # noqa: E402
 
 from roslings.course import CourseError, root  # noqa: E402
 from roslings.lessons import BadLessons  # noqa: E402
+from roslings.workspace.student import workspace_root  # noqa: E402
+from roslings.workspace.trouble import WorkspaceError  # noqa: E402
 
 OK, FAILED = 0, 1
 
@@ -59,10 +62,19 @@ def build(work: Path, gathered: Gathered, open_it: bool) -> int:
     home = work / "html" / "index.html"
     print(f"The site is built: {home}")
     if open_it:
+        show_yours(home.parent)
         webbrowser.open(home.as_uri())
     else:
         print("Open this file in a browser, or run: ./roslings site --open")
     return OK
+
+
+def show_yours(html: Path) -> None:
+    """Labs and drills of this computer's student; without them the site is as good."""
+    try:
+        tell(html, workspace_root())
+    except (WorkspaceError, CourseError, OSError) as error:
+        print(f"roslings: the site cannot show what you have done. {error}", file=sys.stderr)
 
 
 def sphinx(builder: str, work: Path, gathered: Gathered) -> int:

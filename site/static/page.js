@@ -56,7 +56,6 @@
     for (const element of document.querySelectorAll(".path-day")) {
       const day = roslings.dayOf(element);
       const missing = roslings.missing(day);
-      const answered = day.questions.length - missing.questions.length;
       const state = element.querySelector(".path-state");
       const isHere = !missing.done && !hereFound;
       hereFound = hereFound || isHere;
@@ -64,12 +63,21 @@
       if (isHere) element.setAttribute("aria-current", "step");
       else element.removeAttribute("aria-current");
       element.classList.toggle("done", missing.done);
-      if (missing.done) state.textContent = "✓ Done";
-      else if (answered) state.textContent = `${answered} of ${day.questions.length} questions answered`;
-      else state.textContent = "";
-      if (isHere) state.textContent = ["You are here", state.textContent].filter(Boolean).join(" · ");
+      state.textContent = [isHere ? "You are here" : "", ...howFar(day, missing)].filter(Boolean).join(" · ");
     }
     showDueReviews();
+  }
+
+  // How far a day is, in short phrases.
+  function howFar(day, missing) {
+    const answered = day.questions.length - missing.questions.length;
+    const drills = roslings.drillsOf(day);
+    return [
+      missing.done ? "✓ Done" : "",
+      drills && drills[0] ? `${drills[0]} of ${drills[1]} drills` : "",
+      ...day.labs.map((lab) => roslings.scoreOf(lab)).map((found) => (found ? `Lab ${found.score} of 100` : "")),
+      answered && !missing.done ? `${answered} of ${day.questions.length} questions answered` : "",
+    ];
   }
 
   function showDueReviews() {
