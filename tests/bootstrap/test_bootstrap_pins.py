@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import importlib
 import json
 import re
 import subprocess
@@ -139,7 +140,7 @@ def test_the_names_of_the_groups_are_read_without_toml() -> None:
 def test_every_group_is_measured_for_every_python() -> None:
     """So that a size can be said before each download."""
     table = sizes.read()
-    assert set(table) == {"3.10", "3.11", "3.12", "3.13"}
+    assert set(table) == {"3.10", "3.11", "3.12", "3.13", "3.14"}
     assert all(set(row) == set(groups.names(PYPROJECT)) for row in table.values())
 
 
@@ -189,3 +190,16 @@ def test_sizes_hold_no_address() -> None:
     """Numbers only."""
     assert json.loads(sizes.FILE.read_text())
     assert "//" not in Path(sizes.FILE).read_text()
+
+
+COMMON_INTERFACES = (
+    "actionlib_msgs", "diagnostic_msgs", "geometry_msgs", "nav_msgs", "sensor_msgs", "shape_msgs",
+    "std_msgs", "std_srvs", "stereo_msgs", "trajectory_msgs", "visualization_msgs",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("package", COMMON_INTERFACES)
+def test_each_of_the_common_interfaces_is_there(package: str) -> None:
+    """What apt's ros-jazzy-common-interfaces brings, the wheels bring, too."""
+    kind = "srv" if package == "std_srvs" else "msg"
+    assert importlib.import_module(f"{package}.{kind}")

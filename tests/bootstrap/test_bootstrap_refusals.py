@@ -26,7 +26,7 @@ UNFIT = [
     (replace(FITS, glibc=()), "C library", "docker run"),
     (replace(FITS, glibc=(2, 27)), "2.27", "docker run"),
     (replace(FITS, bits=32), "32 bits", "docker run"),
-    (replace(FITS, python=(3, 14)), "3.14", "Python 3.12"),
+    (replace(FITS, python=(3, 15)), "3.15", "Python 3.12"),
     (replace(FITS, cpython=False), "another build", "Python 3.12"),
 ]
 

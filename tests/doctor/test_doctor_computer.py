@@ -33,7 +33,7 @@ def test_well_system(clinic: Clinic) -> None:
     assert "wheels" in clinic.look("system").found
 
 
-@pytest.mark.parametrize("version", [(3, 9, 2), (3, 14, 0)])
+@pytest.mark.parametrize("version", [(3, 9, 2), (3, 15, 0)])
 def test_ill_python(clinic: Clinic, version: tuple[int, int, int]) -> None:
     clinic.change(interpreter=Interpreter(version, Path("/usr/bin/python3"), Path("/usr")))
     assert_ill(clinic.look("python"), "fault", f"{version[0]}.{version[1]}.", "./roslings doctor")

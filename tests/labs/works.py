@@ -91,7 +91,7 @@ class Typed(Strict):
     terminal: int
     types: str
     own: str = ""
-    """Typed behind it, and not drawn: a place for a device, where another test has the usual one."""
+    """Typed behind it, and not drawn: a place for a device that no other test has."""
     until: str = ""
     """A regular expression, of what it shows when it works."""
     later: bool = False

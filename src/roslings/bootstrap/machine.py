@@ -1,6 +1,6 @@
 """Is there a ROS wheel for this machine? Facts first, then one judgement on them.
 
-The wheels exist for Linux on x86-64 with glibc 2.28 or newer, CPython 3.10 to 3.13.
+The wheels exist for Linux on x86-64 with glibc 2.28 or newer, CPython 3.10 to 3.14.
 """
 
 import os
@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from roslings.bootstrap.trouble import Trouble
 
 OLDEST_GLIBC = (2, 28)
-PYTHONS = ((3, 10), (3, 13))
+PYTHONS = ((3, 10), (3, 14))
 
 _WSL = "Use the Linux that Windows brings: wsl --install Ubuntu-24.04, and run this again there."
 _APT = "On Ubuntu 24.04: install ROS 2 Jazzy with apt, source it, and run this again."

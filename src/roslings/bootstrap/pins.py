@@ -1,7 +1,7 @@
 """`./roslings pins [--upgrade]`: writes constraints.txt and sizes.json again, for maintainers.
 
 Pins that still fit stay as they are, unless `--upgrade` asks for newer ones. The sizes are
-measured with every Python from 3.10 to 3.13 that this machine has; those of the others are kept.
+measured with every Python from 3.10 to 3.14 that this machine has; those of the others are kept.
 """
 
 import json
@@ -23,11 +23,11 @@ from roslings.bootstrap.trouble import Trouble, say
 from roslings.bootstrap.virtual import Virtual
 
 _HEADER = """\
-# Every package of every group of pyproject.toml, transitive ones included, Python 3.10 to 3.13.
+# Every package of every group of pyproject.toml, transitive ones included, Python 3.10 to 3.14.
 # Behind each stand the groups that need it; what they need beside it is not looked for any more.
 # Written by `./roslings pins`; edit pyproject.toml instead, and run that again.
 """
-_MINORS = (10, 11, 12, 13)
+_MINORS = (10, 11, 12, 13, 14)
 
 
 def write_pins(place: Place, upgrade: bool) -> None:
@@ -124,13 +124,18 @@ def _measured(place: Place, virtual: Virtual, python: str) -> dict[str, float]:
     installer = Installer(place, virtual)
     installer.require_tools()
     names = groups.names(place.pyproject)
-    size_b = _sizes_b(installer, installer.all_of(names))
+    size_b = _sizes_b(installer, _one_each(installer.all_of(names)))
     found, counted = {}, set[str]()
     for name in names:
-        new = set(installer.all_of([name])) - counted
+        new = set(_one_each(installer.all_of([name]))) - counted
         found[name] = round(sum(size_b[package] for package in new) / 1e6, 1)
         counted |= new
     return found
+
+
+def _one_each(pins: Sequence[str]) -> list[str]:
+    """One pin a package: 3.11.4 and 3.11.5 may need two, and pip then asks for both."""
+    return sorted({_package(pin): pin for pin in pins}.values())
 
 
 def _sizes_b(installer: Installer, packages: Sequence[str]) -> dict[str, int]:

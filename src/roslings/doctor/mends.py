@@ -13,7 +13,7 @@ from roslings.doctor.surroundings import release
 X86 = ("x86_64", "AMD64")
 OLDEST_GLIBC = (2, 28)  # the wheels on PyPI are manylinux_2_28, x86-64 only
 OLDEST_PYTHON = (3, 10)
-NEWEST_PYTHON = (3, 13)
+NEWEST_PYTHON = (3, 14)
 
 # https://docs.ros.org/en/jazzy/Installation/Ubuntu-Install-Debs.html, "Enable required
 # repositories": the package carries the address and the key, and keeps both fresh.
@@ -93,7 +93,7 @@ def source(machine: Machine, ros: Ros) -> tuple[Step, ...]:
 
 
 def wheels_fit(machine: Machine) -> bool:
-    """Tell whether ROS can come as wheels here: Linux, x86-64, glibc 2.28, Python 3.10-3.13."""
+    """Tell whether ROS can come as wheels here: Linux, x86-64, glibc 2.28, Python 3.10-3.14."""
     return (
         machine.linux
         and machine.architecture in X86

@@ -67,7 +67,7 @@ def system(machine: Machine) -> Finding:
 
 @check(
     "python",
-    "Python is 3.10, 3.11, 3.12 or 3.13",
+    "Python is one of 3.10 to 3.14",
     looks_at="the version of the Python that runs the doctor",
     lesson="01-install#three-ways",
 )
@@ -78,7 +78,7 @@ def python(machine: Machine) -> Finding:
     if OLDEST_PYTHON <= version[:2] <= NEWEST_PYTHON:
         return ok(f"Python {text}.")
     return fault(
-        f"This is Python {text}. The course needs 3.10, 3.11, 3.12 or 3.13.",
+        f"This is Python {text}. The course needs 3.10, 3.11, 3.12, 3.13 or 3.14.",
         say("Install one of these versions beside yours. ./roslings then finds it by itself."),
         do(f"cd {quoted(machine.clone)}\n./roslings doctor"),
     )

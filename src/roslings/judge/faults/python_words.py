@@ -1,7 +1,7 @@
 """Mistakes that Python and rclpy report in words which a beginner has not met before.
 
 Each is known by the line with which the program ended; the hint says what to change and where.
-The words are those of Python 3.10 to 3.13 and of Jazzy's rclpy.
+The words are those of Python 3.10 to 3.14 and of Jazzy's rclpy.
 """
 
 from __future__ import annotations
