@@ -100,7 +100,8 @@ def distances(scene: Scene) -> list[float]:
     far, near = scene.between(1.0, 2.0), scene.between(NEAREST, NEAR - 0.05)
     below, above = beside(scene, NEAR)
     within, clear = beside(scene, CLEAR)
-    return [far, above, below, within, clear, near, NAN, INFINITY, -INFINITY]
+    between = scene.between(NEAR + BESIDE[1], CLEAR - BESIDE[1])
+    return [between, far, above, below, within, clear, near, NAN, INFINITY, -INFINITY]
 
 
 def beside(scene: Scene, limit: float) -> tuple[float, float]:
@@ -109,6 +110,7 @@ def beside(scene: Scene, limit: float) -> tuple[float, float]:
 
 
 STEPS: list[tuple[str, bool]] = [
+    ("hysteresis", False),
     ("obstacle", False),
     ("hysteresis", False),
     ("obstacle", True),

@@ -250,6 +250,7 @@ def spoiled(scene: Scene) -> None:
         screen.begin()
         screen.show("before", with_decoy(scene, GREEN, RED))
         screen.show_spoiled("short", "bgr8", missing=160 * 3 * 20, words=BAD_PICTURE)
+        screen.show_spoiled("empty", "bgr8", missing=0, words=BAD_PICTURE, width=0)
         screen.show_spoiled("unknown", "16UC1", missing=0, words=BAD_PICTURE)
         screen.show("after", shot(scene, hue=GREEN))
 
@@ -437,6 +438,7 @@ def test_bad_pictures(spoiled: ExperimentView) -> None:
     spoiled.must(
         survive(SCREEN, "short", "a picture with fewer bytes than its header says", must_say=True),
         answer_nothing(SCREEN, "short", "a picture with fewer bytes than its header says"),
+        survive(SCREEN, "empty", "a picture without a single column", must_say=False),
         survive(SCREEN, "unknown", "a picture in an unknown encoding (16UC1)", must_say=False),
         find_the_ball(SCREEN, "after"),
     )

@@ -59,8 +59,11 @@ MEASURES = [BRIDGE.parameter(each) for each in ("wheel_radius", "wheel_separatio
 FASTEST = BRIDGE.parameter("max_wheel_speed")
 WHEELS, ODOM = BRIDGE.publishes
 CMD_VEL = BRIDGE.subscribes[0]
-STRAIGHT, TURN, ARC = (0.3, 0.0), (0.0, 1.2), (0.25, -0.8)
-"""The motions of the test drive: metres a second forward, radians a second to the left."""
+STRAIGHT, TURN, ARC = (0.3, 0.0), (0.0, 1.2), (0.25, -0.4)
+"""The motions of the test drive: metres a second forward, radians a second to the left.
+
+The turn and the arc take the rover as far along x as along y: it ends well off both axes.
+"""
 DRIVE = {"straight": STRAIGHT, "turn": TURN, "arc": ARC}
 TOO_FAST = {"backward": (-2.0, 0.0), "round": (0.0, 12.0)}
 """Motions for which both wheels would have to turn faster than they can."""

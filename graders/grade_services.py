@@ -35,6 +35,7 @@ from roslings.judge.services import (
     give_up,
     say_at_first,
     serve,
+    serve_once,
     serve_their_types,
     show_each,
     tell_the_answer,
@@ -131,6 +132,7 @@ def test_state_topic(serving: ExperimentView) -> None:
 def test_services(serving: ExperimentView) -> None:
     """It serves {SET_MAX_SPEED.service} and {RESET.service}."""
     serving.must(serve(SET_MAX_SPEED), serve(RESET))
+    serving.must(serve_once(SET_MAX_SPEED), serve_once(RESET))
 
 
 @check(needs=["server_runs"])

@@ -23,6 +23,7 @@ from roslings.experiment.acting import (
 )
 from roslings.experiment.own_time import PATIENCE_S
 from roslings.judge.demands import (
+    insist_on_at_most,
     most_similar,
     require_believable,
     require_its_time,
@@ -601,6 +602,7 @@ def end_so(node: NodeContract, outcome: OutcomeContract, text: str = "") -> Dema
                 node.executable, line, most_similar(line, process.texts), when=f"when {case}",
                 place=f"where your code learns that {case}",
             )  # fmt: skip
+        insist_on_at_most(process, [line], 1)
         require_code(process, outcome.exit_code, f"when {case}")
 
     return demand

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from itertools import pairwise
 from typing import TypeVar
 
@@ -268,6 +268,18 @@ def _insist_on_once(process: ProcessView, wanted: Sequence[tuple[str, ...]]) -> 
         found = max(sum(counts[line, logged] for line in spelled) for logged in (True, False))
         if times < found:
             raise faults.LoggedAgain(process.seen.executable, spelled[0], found)
+
+
+def insist_on_at_most(process: ProcessView, lines: Collection[str], times: int) -> None:
+    """All of these lines together stand there at most so often. Raises LoggedAgain.
+
+    A line may be printed, and logged besides.
+    """
+    counts = Counter((line.plain, line.plain != line.text) for line in process.seen.lines)
+    for logged in (True, False):
+        if sum(counts[line, logged] for line in set(lines)) > times:
+            example = max(lines, key=lambda line: counts[line, logged])
+            raise faults.LoggedAgain(process.seen.executable, example, counts[example, logged])
 
 
 def spellings(template: str, text: str) -> tuple[str, ...]:

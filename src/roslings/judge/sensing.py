@@ -10,7 +10,7 @@ from typing import Any
 from roslings.course import NodeContract, TopicContract
 from roslings.evidence import MessageSeen, Spoken
 from roslings.experiment.telling import TOLD
-from roslings.judge.demands import most_similar, written
+from roslings.judge.demands import insist_on_at_most, most_similar, written
 from roslings.judge.faults import Inconclusive, NothingToJudge, NotLogged
 from roslings.judge.faults import sensing as faults
 from roslings.judge.views import Demand, ExperimentView, ProcessView, TopicView
@@ -281,5 +281,7 @@ def write_each(
             if not any(line in text for line in lines for text in process.texts):
                 near = most_similar(lines[0], process.texts)
                 raise NotLogged(node.executable, lines[0], near)
+        every = [template.format(text=text) for allowed in asked for text in allowed]
+        insist_on_at_most(process, every, len(asked) + 1)  # the first is told once before
 
     return demand

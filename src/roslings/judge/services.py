@@ -18,7 +18,13 @@ from roslings.course import (
 from roslings.evidence import CallSeen, ProcessSeen, ServiceEnd
 from roslings.experiment.asking import ANSWER_WITHIN_S, CLIENT_ENDS, MOST_LATE
 from roslings.experiment.own_time import PATIENCE_S
-from roslings.judge.demands import most_similar, require_its_time, require_steady, written
+from roslings.judge.demands import (
+    insist_on_at_most,
+    most_similar,
+    require_its_time,
+    require_steady,
+    written,
+)
 from roslings.judge.faults import EndedWithError, Inconclusive, NothingToJudge, NotLogged
 from roslings.judge.faults import services as faults
 from roslings.judge.views import Demand, ExperimentView, ProcessView, TopicView
@@ -44,6 +50,17 @@ def serve(service: ServiceContract) -> Demand[ExperimentView]:
         near = nearest(service.service, [end.service])
         if near and not near.exact:
             raise faults.WrongService(near)
+
+    return demand
+
+
+def serve_once(service: ServiceContract) -> Demand[ExperimentView]:
+    """Only one server has its name: of two, both answer each call."""
+
+    def demand(experiment: ExperimentView) -> None:
+        servers = [end for end in _ends(experiment, "server") if end.service == service.service]
+        if len(servers) > 1:
+            raise faults.ServedTwice(service.service, len(servers))
 
     return demand
 
@@ -333,6 +350,7 @@ def tell_the_answer(node: NodeContract) -> Demand[ExperimentView]:
             near = most_similar(line, process.texts)
             when, place = f"when the answer is {message!r}", "where your code has the answer"
             raise NotLogged(node.executable, line, near, when=when, place=place)
+        insist_on_at_most(process, [line], len(experiment.seen.served))
 
     return demand
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable
 from typing import Any, Literal
 
@@ -12,8 +13,21 @@ OF_ROS_ITSELF = ("rcl_interfaces/", "type_description_interfaces/")
 
 
 def read_services(eye: Any, nodes: Iterable[str]) -> list[ServiceEnd]:
-    """The services of the nodes (full names), without those of ROS itself."""
-    return [end for node in sorted(set(nodes)) for end in _ends_of(eye, node)]
+    """The services of the nodes (full names), without those of ROS itself.
+
+    A service with more servers than nodes that serve it is there once for each server: a node
+    itself names each of its services once.
+    """
+    ends = [end for node in sorted(set(nodes)) for end in _ends_of(eye, node)]
+    servers = [end for end in ends if end.kind == "server"]
+    named = Counter(end.service for end in servers)
+    by_name = {end.service: end for end in servers}
+    again = [
+        end
+        for service, end in by_name.items()
+        for _ in range(eye.count_services(service) - named[service])
+    ]
+    return [*ends, *again]
 
 
 def _ends_of(eye: Any, node: str) -> Iterable[ServiceEnd]:

@@ -22,7 +22,7 @@ OTHER_TYPES = {
     "action": ("test_msgs/action/Fibonacci", "test_msgs/action/NestedMessage"),
 }
 TYPE = re.compile(r"^[a-z0-9_]+/(msg|srv|action)/\w+$")
-NEXT_TO_NOTHING_S = 0.001
+NEXT_TO_NOTHING_S = 1e-6
 HUGE = 100_000
 FAR = 4
 """A rate is another one where it lies so many tolerances away."""

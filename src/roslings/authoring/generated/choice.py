@@ -10,6 +10,7 @@ import ast
 import difflib
 import hashlib
 import re
+import textwrap
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -17,7 +18,9 @@ from functools import cache, cached_property
 from pathlib import Path
 
 import libcst as cst
+import yaml
 
+from roslings.authoring.generated.flow import called
 from roslings.authoring.generated.operators import OPERATORS
 from roslings.authoring.generated.source import Source, read_source
 from roslings.course import Lab
@@ -107,9 +110,14 @@ def modules_of(lab: Lab) -> Iterator[str]:
 
 
 def _changed(lab: Lab, source: Source) -> Iterator[Generated]:
+    given = given_functions(lab, source)
     for node in source.nodes():
+        if given & {node, *source.around(node)} or _is_own_log(lab, node, source):
+            continue
         for operator, change in OPERATORS.items():
             if operator == "text" and not _is_promised(lab, node):
+                continue
+            if operator == "number" and not _is_near_the_card(lab, node):
                 continue
             for new in change(node, source):
                 text = source.with_new(node, new)
@@ -117,17 +125,101 @@ def _changed(lab: Lab, source: Source) -> Iterator[Generated]:
                 yield Generated(lab, operator, source.file, line, source.text, text)
 
 
+# --- what no card asks for: the author's own, and what is given ---------------------------------
+
+PROSE = frozenset({"about", "log_about", "title", "when", "rules", "not_judged"})
+LOGS = frozenset({"debug", "info", "warning", "warn", "error", "fatal", "print"})
+SMALL = 3
+"""Up to so much, a whole number counts things or names one of them."""
+
+
+def given_functions(lab: Lab, source: Source) -> frozenset[cst.CSTNode]:
+    """The functions that the starter has word for word, but for remarks."""
+    file = lab.starter / source.file
+    if not file.is_file():
+        return frozenset()
+    there = _definitions(cst.parse_module(file.read_text("utf-8")))
+    own = _definitions(source.module)
+    return frozenset(node for code, node in own.items() if code in there)
+
+
+def _definitions(module: cst.Module) -> dict[str, cst.CSTNode]:
+    """What it does to each function that a module or a class of it defines."""
+    blocks = [each.body.body for each in module.body if isinstance(each, cst.ClassDef)]
+    nodes = [node for block in (module.body, *blocks) for node in block]
+    return {
+        _meaning(textwrap.dedent(module.code_for_node(node)).strip()): node
+        for node in nodes if isinstance(node, cst.FunctionDef)
+    }  # fmt: skip
+
+
+def _is_own_log(lab: Lab, node: cst.CSTNode, source: Source) -> bool:
+    """It stands in, or is, a line that writes what no card names."""
+    around = (node, *source.around(node))
+    line = next((each for each in around if isinstance(each, cst.SimpleStatementLine)), None)
+    match line:
+        case cst.SimpleStatementLine(body=[cst.Expr(value=cst.Call() as call)]):
+            return called(call) in LOGS and not any(_is_promised(lab, arg) for arg in call.args)
+    return False
+
+
 def _is_promised(lab: Lab, node: cst.CSTNode) -> bool:
-    """The card has some word of this text: other texts are the author's own."""
-    code = cst.Module([]).code_for_node(node)
-    words = re.findall(r"[A-Za-z]{4,}", re.sub(r"{[^}]*}", " ", code))
-    return any(word in _texts_of(lab.folder) for word in words)
+    """The card asks for some piece of this text: other texts are the author's own."""
+    texts = [each for each in _texts_in(node) if len(each.strip()) >= SMALL]
+    return any(text in asked for text in texts for asked in _asked_texts(lab.folder))
+
+
+def _texts_in(node: cst.CSTNode) -> Iterator[str]:
+    """What stands between the quotes, without what is put in."""
+    match node:
+        case cst.SimpleString():
+            yield node.raw_value
+        case cst.FormattedStringText(value=value):
+            yield value
+        case _:
+            for child in node.children:
+                yield from _texts_in(child)
+
+
+def _is_near_the_card(lab: Lab, node: cst.CSTNode) -> bool:
+    """A number that counts, or that the card has: by how little others may be off, nobody said."""
+    match node:
+        case cst.Integer(value=value) if int(value, 0) > SMALL:
+            return float(int(value, 0)) in _asked_numbers(lab.folder)
+        case cst.Float(value=value) if float(value):
+            return float(value) in _asked_numbers(lab.folder)
+    return True
 
 
 @cache
-def _texts_of(folder: Path) -> str:
-    """What the card says, without its remarks."""
-    return re.sub(r"#.*", "", (folder / "card.yaml").read_text("utf-8"))
+def _asked_texts(folder: Path) -> tuple[str, ...]:
+    return tuple(each for each in _words_of(folder) if isinstance(each, str))
+
+
+@cache
+def _asked_numbers(folder: Path) -> frozenset[float]:
+    """The numbers of the card, and those within its texts."""
+    found = [each for each in _words_of(folder) if isinstance(each, int | float)]
+    within = re.findall(r"\d+(?:\.\d+)?", " ".join(_asked_texts(folder)))
+    return frozenset(float(each) for each in (*found, *within))
+
+
+def _words_of(folder: Path) -> Iterator[object]:
+    """What the card says, without what it says in prose."""
+    yield from _words_in(yaml.safe_load((folder / "card.yaml").read_text("utf-8")))
+
+
+def _words_in(value: object) -> Iterator[object]:
+    match value:
+        case dict():
+            for key, each in value.items():
+                if key not in PROSE:
+                    yield from _words_in(each)
+        case list():
+            for each in value:
+                yield from _words_in(each)
+        case _:
+            yield value
 
 
 def _first_difference(before: str, after: str) -> int:

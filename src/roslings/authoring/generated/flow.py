@@ -108,14 +108,14 @@ def _does_more(node: cst.SimpleStatementLine) -> bool:
         case cst.AugAssign():
             return True
         case cst.Expr(value=cst.Call() as call):
-            return _name_of(call) not in SAME_TWICE
+            return called(call) not in SAME_TWICE
         case cst.Assign(targets=[cst.AssignTarget(cst.Attribute())], value=cst.Call() as call):
-            return _name_of(call) in SEEN_FROM_OUTSIDE
+            return called(call) in SEEN_FROM_OUTSIDE
     return False
 
 
-def _name_of(call: cst.Call) -> str:
-    """The last part of what is called."""
+def called(call: cst.Call) -> str:
+    """The last part of what is called: `info` of `self.get_logger().info(...)`."""
     match call.func:
         case cst.Name(value=name) | cst.Attribute(attr=cst.Name(value=name)):
             return name
@@ -126,7 +126,7 @@ def _ends_ros(node: cst.CSTNode) -> bool:
     """Where `main` ends: Ctrl-C has ended ROS already, and the process is over."""
     match node:
         case cst.SimpleStatementLine(body=[cst.Expr(value=cst.Call() as call)]):
-            return _name_of(call) == "try_shutdown"
+            return called(call) == "try_shutdown"
     return False
 
 

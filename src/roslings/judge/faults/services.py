@@ -39,6 +39,26 @@ class NoService(Fault):
 
 
 @dataclass(eq=False)
+class ServedTwice(Fault):
+    """More than one server has the name of a service."""
+
+    service: str
+    servers: int
+    why = "Each server answers each call: what is asked for once is done twice."
+    hint = "Is self.create_service(...) there twice for this name? Take one of them out."
+
+    @property
+    def expected(self) -> str:
+        """One."""
+        return f"one server of {self.service}"
+
+    @property
+    def measured(self) -> str:
+        """More."""
+        return f"there are {self.servers}"
+
+
+@dataclass(eq=False)
 class WrongService(Fault):
     """The service is there under another name."""
 
