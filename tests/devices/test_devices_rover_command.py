@@ -136,7 +136,7 @@ def test_the_map_shows_what_there_is() -> None:
 def test_a_notebook_sees_the_map_and_ends_the_node(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    """A PNG for the cell, and no thread left."""
+    """A drawing for the cell, and no thread left."""
     import threading
 
     from roslings.devices.rover.notebook import start
@@ -145,7 +145,7 @@ def test_a_notebook_sees_the_map_and_ends_the_node(
         monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
         monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
         with start() as rover:
-            assert rover.picture().startswith(b"\x89PNG")
+            assert rover.map().startswith("<svg ") and rover.map() == rover._repr_svg_()
             assert rover.pose.x_m == 0.0
     assert "rover" not in [thread.name for thread in threading.enumerate()]
     assert os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] == "LOCALHOST"
