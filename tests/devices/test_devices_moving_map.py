@@ -90,7 +90,7 @@ def test_a_rest_is_cut_short() -> None:
 
 def test_who_never_moved_just_stands() -> None:
     """No animation at all; and without a moment there is no map."""
-    svg = svg_of([Moment(0.0, Pose(1.0, 1.0, math.pi / 2))])
+    svg = svg_of([Moment(at_s, Pose(1.0, 1.0, math.pi / 2)) for at_s in (0.0, 0.3)])
     assert "@keyframes" not in svg and 'class="rover" transform="translate(209.0 349.0)' in svg
     with pytest.raises(ValueError, match="one moment"):
         svg_of([])

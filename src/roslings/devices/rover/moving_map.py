@@ -211,6 +211,8 @@ def _steps_s(trail: Sequence[Moment]) -> list[float]:
 
 
 def _frames(trail: Sequence[Moment]) -> list[_Frame]:
+    if len({each.pose for each in trail}) < 2:
+        return []
     times_s = [0.0, *accumulate(_steps_s(trail))]
     ways_m = [0.0, *accumulate(_far_m(a, b) for a, b in pairwise(trail))]
     headings = _unwound([each.pose.heading_rad for each in trail])
