@@ -42,7 +42,7 @@ def test_it_is_small_and_asks_nobody(lab: Lab) -> None:
 def test_its_commands_stand_in_the_task(lab: Lab) -> None:
     """Or a part of them does: a picture may give a default by name."""
     task = " ".join(lab.task.read_text("utf-8").split())
-    for each in Works.of(lab).terminals:
+    for each in (each for each in Works.of(lab).terminals if each.types.startswith(("ros2", "./"))):
         assert each.types.partition(" -")[0] in task, each.types
 
 

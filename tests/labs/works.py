@@ -180,8 +180,8 @@ def seen(lab: Lab, home: Path) -> tuple[list[Window], Shot]:
         leased.close()  # nodes are in it now; the one who looks leases it, as a notebook does
         with _photographer(works, home, domain) as photographer:
             _type(terminals, [last], home)
-            windows = [_window(terminals, each, home) for each in works.terminals]
-            return [each for each in windows if each], _shot(photographer)
+            shown = [each for each in works.terminals if not each.hidden]
+            return [_window(terminals, each, home) for each in shown], _shot(photographer)
 
 
 @contextmanager
@@ -237,7 +237,7 @@ def _own(typed: str, home: Path) -> str:
     return typed.replace("/tmp/", f"{home}/")
 
 
-def _window(terminals: dict[int, Terminal], each: Typed, home: Path) -> Window | None:
+def _window(terminals: dict[int, Terminal], each: Typed, home: Path) -> Window:
     terminal = terminals[each.terminal]
     terminal.shows(each.until)
     said = terminal.heard().replace("\r", "").replace(f"{home}/", "/tmp/")
@@ -247,7 +247,7 @@ def _window(terminals: dict[int, Terminal], each: Typed, home: Path) -> Window |
     assert len(kept) >= each.lines + each.last, terminal
     end = ["...", *kept[-each.last :]] if each.last else []
     lines = [_short(STAMP.sub("[...]", line)) for line in [*kept[: each.lines], *end]]
-    return None if each.hidden else Window(f"Terminal {each.terminal}", each.types, lines)
+    return Window(f"Terminal {each.terminal}", each.types, lines)
 
 
 def _short(line: str) -> str:
