@@ -255,6 +255,16 @@ def test_a_number_that_no_card_names_is_not_changed_a_little() -> None:
     assert "-        whole = IntegerRange(from_value=0, to_value=100, step=1)" in changed
 
 
+def test_what_is_for_people_asks_for_nothing() -> None:
+    """Points, an example and a thing's name are no words of the contract; a request is one."""
+    changed = "".join(
+        each.diff for each in choice.candidates(lab("serial-bridge")) if each.operator == "number"
+    )
+    assert "-LARGEST_PWM = 255" not in changed  # only a sentence says it
+    assert "-        too_fast = max(1.0" not in changed  # the points of a check are 1
+    assert "-        self.baud = self.declare_parameter('baud', 115200).value" in changed
+
+
 def test_what_the_starter_has_word_for_word_is_not_changed(tmp_path: Path) -> None:
     """It is given; the student does not write it."""
     own = replace(EXAMPLE, folder=tmp_path / "example")

@@ -18,8 +18,8 @@ from functools import cache, cached_property
 from pathlib import Path
 
 import libcst as cst
-import yaml
 
+from roslings.authoring.contract.words import words_of
 from roslings.authoring.generated.flow import called
 from roslings.authoring.generated.operators import OPERATORS
 from roslings.authoring.generated.source import Source, read_source
@@ -127,7 +127,6 @@ def _changed(lab: Lab, source: Source) -> Iterator[Generated]:
 
 # --- what no card asks for: the author's own, and what is given ---------------------------------
 
-PROSE = frozenset({"about", "log_about", "title", "when", "rules", "not_judged"})
 LOGS = frozenset({"debug", "info", "warning", "warn", "error", "fatal", "print"})
 SMALL = 3
 """Up to so much, a whole number counts things or names one of them."""
@@ -205,19 +204,19 @@ def _asked_numbers(folder: Path) -> frozenset[float]:
 
 
 def _words_of(folder: Path) -> Iterator[object]:
-    """What the card says, without what it says in prose."""
-    yield from _words_in(yaml.safe_load((folder / "card.yaml").read_text("utf-8")))
+    """What the card says, without what is for people or says in words what the package does."""
+    for word in words_of(folder / "card.yaml"):
+        yield from _parts(word.value)
 
 
-def _words_in(value: object) -> Iterator[object]:
+def _parts(value: object) -> Iterator[object]:
     match value:
         case dict():
-            for key, each in value.items():
-                if key not in PROSE:
-                    yield from _words_in(each)
-        case list():
+            for each in value.values():
+                yield from _parts(each)
+        case list() | tuple():
             for each in value:
-                yield from _words_in(each)
+                yield from _parts(each)
         case _:
             yield value
 
