@@ -93,6 +93,25 @@ def test_a_call_of_rclpy(tmp_path: Path, words: str, hint: str) -> None:
 
 
 @pytest.mark.parametrize(
+    ("line", "named"),
+    [
+        ("self.timer = self.create_timer(0.5, self.tell())  # seconds", True),
+        ("self.create_subscription(String, 'x', self.hear(), 10)", True),
+        ("self.timer = self.create_timer(self.period(), self.tell)", False),
+        ("self.create_subscription(String, self.name(), self.hear, 10)", False),
+    ],
+)
+def test_a_callback_that_was_called_and_failed(line: str, named: bool) -> None:
+    """The program ends inside of it, with any error; the line above tells why it ran at all."""
+    log = [
+        'File ".../talker.py", line 15, in __init__', f"  {line}",
+        'File ".../talker.py", line 21, in tell', "  message.data = self.count",
+        "AttributeError: 'Talker' object has no attribute 'count'",
+    ]  # fmt: skip
+    assert ("the function itself: self.tell" in hint_for(log)) == named
+
+
+@pytest.mark.parametrize(
     ("text", "hint"),
     [
         ("if 1:\n        x = 1\n\ty = 2\n", "turn tabs into spaces"),

@@ -91,7 +91,7 @@ def test_evidence_keeps_what_json_has_no_number_for() -> None:
     [
         (120.0, 1.2, "in cm?"), (1200.0, 1.2, "in mm?"), (-1.2, 1.2, "wrong sign"),
         (90.0, math.pi / 2, "in degrees?"), (0.012, 1.2, "divided by 100"), (1.3, 1.2, ""),
-        ("NaN", 1.2, ""), (0.0, 0.0, ""),
+        ("NaN", 1.2, ""), (0.0, 0.0, ""), ("Infinity", 1.2, "compare the units"),
     ],
 )  # fmt: skip
 def test_what_a_wrong_number_looks_like(found: Any, wanted: float, words: str) -> None:

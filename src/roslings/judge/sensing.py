@@ -35,7 +35,8 @@ def hold_its_fields(topic: TopicView) -> None:
         for name, wanted in topic.contract.fields.items():
             found = field_of(content, name)
             if not same(found, wanted):
-                raise faults.WrongField(topic.name, name, shown(wanted), shown(found))
+                looks = remark(found, wanted)
+                raise faults.WrongField(topic.name, name, shown(wanted), shown(found) + looks)
 
 
 def carry_its_time(topic: TopicView) -> None:
@@ -254,7 +255,11 @@ LOOKS_LIKE = {
 def remark(found: Any, wanted: Any) -> str:
     """What the wrong number looks like."""
     goal, number = as_number(wanted), as_number(found)
-    if not goal or number is None or not math.isfinite(goal) or not math.isfinite(number):
+    if not goal or number is None or not math.isfinite(goal):
+        return ""
+    if math.isinf(number):
+        return ", as if it were out of range: compare the units, and the limits"
+    if math.isnan(number):
         return ""
     for factor, words in LOOKS_LIKE.items():
         if math.isclose(number / goal, factor, rel_tol=0.02):

@@ -1,7 +1,7 @@
 """Mistakes that Python and rclpy report in words which a beginner has not met before.
 
-Each is known by the line with which the program ended; the hint says what to change and where.
-The words are those of Python 3.10 to 3.14 and of Jazzy's rclpy.
+Each is known by the line with which the program ended, or by the student's line above it; the hint
+says what to change and where. The words are those of Python 3.10 to 3.14 and of Jazzy's rclpy.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ NOT_CALLED = (
 
 @dataclass(frozen=True)
 class Known:
-    """A last line, and what to say of it."""
+    """A line of the last ones, and what to say of it."""
 
     line: str
     """A pattern of `re`."""
@@ -71,6 +71,8 @@ KNOWN = (
     Known(r"No module named '(\w+)'", _misspelt_package),
     Known(r"TypeError: 'NoneType' object is not callable", lambda _: NOT_CALLED),
     Known(r"__init__\(\): callback should be either be callable", lambda _: NOT_CALLED),
+    Known(r"create_timer\([^,]+, *self\.\w+\(\)", lambda _: NOT_CALLED),
+    Known(r"create_(?:subscription|service)\([^,]+,[^,]+, *self\.\w+\(\)", lambda _: NOT_CALLED),
     Known(
         r"Trying to set parameter '(\w+)' to '.*' of type 'DOUBLE', expecting type 'INTEGER'",
         lambda found: (
