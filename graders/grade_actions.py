@@ -40,6 +40,7 @@ from roslings.judge.actions import (
     accept,
     accept_again,
     arrive,
+    cancel_each,
     cancel_in_time,
     end_so,
     hear_meanwhile,
@@ -94,6 +95,8 @@ IMPOSSIBLE = {
     "tolerance is infinite": ({"tolerance": math.inf}, "a robot is always so near"),
 }
 NODES = [SERVER.executable, CLIENT.executable]
+IN_A_ROW = [f"{n} in a row" for n in range(1, 11)]
+"""Goals that are cancelled at once, one after the other."""
 
 
 # --- experiments: the server, with a rover -----------------------------------------------------
@@ -154,6 +157,15 @@ def _give_alone(scene: Scene, part: str, x: float, y: float) -> None:
     with scene.run(SERVER) as process, robot_beside(scene, start, CMD_VEL, ODOM) as robot:
         director = Director(scene, process, SERVER, DRIVE_TO, robot)
         director.give_and_cancel(part, {"x": x, "y": y, "tolerance": 0.1})
+
+
+@experiment
+def hurried(scene: Scene) -> None:
+    """The server's goals are cancelled at once, again and again."""
+    start = start_near(scene, CENTRE["x"], CENTRE["y"], 3.2, 3.6)
+    with scene.run(SERVER) as process, robot_beside(scene, start, CMD_VEL, ODOM) as robot:
+        director = Director(scene, process, SERVER, DRIVE_TO, robot)
+        director.give_and_cancel_each(IN_A_ROW, CENTRE)
 
 
 @experiment
@@ -316,9 +328,10 @@ def test_stops(cancelling: ExperimentView) -> None:
 
 
 @check(needs=["cancel", "arrives"], explained_by={"next_goal": "StaysBusy"})
-def test_after_cancel(cancelling: ExperimentView) -> None:
-    """After a cancel it takes the next goal."""
+def test_after_cancel(cancelling: ExperimentView, hurried: ExperimentView) -> None:
+    """After a cancel it takes the next goal, and another one after each cancel."""
     cancelling.must(accept_again(SERVER, "after", "after a goal that was cancelled"))
+    hurried.must(cancel_each(SERVER, IN_A_ROW, "after goals that were cancelled"))
 
 
 @check(needs=["accepts"])

@@ -132,6 +132,16 @@ class Director:
             if given := self._give(giver, part, goal):
                 self._cancel(given)
 
+    def give_and_cancel_each(self, parts: Sequence[str], goal: Mapping[str, float]) -> None:
+        """The same goal for each part, one after the other, until one of them does not end."""
+        with self.giving() as giver:
+            for part in parts:
+                given = self._give(giver, part, goal)
+                if given is None:
+                    break
+                self._cancel(given)
+                self._silent = self._silent or not given.ended
+
     def disturb(
         self, part: str, goal: Mapping[str, float], other: Mapping[str, float], after_m: float
     ) -> None:

@@ -176,6 +176,20 @@ def accept_again(node: NodeContract, part: str, before: str) -> Demand[Experimen
     return demand
 
 
+def cancel_each(node: NodeContract, parts: Sequence[str], before: str) -> Demand[ExperimentView]:
+    """One after the other, the goals of these parts are accepted, and end as cancelled."""
+
+    def demand(experiment: ExperimentView) -> None:
+        for part in parts:
+            given = trip(experiment, node, part)
+            require_answer(experiment, given)
+            if not given.goal.accepted:
+                raise faults.StaysBusy(given.words, before)
+            _require_cancelled(experiment, given)
+
+    return demand
+
+
 def require_answer(experiment: ExperimentView, given: Trip) -> None:
     """Raises the fault that tells why a goal was not answered."""
     if given.goal.answered_ns is not None:
@@ -585,6 +599,8 @@ def show_each(node: NodeContract, texts: Sequence[str]) -> Demand[ExperimentView
                 when=f"when the feedback says {missing[0]}",
                 place="in the function that you give as feedback_callback",
             )  # fmt: skip
+        for line in lines.values():
+            insist_on_at_most(process, [line], 1)
 
     return demand
 
