@@ -48,6 +48,7 @@ from roslings.judge.cable import (
     stop_by_itself,
     tell_every_line,
     tell_nothing_else,
+    tell_the_motion,
     tell_the_speeds,
 )
 from roslings.judge.starting import declare_its_parameters
@@ -69,6 +70,10 @@ TOO_FAST = {"backward": (-2.0, 0.0), "round": (0.0, 12.0)}
 """Motions for which both wheels would have to turn faster than they can."""
 
 SILENCE_S = 30.0
+PULLED = {"came back": "the cable was pulled and put back"} | {
+    f"came back {n}": f"the cable was pulled and put back {n} times" for n in range(2, 6)
+}
+"""What is marked when the board came back, and after what."""
 
 
 def rover(**given: object) -> Body:
@@ -131,7 +136,7 @@ def silent(scene: Scene) -> None:
 
 @experiment
 def unplugged(scene: Scene) -> None:
-    """The board comes late, its cable is pulled, and comes back."""
+    """The board comes late, its cable is pulled, and comes back, again and again."""
     with (
         board_beside(scene, plugged_in=False) as cable,
         scene.run(BRIDGE, start=cable.start()),
@@ -141,11 +146,13 @@ def unplugged(scene: Scene) -> None:
         if not cable.await_return(WHEELS, 10):
             return
         cable.mark("came late")
-        cable.board.unplug()
-        cable.live(for_s=1.0)
-        cable.board.plug_in()
-        if cable.await_return(WHEELS, 10):
-            cable.mark("came back")
+        for part in PULLED:
+            cable.board.unplug()
+            cable.live(for_s=1.0)
+            cable.board.plug_in()
+            if not cable.await_return(WHEELS, 10):
+                return
+            cable.mark(part)
 
 
 @experiment
@@ -325,8 +332,10 @@ def test_turn(driving: ExperimentView) -> None:
 
 @check(needs=["straight", "turn"])
 def test_arc(driving: ExperimentView) -> None:
-    """An arc: {ODOM.topic} says where the rover is."""
-    driving.topic(ODOM).must(know_the_way(driving, "turn", "arc"))
+    """An arc: {ODOM.topic} says where the rover is, and how fast it moves."""
+    driving.topic(ODOM).must(
+        know_the_way(driving, "turn", "arc"), tell_the_motion(driving, "arc, driving", USUAL)
+    )
 
 
 # --- another rover -----------------------------------------------------------------------------
@@ -373,7 +382,7 @@ def test_reconnects(unplugged: ExperimentView) -> None:
         during("when the cable is pulled and comes back", stay_up),
     )
     unplugged.must(come_back("came late", "a start without a board", WHEELS))
-    unplugged.must(come_back("came back", "the cable was pulled and put back", WHEELS))
+    unplugged.must(*(come_back(part, after, WHEELS) for part, after in PULLED.items()))
 
 
 @check(needs=["cmd_topic", "checksums"], explained_by={"drives": "DoesNotDrive"})

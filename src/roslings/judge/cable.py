@@ -9,7 +9,7 @@ from typing import Any
 
 from roslings.course import TopicContract
 from roslings.devices.board import BadLine, Drive, Speeds, unframed
-from roslings.devices.rover import Body, Motion
+from roslings.devices.rover import Body, Motion, Wheels
 from roslings.evidence import BoardMark, BoardSeen, CableLine, MessageSeen, TopicSeen
 from roslings.experiment.cable import STANDS_WITHIN_S
 from roslings.judge import faults
@@ -27,6 +27,7 @@ MOST_LINES_WAITING = 150
 SPEED_EXACT_RAD_S = 0.002
 PLACE_WITHIN_M = 0.05
 HEADING_WITHIN_RAD = math.radians(4)
+MOTION_WITHIN_M_S, MOTION_WITHIN_RAD_S = 0.02, 0.1
 LAG_S = 0.25
 """What is told of a rover that does not stand comes a little after what it tells of."""
 FASTEST_M_S, FASTEST_RAD_S = 0.3, 1.2
@@ -140,6 +141,46 @@ def know_the_way(experiment: ExperimentView, before: str, after: str) -> Demand[
             raise fault
 
     return demand
+
+
+def tell_the_motion(experiment: ExperimentView, part: str, body: Body) -> Demand[TopicView]:
+    """At the mark `part`, the odometry's twist was the motion of the wheels that the board told."""
+
+    def demand(topic: TopicView) -> None:
+        mark = _mark(experiment, part)
+        before = [m for m in topic.messages if m.arrival_ns <= mark.arrival_ns and m.content]
+        really = _motions_at(experiment, mark, body)
+        if not before or not any(abs(each.forward_m_s) > MOTION_WITHIN_M_S for each in really):
+            raise faults.NothingToJudge("the wheels did not turn")
+        twist = before[-1].content["twist"]["twist"]
+        told = Motion(_number(twist["linear"]["x"]), _number(twist["angular"]["z"]))
+        if not any(_is_motion(told, each) for each in really):
+            require_steady(topic.experiment.stall_s)
+            raise cable_faults.WrongTwist(
+                topic.name, (really[-1].forward_m_s, really[-1].turn_rad_s),
+                (told.forward_m_s, told.turn_rad_s),
+            )  # fmt: skip
+
+    return demand
+
+
+def _motions_at(experiment: ExperimentView, mark: BoardMark, body: Body) -> list[Motion]:
+    """The motions of the lines that the board told a moment before a mark, in their order."""
+    begin_ns = mark.arrival_ns - LAG_S * 1e9
+    lines = [
+        line for line in _board(experiment).told
+        if begin_ns <= line.sent_ns <= mark.arrival_ns and line.text.startswith("$W,")
+    ]  # fmt: skip
+    found = (Speeds.read(unframed(line.text[1:].encode("latin-1"))) for line in lines)
+    return [
+        body.motion_of(Wheels(each.left_mrad_s / 1000, each.right_mrad_s / 1000)) for each in found
+    ]
+
+
+def _is_motion(told: Motion, really: Motion) -> bool:
+    off_m_s = abs(told.forward_m_s - really.forward_m_s)
+    off_rad_s = abs(told.turn_rad_s - really.turn_rad_s)
+    return off_m_s <= MOTION_WITHIN_M_S and off_rad_s <= MOTION_WITHIN_RAD_S
 
 
 @dataclass(frozen=True)

@@ -202,6 +202,36 @@ class WrongOdometry(Fault):
         )
 
 
+@dataclass(eq=False)
+class WrongTwist(Fault):
+    """The odometry says another speed than the wheels have."""
+
+    topic: str
+    really: tuple[float, float]
+    """Forward, in m/s, and turn, in rad/s."""
+    told: tuple[float, float]
+    why = "Who plans the way needs both: where the robot is, and how fast it moves there."
+    hint = (
+        "Forward = (left + right) / 2 x radius goes into twist.twist.linear.x, and"
+        " turn = (right - left) x radius / separation into twist.twist.angular.z."
+    )
+
+    @property
+    def expected(self) -> str:
+        """The motion of the wheels."""
+        return f"on the arc, the twist of {self.topic} says {_motion(self.really)}"
+
+    @property
+    def measured(self) -> str:
+        """What it says."""
+        return f"it says {_motion(self.told)}"
+
+
+def _motion(motion: tuple[float, float]) -> str:
+    forward, turn = (round(part, 2) + 0.0 for part in motion)
+    return f"{forward:.2f} m/s forward, {turn:.2f} rad/s"
+
+
 def _way(way: tuple[float, float, float]) -> str:
     ahead, left, turn = (round(part, 2) + 0.0 for part in way)
     side, way_round = ("right" if part < 0 else "left" for part in (left, turn))

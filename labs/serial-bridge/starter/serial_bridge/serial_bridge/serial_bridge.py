@@ -41,7 +41,8 @@ class SerialBridge(Node):
         # TODO 14: the seconds since the line before come from MS, the board's own
         #          clock. Fill the fields that the card names. A turn by an angle a
         #          about the upright axis is the quaternion z = sin(a/2),
-        #          w = cos(a/2).
+        #          w = cos(a/2). The twist of /odom has the motion: linear.x in m/s,
+        #          angular.z in rad/s.
 
     def take_command(self, twist):
         """Remember a command, if it is one that a robot can follow."""
