@@ -63,6 +63,7 @@ from roslings.judge.showing import (
     find_the_ball,
     follow_the_hue,
     survive,
+    tell_once,
 )
 from roslings.judge.starting import declare_its_parameters
 
@@ -74,7 +75,7 @@ BRIGHTNESS, HUE = CAMERA.parameter("brightness"), FINDER.parameter("ball_hue")
 NEUTRAL, LEVELS = CAMERA.constant("neutral_brightness"), CAMERA.constant("levels")
 SMALLEST, WITHIN = FINDER.constant("smallest_ball"), FINDER.constant("within")
 WINDOW = FINDER.constant("hue_window")
-BESIDE = 3
+BESIDE = 1
 """A colour that lies so many hues inside of the window is found, and one so far outside is not."""
 
 RETRIES_WITHIN_S = 2.0
@@ -88,6 +89,7 @@ FIRST_HUE, LAST_HUE = HUE.ends
 SMALL, LARGE, ODD = (160, 120), (640, 480), (147, 101)
 PARTS = ["ball", "none", "rgb8", "rows", "mono8"]
 PLAIN_PARTS = ["ball", "none"]
+SPOILED_PARTS = ["short", "empty", "flat", "unknown"]
 """Where a picture needs no conversion: what goes wrong in others is told by other checks."""
 
 WRONG_BRIGHTNESS, WRONG_HUE = (*BRIGHTNESS.beyond, "light"), (*HUE.beyond, "red")
@@ -136,9 +138,13 @@ def smallest(scene: Scene) -> Shot:
 
 
 def at_the_window(scene: Scene, hues: float) -> Shot:
-    """A picture with a ball whose colour is so far from the one that is looked for."""
-    shown = shot(scene)
-    return replace(shown, ball=replace(ball(scene, SMALL, GREEN), hue=round(GREEN + hues)))
+    """A picture with a ball whose colour is so far from the one that is looked for.
+
+    It has no noise: that would move the colours of its points.
+    """
+    shown, light = shot(scene), some_light(scene)
+    edge = replace(ball(scene, SMALL, GREEN), hue=round(GREEN + hues))
+    return replace(shown, light=replace(light, noise=0.0), ball=edge)
 
 
 def some_light(scene: Scene) -> Light:
@@ -251,6 +257,7 @@ def spoiled(scene: Scene) -> None:
         screen.show("before", with_decoy(scene, GREEN, RED))
         screen.show_spoiled("short", "bgr8", missing=160 * 3 * 20, words=BAD_PICTURE)
         screen.show_spoiled("empty", "bgr8", missing=0, words=BAD_PICTURE, width=0)
+        screen.show_spoiled("flat", "bgr8", missing=0, words=BAD_PICTURE, height=0)
         screen.show_spoiled("unknown", "16UC1", missing=0, words=BAD_PICTURE)
         screen.show("after", shot(scene, hue=GREEN))
 
@@ -434,12 +441,14 @@ def test_hue_at_start(spoiled: ExperimentView) -> None:
 
 @check(needs=["ball", "hue_at_start"])
 def test_bad_pictures(spoiled: ExperimentView) -> None:
-    """A picture with too few bytes is told in the log, and the node goes on."""
+    """A picture with too few bytes is told in the log, once, and the node goes on."""
     spoiled.must(
         survive(SCREEN, "short", "a picture with fewer bytes than its header says", must_say=True),
         answer_nothing(SCREEN, "short", "a picture with fewer bytes than its header says"),
         survive(SCREEN, "empty", "a picture without a single column", must_say=False),
+        survive(SCREEN, "flat", "a picture without a single row", must_say=False),
         survive(SCREEN, "unknown", "a picture in an unknown encoding (16UC1)", must_say=False),
+        tell_once(SCREEN, SPOILED_PARTS),
         find_the_ball(SCREEN, "after"),
     )
 

@@ -142,11 +142,17 @@ class Projector:
         return MOST_TRIES_OF_LARGE if len(frame.content) > LARGE_BYTES else MOST_TRIES
 
     def show_spoiled(
-        self, part: str, encoding: str, missing: int, words: str, width: int | None = None
+        self,
+        part: str,
+        encoding: str,
+        missing: int,
+        words: str,
+        width: int | None = None,
+        height: int | None = None,
     ) -> None:
         """Show a picture whose header promises `missing` bytes more than there are.
 
-        Or another `width` than it has.
+        Or another `width` or `height` than it has.
 
         It is shown until the node writes a line with `words`, or was shown often enough.
         """
@@ -155,6 +161,7 @@ class Projector:
         seen = self._write_down(part, shot, frame)
         seen.encoding, seen.bytes = encoding, len(frame.content) - missing
         seen.width = seen.width if width is None else width
+        seen.height = seen.height if height is None else height
         before = len(self._process.lines())
         for _ in range(FEWEST_TRIES):
             if not self._send(seen, frame.content[: seen.bytes]):

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 from roslings.course import NodeContract, TopicContract
-from roslings.evidence import DiscShown, MessageSeen, PictureShown, PixelsSeen
+from roslings.evidence import DiscShown, LogLine, MessageSeen, PictureShown, PixelsSeen
 from roslings.experiment.own_time import PATIENCE_S
 from roslings.judge.camera import pixels_of, require_set
 from roslings.judge.demands import most_similar, require_its_time, require_steady, written
 from roslings.judge.faults import Fault, Inconclusive, NothingToJudge
 from roslings.judge.faults import showing as faults
+from roslings.judge.faults.writing import LoggedAgain
 from roslings.judge.sensing import as_number, field_of
-from roslings.judge.views import Demand, ExperimentView
+from roslings.judge.views import Demand, ExperimentView, ProcessView
 from roslings.near import nearest_endpoint
 
 SURELY_COMES_BYTES = 62_000
@@ -414,6 +416,34 @@ def survive(screen: Screen, part: str, words: str, must_say: bool) -> Demand[Exp
             raise faults.SilentAboutPicture(words, line, most_similar(line, process.texts))
 
     return demand
+
+
+def tell_once(screen: Screen, parts: Sequence[str]) -> Demand[ExperimentView]:
+    """The card's line about a bad picture comes at most as often as the picture was shown.
+
+    A line may be printed, and logged besides.
+    """
+    line = written(screen.node.log, screen.node.node).partition("{text}")[0]
+
+    def demand(experiment: ExperimentView) -> None:
+        process = experiment.process(screen.node)
+        for shown in experiment.seen.shown:
+            if shown.part in parts:
+                lines = _lines_meanwhile(process, shown, line)
+                counts = Counter(each.plain != each.text for each in lines)
+                if max(counts.values(), default=0) > shown.tries:
+                    times = max(counts.values())
+                    raise LoggedAgain(process.seen.executable, lines[0].plain, times)
+
+    return demand
+
+
+def _lines_meanwhile(process: ProcessView, shown: PictureShown, begin: str) -> list[LogLine]:
+    """The lines that begin so and came while a picture was shown."""
+    return [
+        each for each in process.seen.lines
+        if each.plain.startswith(begin) and shown.sent_ns <= each.arrival_ns <= shown.until_ns
+    ]  # fmt: skip
 
 
 def answer_nothing(screen: Screen, part: str, words: str) -> Demand[ExperimentView]:
