@@ -143,16 +143,14 @@ def unplugged(scene: Scene) -> None:
     ):
         cable.live(for_s=0.5)
         cable.board.plug_in()
-        if not cable.await_return(WHEELS, 10):
+        if not cable.await_return("came late", WHEELS, 10):
             return
-        cable.mark("came late")
         for part in PULLED:
             cable.board.unplug()
             cable.live(for_s=1.0)
             cable.board.plug_in()
-            if not cable.await_return(WHEELS, 10):
+            if not cable.await_return(part, WHEELS, 10):
                 return
-            cable.mark(part)
 
 
 @experiment

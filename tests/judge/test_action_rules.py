@@ -276,6 +276,13 @@ def test_a_state_that_nobody_set_is_told_from_a_wrong_one() -> None:
         flight(goal(status="aborted"), lines=(line,)).must(result)
 
 
+def test_a_server_may_think_before_it_accepts() -> None:
+    """How long is not judged; the time of its result may begin before that, or after it."""
+    for elapsed_s in (1.0, 2.0):
+        result = {"reached": True, "elapsed": elapsed_s}
+        flight(goal(answered_ns=S, result=result)).must(succeed(NODE, "first"))
+
+
 @pytest.mark.parametrize(
     ("elapsed_s", "stall_s", "right"), [(1.8, 0.0, True), (1.5, 0.0, False), (1.5, 0.3, True)]
 )

@@ -17,7 +17,7 @@ from roslings.evidence import BoardMark, BoardSeen, CableLine, Endpoint, MotorsS
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
 from roslings.experiment.scene import Scene, hears, says
 from roslings.experiment.start import PLAIN, Start
-from roslings.experiment.timing import timing
+from roslings.experiment.timing import accounting, timing
 from roslings.near import nearest_endpoint
 
 SAY_EVERY_S = 0.05
@@ -163,8 +163,10 @@ class Cable:
             return False
         return self._scene.until(lambda: self._heard(topic) >= before + count, within_s)
 
-    def await_return(self, topic: TopicContract, count: int) -> bool:
+    def await_return(self, part: str, topic: TopicContract, count: int) -> bool:
         """The same after the board was away: a node may take long until it looks again.
+
+        What came is marked as `part`.
 
         Where it is silent beside a board that is there, it is not waited for.
         """
@@ -173,9 +175,12 @@ class Cable:
         def come() -> bool:
             return self._heard(topic) >= before + count
 
-        self._scene.until_own(
-            lambda: come() or self._scene.is_missed(says(topic)), COMES_BACK_WITHIN_S
-        )
+        with accounting(self._scene, part):
+            self._scene.until_own(
+                lambda: come() or self._scene.is_missed(says(topic)), COMES_BACK_WITHIN_S
+            )
+        if come():
+            self.mark(part)
         return come()
 
     def live(self, for_s: float) -> None:

@@ -12,6 +12,7 @@ from roslings.devices.board import BadLine, Drive, Speeds, unframed
 from roslings.devices.rover import Body, Motion, Wheels
 from roslings.evidence import BoardMark, BoardSeen, CableLine, MessageSeen, TopicSeen
 from roslings.experiment.cable import STANDS_WITHIN_S
+from roslings.experiment.own_time import PATIENCE_S
 from roslings.judge import faults
 from roslings.judge.demands import require_its_time, require_steady
 from roslings.judge.faults import cable as cable_faults
@@ -114,6 +115,8 @@ def come_back(part: str, after: str, topic: TopicContract) -> Demand[ExperimentV
 
     def demand(experiment: ExperimentView) -> None:
         if not any(mark.part == part for mark in _board(experiment).marks):
+            require_steady(experiment.seen.stall_s)
+            require_its_time(experiment.seen, part, PATIENCE_S, "the first message")
             raise cable_faults.SilentAfter(after, topic.topic)
 
     return demand

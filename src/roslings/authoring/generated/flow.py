@@ -13,7 +13,7 @@ BREAKS_IN_CALL = (1, 2, 3, 5, 7, 10)
 STOPS_IN_CALL = 3
 CALLED_ONCE = ("__init__", "main")
 NODE = "self()"
-SAME_TWICE = ("__init__", "try_shutdown", "spin", "spin_until_future_complete")
+SAME_TWICE = ("__init__", "close", "try_shutdown", "spin", "spin_until_future_complete")
 """Calls that end something, or wait until it ends: the second one finds it so."""
 SEEN_FROM_OUTSIDE = ("create_publisher", "create_subscription", "create_timer", "create_service")
 """What these make works on, though nobody has a name for it any more."""

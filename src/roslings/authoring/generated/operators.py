@@ -4,7 +4,8 @@ They were fixed before any run. After the first whole one, what does the same by
 out, by rules that know no lab: the depth of a queue, a text that no card names, statements moved
 past others that they do not touch, calls that end ROS or wait for an end. After the second: a line
 that writes what no card names, a number that no card names and that is changed a little, and what
-the starter has word for word.
+the starter has word for word. After the third: a second `close`, and the name of an encoding in
+other letters.
 """
 
 from __future__ import annotations

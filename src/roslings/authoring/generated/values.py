@@ -191,6 +191,18 @@ def name(node: cst.CSTNode, source: Source) -> Iterator[New]:
     if isinstance(node, cst.SimpleString) and NAME.fullmatch(node.raw_value):
         text = node.raw_value
         yield from (_said(node, each) for each in _misspelt(text))
+        if not _is_encoding(node, source):
+            yield _said(node, _in_other_case(text))
+
+
+def _is_encoding(node: cst.SimpleString, source: Source) -> bool:
+    """Python takes its name in small and large letters alike."""
+    arg = source.parent(node)
+    call = source.parent(arg) if isinstance(arg, cst.Arg) else None
+    match call:
+        case cst.Call(func=cst.Attribute(attr=cst.Name(value="encode" | "decode"))):
+            return True
+    return False
 
 
 def _misspelt(text: str) -> Iterator[str]:
@@ -199,7 +211,6 @@ def _misspelt(text: str) -> Iterator[str]:
     yield f"{text}s"
     yield f"{text}_"
     yield text[: middle - 1] + text[middle] + text[middle - 1] + text[middle + 1 :]
-    yield _in_other_case(text)
 
 
 def text(node: cst.CSTNode, source: Source) -> Iterator[New]:
