@@ -83,6 +83,11 @@ LINES: dict[str, tuple[str, str, list[str]]] = {
         "name", "a = 'chatter'",
         ["a = 'chatte'", "a = 'chatters'", "a = 'chatter_'", "a = 'chtater'", "a = 'Chatter'"],
     ),
+    "an encoding": (
+        "name", "a = b.decode('ascii')",
+        ["a = b.decode('asci')", "a = b.decode('asciis')", "a = b.decode('ascii_')",
+         "a = b.decode('acsii')"],
+    ),
     "no name": ("name", "a = 'Hello you'", []),
     "a text": (
         "text", "a = 'Hello you'",
@@ -98,7 +103,7 @@ LINES: dict[str, tuple[str, str, list[str]]] = {
     "documentation": ("drop", '"""It."""\nimport a\n', []),
     "what does something": ("double", "a = b()\nc()", ["a = b()\nc()\nc()"]),
     "what is there already": (
-        "double", "a.x = f(b)\nrclpy.spin(n)\nself.p = self.create_client(T, 'a')", [],
+        "double", "a.x = f(b)\na.close()\nrclpy.spin(n)\nself.p = self.create_client(T, 'a')", [],
     ),
     "what is seen from outside": (
         "double", "self.t = self.create_timer(1, f)",
