@@ -124,7 +124,22 @@ def test_each_rewrite_writes_what_it_says(name: str) -> None:
 
 def test_each_rewrite_is_shown() -> None:
     """Those of whole files below."""
-    assert set(REWRITES) - set(EXPECTED) == {"one file into three", "all files into one"}
+    below = {"one file into three", "all files into one", "other quotes in lines"}
+    assert set(REWRITES) - set(EXPECTED) == below
+
+
+@pytest.mark.parametrize(
+    ("line", "new"),
+    [
+        ("f\"I heard: '{text}'\"", "f'I heard: \"{text}\"'"),
+        ('f"I heard {text}"', "f'I heard {text}'"),
+        ("f\"I heard {each['text']}\"", "f\"I heard {each['text']}\""),
+    ],
+)
+def test_other_quotes_are_written(line: str, new: str) -> None:
+    """In what the program says, where that leaves it a program of Python 3.10."""
+    talker = TALKER.replace("short(message.data))", f"{line})")
+    assert f"info({new})" in changed("other quotes in lines", talker)
 
 
 def test_one_file_becomes_three() -> None:

@@ -43,6 +43,26 @@ class _DoubleQuotes(cst.CSTTransformer):
         return updated_node.with_changes(start='f"', end='"')
 
 
+def other_quotes_in_lines(sources: Sources) -> Sources:
+    """`f'I heard: "{x}"'` for `f"I heard: '{x}'"`: what is written has other quotes, too."""
+    return sources.mapped(lambda tree: tree.visit(_OtherQuotes()))
+
+
+class _OtherQuotes(cst.CSTTransformer):
+    def leave_FormattedString(  # noqa: N802
+        self, original_node: cst.FormattedString, updated_node: cst.FormattedString
+    ) -> cst.FormattedString:
+        texts = [part for part in updated_node.parts if isinstance(part, cst.FormattedStringText)]
+        inside = "".join(code_of(part) for part in updated_node.parts if part not in texts)
+        if original_node.start != 'f"' or re.search(r"['\"\\]", inside):
+            return updated_node
+        parts = [
+            part.with_changes(value=part.value.replace("'", '"')) if part in texts else part
+            for part in updated_node.parts
+        ]
+        return updated_node.with_changes(start="f'", parts=parts, end="'")
+
+
 # --- texts with values in them -----------------------------------------------------------------
 
 
