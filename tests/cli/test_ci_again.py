@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from costs import without_group
 
 from roslings.course import root
 
@@ -60,3 +61,18 @@ def test_what_is_wrong_alone_stays_wrong(tmp_path: Path, names: tuple[str, ...])
     """Also one that passes once, many at once, and a stage that broke without a failed test."""
     assert again(tmp_path, *names).returncode == 1
     assert "1 The tests" in (tmp_path / "stages").read_text()
+
+
+@pytest.mark.parametrize(
+    ("told", "name"),
+    [
+        ("tests/a.py::test_it@browser", "tests/a.py::test_it"),
+        ("tests/a.py::test_it[a]@browser", "tests/a.py::test_it[a]"),
+        ("tests/a.py::test_it[a@b]", "tests/a.py::test_it[a@b]"),
+        ("tests/a.py::test_it[a@b]@site", "tests/a.py::test_it[a@b]"),
+        ("tests/a.py::test_it", "tests/a.py::test_it"),
+    ],
+)
+def test_a_test_is_asked_for_by_its_own_name(told: str, name: str) -> None:
+    """A group is no part of it: pytest would not find it."""
+    assert without_group(told) == name
