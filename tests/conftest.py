@@ -8,10 +8,11 @@ import time
 from pathlib import Path
 
 import pytest
+from browser import browser
 from costs import Costs
 from once import shared_folder
 
-__all__ = ["shared_folder"]
+__all__ = ["browser", "shared_folder"]
 
 LONGEST = ("forgers", "labs", "cli", "batch", "bootstrap", "devices")
 """Folders with long tests: what is begun last ought to be short."""

@@ -1,6 +1,6 @@
 """What each test cost, and what came of it: seconds by the clock, and seconds of a processor.
 
-`--costs FILE` adds one line of JSON a test to FILE. `.ci/tell` reads it.
+`--costs FILE` adds one line of JSON a test to FILE. `.ci/summary.py` and `.ci/again.py` read it.
 """
 
 from __future__ import annotations
@@ -32,6 +32,12 @@ def cpu_s() -> float:
     return sum(each.ru_utime + each.ru_stime for each in used)
 
 
+def without_group(name: str) -> str:
+    """A test's own name: pytest-xdist writes `@GROUP` behind that of one that is grouped."""
+    own, _, group = name.rpartition("@")
+    return name if "]" in group or not own else own
+
+
 class Costs:
     """Adds up what the phases of each test cost."""
 
@@ -56,8 +62,8 @@ class Costs:
         return report
 
     def pytest_runtest_logreport(self, report: Any) -> None:
-        """In the process that prints. A test that is grouped has `@GROUP` behind its name."""
-        name = report.nodeid.rpartition("]@")[0] + "]" if "]@" in report.nodeid else report.nodeid
+        """In the process that prints."""
+        name = without_group(report.nodeid)
         cost = self._costs.setdefault(name, Cost(name))
         cost.wall_s += report.duration
         cost.cpu_s += getattr(report, "cpu_s", 0.0)

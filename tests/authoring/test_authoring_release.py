@@ -102,6 +102,16 @@ def test_the_first_command_works_without_a_solution(edition: Path, tmp_path: Pat
     assert "students' edition" in done.stderr
 
 
+def test_its_tests_find_all_that_they_import(edition: Path) -> None:
+    """Nothing that a test of the edition imports is left out: they can be collected."""
+    words = [sys.executable, "-m", "pytest", "--collect-only", "-q", "-p", "no:cacheprovider"]
+    environment = {**os.environ, "PYTHONPATH": str(edition / "src")}
+    done = subprocess.run(
+        words, cwd=edition, env=environment, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
 @pytest.mark.slow
 def test_both_commands_work_as_they_stand(edition: Path, tmp_path: Path) -> None:
     """As a student types them: the first one makes the environment."""

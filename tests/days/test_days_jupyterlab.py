@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
-from jupyterlab import CHROMIUM, Lab, served
+from browser import CHROMIUM
+from jupyterlab import Lab, served
 from lesson_runs import lessons, names, surroundings
 from tiny_course import CELLS, DAY, Cell, with_cell, write_course
 
@@ -34,19 +33,6 @@ class Lamp(Node):
 with session() as ros:
     ros.start(Lamp)
     show_graph()"""
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    """A headless Chromium."""
-    from playwright.sync_api import sync_playwright
-
-    with sync_playwright() as play:
-        opened = play.chromium.launch(
-            executable_path=CHROMIUM, args=["--no-sandbox"] if os.geteuid() == 0 else []
-        )
-        yield opened
-        opened.close()
 
 
 def tiny_and_live() -> tuple[Cell, ...]:

@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-import shutil
-from collections.abc import Iterator
 from typing import Any
-
-import pytest
 
 from roslings.devices.rover.body import Body, Pose
 from roslings.devices.rover.moving_map import moving_map
@@ -14,23 +10,9 @@ from roslings.devices.rover.rover import Moment
 from roslings.devices.rover.world import default_world
 from roslings.notebook.picture import Picture
 
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 ALIKE = 10
 TRIES = 5
 """A busy computer may look for the first time when the drive is over."""
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    """Chromium, as Debian packages it."""
-    if not CHROMIUM:
-        pytest.skip("no Chromium here; next: sudo apt install chromium")
-    from playwright.sync_api import sync_playwright
-
-    with sync_playwright() as driver:
-        chromium = driver.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
-        yield chromium
-        chromium.close()
 
 
 def drive() -> Picture:

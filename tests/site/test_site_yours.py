@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 import sys
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
@@ -40,10 +41,11 @@ def workspace(tmp_path: Path) -> Path:
 
 def day_3(browser: Any, html: Path) -> str:
     """What the path says of day 3."""
-    visit = Visit(browser.new_context(), html.as_uri())
-    state = visit.go("index.html").locator(f"[data-day='{DAY}'] .path-state").inner_text()
-    assert visit.errors == []
-    return str(state)
+    with closing(browser.new_context()) as context:
+        visit = Visit(context, html.as_uri())
+        state = visit.go("index.html").locator(f"[data-day='{DAY}'] .path-state").inner_text()
+        assert visit.errors == []
+        return str(state)
 
 
 def test_the_path_shows_scores_and_drills(
@@ -55,12 +57,13 @@ def test_the_path_shows_scores_and_drills(
     assert day_3(browser, html) == ""
     tell(html, workspace)
     assert day_3(browser, html) == "3 of 10 drills · Lab 74 of 100"
-    visit = Visit(browser.new_context(), html.as_uri())
-    page = visit.go("index.html")
-    assert page.evaluate("roslings.missing({id: 'x', questions: [], labs: ['topics']}).labs.length")
-    page.evaluate("roslings.passLab('topics', 100)")
-    told = page.locator(f"[data-day='{DAY}'] .path-state").inner_text()
-    assert told == "3 of 10 drills · Lab 100 of 100"
+    with closing(browser.new_context()) as context:
+        page = Visit(context, html.as_uri()).go("index.html")
+        missing = "roslings.missing({id: 'x', questions: [], labs: ['topics']}).labs.length"
+        assert page.evaluate(missing)
+        page.evaluate("roslings.passLab('topics', 100)")
+        told = page.locator(f"[data-day='{DAY}'] .path-state").inner_text()
+        assert told == "3 of 10 drills · Lab 100 of 100"
 
 
 def test_who_has_done_nothing_sees_nothing(browser: Any, site: Path, tmp_path: Path) -> None:
