@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import binascii
+
 import pytest
 
 from roslings.course import TopicContract
@@ -25,7 +27,9 @@ from roslings.judge.cable import (
     open_its_port,
     set_its_speed,
     tell_every_line,
+    tell_the_motion,
 )
+from roslings.judge.faults import Inconclusive
 from roslings.judge.faults.cable import (
     DeafAfterNonsense,
     FollowedNonsense,
@@ -36,6 +40,7 @@ from roslings.judge.faults.cable import (
     WrongDrive,
     WrongOdometry,
     WrongSpeedOfPort,
+    WrongTwist,
 )
 from roslings.judge.views import TopicView
 
@@ -154,3 +159,53 @@ def test_a_port_is_open_where_anything_shows_it() -> None:
     for speed in (115200, None):
         with pytest.raises(WrongSpeedOfPort):
             set_its_speed("baud", 9600)(seen(BoardSeen(host_bits_s=speed)))
+
+
+# --- how fast it moves -------------------------------------------------------------------------
+
+WHEELS = (4800, 9500)  # mrad/s: 0.25 m/s forward, and a turn to the left of about 1 rad/s
+
+
+def say_the_motion(
+    forward_m_s: float, turn_rad_s: float, wheels: tuple[int, int] = WHEELS, stall_s: float = 0.0
+) -> None:
+    """The board tells the same wheels again and again; the node's last message has this twist."""
+    body = f"W,1,2,{wheels[0]},{wheels[1]}"
+    text = f"${body}*{binascii.crc_hqx(body.encode(), 0):04X}"
+    told = [CableLine(board_s=0.0, sent_ns=n * EVERY_MS * MS, text=text) for n in range(20)]
+    twist = {"linear": {"x": forward_m_s}, "angular": {"z": turn_rad_s}}
+    message = MessageSeen(
+        source_ns=None, sequence=1, arrival_ns=390 * MS, size=1, content={"twist": {"twist": twist}}
+    )
+    mark = BoardMark(
+        part="arc", arrival_ns=400 * MS, board_s=0.4, x_m=0.0, y_m=0.0, heading_rad=0.0,
+        left_pwm=0, right_pwm=0,
+    )  # fmt: skip
+    board = BoardSeen(told=told, marks=[mark])
+    seen = ExperimentSeen(name="x", clock="wall", board=board, stall_s=stall_s)
+    topic = TopicSeen(name="/odom", type=TOPIC.type, messages=[message])
+    view = TopicView(TOPIC, "/odom", TOPIC.type, topic, seen)
+    tell_the_motion(ExperimentView(seen), "arc", Body())(view)
+
+
+def test_a_twist_is_the_motion_of_the_wheels() -> None:
+    """Forward and turn, each as good as the wheels' speeds are."""
+    say_the_motion(0.25, 1.03)
+    for twist in ((0.0, 0.0), (0.25, 59.0), (0.5, 1.03), (0.25, -1.03)):
+        with pytest.raises(WrongTwist):
+            say_the_motion(*twist)
+
+
+def test_wheels_that_stand_tell_nothing() -> None:
+    """Where this computer stood still meanwhile, that is why."""
+    with pytest.raises(NothingToJudge):
+        say_the_motion(0.0, 0.0, wheels=(0, 0))
+    with pytest.raises(Inconclusive):
+        say_the_motion(0.0, 0.0, wheels=(0, 0), stall_s=5.0)
+
+
+def test_what_was_not_done_on_a_busy_computer_is_no_skipped_check() -> None:
+    """A skipped check costs its points."""
+    seen = ExperimentSeen(name="x", clock="wall", board=BoardSeen(), stall_s=5.0)
+    with pytest.raises(Inconclusive):
+        ExperimentView(seen).must(come_so_far("nonsense"))

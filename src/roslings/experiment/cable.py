@@ -166,9 +166,8 @@ class Cable:
     def await_return(self, part: str, topic: TopicContract, count: int) -> bool:
         """The same after the board was away: a node may take long until it looks again.
 
-        What came is marked as `part`.
-
-        Where it is silent beside a board that is there, it is not waited for.
+        What came is marked as `part`. Where it is silent beside a board that is there, it is not
+        waited for.
         """
         before = self._heard(topic)
 
@@ -176,12 +175,10 @@ class Cable:
             return self._heard(topic) >= before + count
 
         with accounting(self._scene, part):
-            self._scene.until_own(
-                lambda: come() or self._scene.is_missed(says(topic)), COMES_BACK_WITHIN_S
-            )
-        if come():
+            came = self._scene.until_back(come, says(topic), COMES_BACK_WITHIN_S)
+        if came:
             self.mark(part)
-        return come()
+        return came
 
     def live(self, for_s: float) -> None:
         """Let so much of the board's time pass."""

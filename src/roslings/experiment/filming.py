@@ -117,10 +117,8 @@ class Filming:
         def come() -> bool:
             return self._came_after(began_ns) >= count
 
-        missed = functools.partial(self._scene.is_missed, says(self._shows))
         with accounting(self._scene, self._part):
-            self._scene.until_own(lambda: come() or missed(), COMES_WITHIN_S)
-        return come()
+            return self._scene.until_back(come, says(self._shows), COMES_WITHIN_S)
 
     def refuse(self, number: int) -> None:
         """From now on, opening the camera answers with this error; 0 for none."""

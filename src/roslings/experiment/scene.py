@@ -40,6 +40,9 @@ INTERRUPT_SLACK_S = 1.0
 SPINS_WITHIN_S = 3.0
 MOST_MISSED = 2
 RESTS_WITHIN_S = 1.0
+BELIEVES_AFTER_S = 3.0
+"""Of a node's own time: then what another experiment has missed is not waited for here either."""
+
 LOOKS_AT_REST = 3
 LOOK_AGAIN_S = 0.005
 FIRST_PERIODS = 3
@@ -330,6 +333,19 @@ class Scene:
         """As `until`; what the processes wait for a processor comes on top, to a bound."""
         own = OwnTime(self._arena)
         self.until(lambda: condition() or own.is_past(within_s), within_s + LONGEST_WAIT_S)
+        return condition()
+
+    def until_back(self, condition: Callable[[], bool], what: str, within_s: float) -> bool:
+        """As `until_own`, for what was away: not for long where others have missed `what`, too.
+
+        For a while even then: on a busy computer another experiment may have given up too early.
+        """
+        own = OwnTime(self._arena)
+
+        def given_up() -> bool:
+            return self.is_missed(what) and own.is_past(BELIEVES_AFTER_S)
+
+        self.until_own(lambda: condition() or given_up(), within_s)
         return condition()
 
     def _until_alive(self, condition: Callable[[], bool], within_s: float) -> bool:

@@ -29,6 +29,9 @@ SPEED_EXACT_RAD_S = 0.002
 PLACE_WITHIN_M = 0.05
 HEADING_WITHIN_RAD = math.radians(4)
 MOTION_WITHIN_M_S, MOTION_WITHIN_RAD_S = 0.02, 0.1
+LINES_OF_NOW = 12
+"""A message may tell of a line that is so many behind the last one: a quarter of a second."""
+
 LAG_S = 0.25
 """What is told of a rover that does not stand comes a little after what it tells of."""
 FASTEST_M_S, FASTEST_RAD_S = 0.3, 1.2
@@ -154,6 +157,7 @@ def tell_the_motion(experiment: ExperimentView, part: str, body: Body) -> Demand
         before = [m for m in topic.messages if m.arrival_ns <= mark.arrival_ns and m.content]
         really = _motions_at(experiment, mark, body)
         if not before or not any(abs(each.forward_m_s) > MOTION_WITHIN_M_S for each in really):
+            _require_its_command(experiment, part)
             raise faults.NothingToJudge("the wheels did not turn")
         twist = before[-1].content["twist"]["twist"]
         told = Motion(_number(twist["linear"]["x"]), _number(twist["angular"]["z"]))
@@ -168,12 +172,11 @@ def tell_the_motion(experiment: ExperimentView, part: str, body: Body) -> Demand
 
 
 def _motions_at(experiment: ExperimentView, mark: BoardMark, body: Body) -> list[Motion]:
-    """The motions of the lines that the board told a moment before a mark, in their order."""
-    begin_ns = mark.arrival_ns - LAG_S * 1e9
+    """The motions of the last lines that the board told before a mark, in their order."""
     lines = [
         line for line in _board(experiment).told
-        if begin_ns <= line.sent_ns <= mark.arrival_ns and line.text.startswith("$W,")
-    ]  # fmt: skip
+        if line.sent_ns <= mark.arrival_ns and line.text.startswith("$W,")
+    ][-LINES_OF_NOW:]  # fmt: skip
     found = (Speeds.read(unframed(line.text[1:].encode("latin-1"))) for line in lines)
     return [
         body.motion_of(Wheels(each.left_mrad_s / 1000, each.right_mrad_s / 1000)) for each in found
@@ -470,6 +473,7 @@ def _mark(experiment: ExperimentView, part: str) -> BoardMark:
     for mark in _board(experiment).marks:
         if mark.part == part:
             return mark
+    require_steady(experiment.seen.stall_s)
     raise faults.NothingToJudge("the experiment did not come so far")
 
 

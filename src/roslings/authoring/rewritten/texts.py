@@ -52,15 +52,21 @@ class _OtherQuotes(cst.CSTTransformer):
     def leave_FormattedString(  # noqa: N802
         self, original_node: cst.FormattedString, updated_node: cst.FormattedString
     ) -> cst.FormattedString:
-        texts = [part for part in updated_node.parts if isinstance(part, cst.FormattedStringText)]
-        inside = "".join(code_of(part) for part in updated_node.parts if part not in texts)
-        if original_node.start != 'f"' or re.search(r"['\"\\]", inside):
+        if original_node.start != 'f"' or not all(map(_takes_other_quotes, updated_node.parts)):
             return updated_node
-        parts = [
-            part.with_changes(value=part.value.replace("'", '"')) if part in texts else part
-            for part in updated_node.parts
-        ]
+        parts = [_with_other_quotes(part) for part in updated_node.parts]
         return updated_node.with_changes(start="f'", parts=parts, end="'")
+
+
+def _takes_other_quotes(part: cst.BaseFormattedStringContent) -> bool:
+    """Before Python 3.12, a value between the braces has none of the text's own quotes."""
+    return isinstance(part, cst.FormattedStringText) or not re.search(r"['\"\\]", code_of(part))
+
+
+def _with_other_quotes(part: cst.BaseFormattedStringContent) -> cst.BaseFormattedStringContent:
+    if isinstance(part, cst.FormattedStringText):
+        return part.with_changes(value=part.value.replace("'", '"'))
+    return part
 
 
 # --- texts with values in them -----------------------------------------------------------------
