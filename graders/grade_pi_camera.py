@@ -89,8 +89,9 @@ FIRST_HUE, LAST_HUE = HUE.ends
 SMALL, LARGE, ODD = (160, 120), (640, 480), (147, 101)
 PARTS = ["ball", "none", "rgb8", "rows", "mono8"]
 PLAIN_PARTS = ["ball", "none"]
-SPOILED_PARTS = ["short", "empty", "flat", "unknown"]
 """Where a picture needs no conversion: what goes wrong in others is told by other checks."""
+
+SPOILED_PARTS = ["short", "empty", "flat", "unknown"]
 
 WRONG_BRIGHTNESS, WRONG_HUE = (*BRIGHTNESS.beyond, "light"), (*HUE.beyond, "red")
 BAD_PICTURE = str(FINDER.log).partition("{")[0]

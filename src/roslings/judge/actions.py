@@ -167,11 +167,7 @@ def accept_again(node: NodeContract, part: str, before: str) -> Demand[Experimen
     """After an earlier goal has ended, the next one is accepted, and reached."""
 
     def demand(experiment: ExperimentView) -> None:
-        given = trip(experiment, node, part)
-        require_answer(experiment, given)
-        if not given.goal.accepted:
-            raise faults.StaysBusy(given.words, before)
-        _arrive(experiment, given)
+        _arrive(experiment, _accepted_again(experiment, node, part, before))
 
     return demand
 
@@ -181,13 +177,18 @@ def cancel_each(node: NodeContract, parts: Sequence[str], before: str) -> Demand
 
     def demand(experiment: ExperimentView) -> None:
         for part in parts:
-            given = trip(experiment, node, part)
-            require_answer(experiment, given)
-            if not given.goal.accepted:
-                raise faults.StaysBusy(given.words, before)
-            _require_cancelled(experiment, given)
+            _require_cancelled(experiment, _accepted_again(experiment, node, part, before))
 
     return demand
+
+
+def _accepted_again(experiment: ExperimentView, node: NodeContract, part: str, before: str) -> Trip:
+    """The goal of this part. Raises the fault that tells why it was not accepted."""
+    given = trip(experiment, node, part)
+    require_answer(experiment, given)
+    if not given.goal.accepted:
+        raise faults.StaysBusy(given.words, before)
+    return given
 
 
 def require_answer(experiment: ExperimentView, given: Trip) -> None:

@@ -173,11 +173,8 @@ def tell_the_motion(experiment: ExperimentView, part: str, body: Body) -> Demand
 
 def _motions_at(experiment: ExperimentView, mark: BoardMark, body: Body) -> list[Motion]:
     """The motions of the last lines that the board told before a mark, in their order."""
-    lines = [
-        line for line in _board(experiment).told
-        if line.sent_ns <= mark.arrival_ns and line.text.startswith("$W,")
-    ][-LINES_OF_NOW:]  # fmt: skip
-    found = (Speeds.read(unframed(line.text[1:].encode("latin-1"))) for line in lines)
+    lines = [line for line in _speed_lines(_board(experiment)) if line.sent_ns <= mark.arrival_ns]
+    found = map(_speeds_of, lines[-LINES_OF_NOW:])
     return [
         body.motion_of(Wheels(each.left_mrad_s / 1000, each.right_mrad_s / 1000)) for each in found
     ]
@@ -508,12 +505,17 @@ def _runs(drive: Drive) -> bool:
 
 def _told(board: BoardSeen) -> set[tuple[int, int]]:
     """The pairs of wheel speeds that the board told, in mrad/s."""
-    found = set()
-    for line in board.told:
-        if line.text.startswith("$W,"):
-            speeds = Speeds.read(unframed(line.text[1:].encode("latin-1")))
-            found.add((speeds.left_mrad_s, speeds.right_mrad_s))
-    return found
+    found = map(_speeds_of, _speed_lines(board))
+    return {(each.left_mrad_s, each.right_mrad_s) for each in found}
+
+
+def _speed_lines(board: BoardSeen) -> list[CableLine]:
+    """What the board told of its wheels' speeds."""
+    return [line for line in board.told if line.text.startswith("$W,")]
+
+
+def _speeds_of(line: CableLine) -> Speeds:
+    return Speeds.read(unframed(line.text[1:].encode("latin-1")))
 
 
 def _is_among(left: float, right: float, told: set[tuple[int, int]]) -> bool:
@@ -568,7 +570,7 @@ def _lines_before_and_between(
     """How many lines of speeds the board told before the first of these messages, and until now."""
     arrivals = [m.arrival_ns for m in messages]
     begin, end = min(arrivals), max(arrivals)
-    told = [line.sent_ns for line in _board(experiment).told if line.text.startswith("$W,")]
+    told = [line.sent_ns for line in _speed_lines(_board(experiment))]
     return sum(at < begin for at in told), sum(begin <= at <= end for at in told)
 
 
