@@ -6,9 +6,7 @@ student's nodes, beside a rover of the grader's own; checks read what was seen a
 
 import math
 
-from roslings.course import lab
-from roslings.experiment import Scene, experiment
-from roslings.experiment.acting import (
+from roslings.capabilities.actions.act import (
     Director,
     await_action,
     await_client,
@@ -16,27 +14,7 @@ from roslings.experiment.acting import (
     taking,
     timed_feedback,
 )
-from roslings.experiment.driving import robot_beside, start_near
-from roslings.experiment.start import Start
-from roslings.judge import (
-    ExperimentView,
-    PackageView,
-    be_built_as,
-    be_named,
-    be_the_only_one,
-    be_there,
-    be_well_formed,
-    carry_its_type,
-    check,
-    come_up,
-    end_within,
-    exit_cleanly,
-    install,
-    list_what_it_imports,
-    match_qos,
-    outlast_the_soak,
-)
-from roslings.judge.actions import (
+from roslings.capabilities.actions.demands import (
     accept,
     accept_again,
     arrive,
@@ -57,8 +35,30 @@ from roslings.judge.actions import (
     tell_the_truth,
     trip,
 )
+from roslings.capabilities.robot.act import robot_beside, start_near
+from roslings.capabilities.services.demands import give_up
+from roslings.course import lab
+from roslings.experiment import Scene, experiment
+from roslings.experiment.start import Start
+from roslings.judge import (
+    ExperimentView,
+    PackageView,
+    be_built_as,
+    be_named,
+    be_the_only_one,
+    be_there,
+    be_well_formed,
+    carry_its_type,
+    check,
+    come_up,
+    end_within,
+    exit_cleanly,
+    install,
+    list_what_it_imports,
+    match_qos,
+    outlast_the_soak,
+)
 from roslings.judge.demands import written
-from roslings.judge.services import give_up
 
 CARD = lab("actions").card
 SERVER, CLIENT = CARD.node("drive_server"), CARD.node("drive_client")

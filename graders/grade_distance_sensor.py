@@ -7,10 +7,21 @@ student's nodes, let echoes come back from obstacles, and watch; checks read wha
 import math
 from typing import Any
 
+from roslings.capabilities.launch.act import launched
+from roslings.capabilities.launch.demands import start_all
+from roslings.capabilities.topics.act import Teller
+from roslings.capabilities.topics.demands import have_rate
+from roslings.capabilities.topics.relay import (
+    Shown,
+    answer_each_once,
+    carry_its_time,
+    hold_its_fields,
+    show,
+    show_at_first,
+    write_each,
+)
 from roslings.course import lab
 from roslings.experiment import Scene, experiment
-from roslings.experiment.launching import launched
-from roslings.experiment.telling import Teller
 from roslings.judge import (
     ExperimentView,
     PackageView,
@@ -24,7 +35,6 @@ from roslings.judge import (
     come_up,
     end_within,
     exit_cleanly,
-    have_rate,
     install,
     list_what_it_imports,
     match_qos,
@@ -32,16 +42,6 @@ from roslings.judge import (
     stay_up,
 )
 from roslings.judge.demands import written
-from roslings.judge.launching import start_all
-from roslings.judge.sensing import (
-    Shown,
-    answer_each_once,
-    carry_its_time,
-    hold_its_fields,
-    show,
-    show_at_first,
-    write_each,
-)
 
 CARD = lab("distance-sensor").card
 SENSOR, SUBSCRIBER = CARD.node("distance_sensor"), CARD.node("distance_subscriber")

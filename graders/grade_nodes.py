@@ -4,10 +4,17 @@ The numbers, names, texts and points stand in labs/nodes/card.yaml. Experiments 
 student's node and watch; checks read what was seen and run nothing.
 """
 
+from roslings.capabilities.parameters.act import await_publishers, list_parameters
+from roslings.capabilities.parameters.demands import (
+    carry_topic_along,
+    follow_its_parameter,
+    has_parameter,
+    take_names,
+)
+from roslings.capabilities.topics.demands import count_up, have_rate, say_its_text
 from roslings.course import lab
 from roslings.experiment import Run, Scene, experiment
 from roslings.experiment.start import Start
-from roslings.experiment.starting import await_publishers, list_parameters
 from roslings.judge import (
     ExperimentView,
     PackageView,
@@ -19,23 +26,14 @@ from roslings.judge import (
     carry_its_type,
     check,
     come_up,
-    count_up,
     end_within,
     exit_cleanly,
-    have_rate,
     install,
     list_what_it_imports,
     log_each,
     match_qos,
     outlast_the_soak,
-    say_its_text,
     stay_up,
-)
-from roslings.judge.starting import (
-    carry_topic_along,
-    follow_its_parameter,
-    has_parameter,
-    take_names,
 )
 
 CARD = lab("nodes").card

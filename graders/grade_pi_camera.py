@@ -6,36 +6,8 @@ nodes beside a camera, or show them pictures, and watch; checks read what was se
 
 from dataclasses import replace
 
-from roslings.course import lab
-from roslings.devices.camera import Encoding, Light
-from roslings.devices.rover import Disc
-from roslings.experiment import Scene, experiment
-from roslings.experiment.filming import PICTURES, camera_beside, change_parameter
-from roslings.experiment.showing import Projector, Shot, place_ball
-from roslings.experiment.start import Start
-from roslings.experiment.starting import list_parameters
-from roslings.judge import (
-    ExperimentView,
-    PackageView,
-    be_built_as,
-    be_named,
-    be_the_only_one,
-    be_there,
-    be_well_formed,
-    carry_its_type,
-    check,
-    come_up,
-    during,
-    end_within,
-    exit_cleanly,
-    have_rate,
-    install,
-    list_what_it_imports,
-    match_qos,
-    outlast_the_soak,
-    stay_up,
-)
-from roslings.judge.camera import (
+from roslings.capabilities.camera.act import PICTURES, camera_beside, change_parameter
+from roslings.capabilities.camera.demands import (
     BUSY,
     FORBIDDEN,
     GONE,
@@ -50,8 +22,7 @@ from roslings.judge.camera import (
     show_what_the_camera_saw,
     tell_of_trouble,
 )
-from roslings.judge.sensing import carry_its_time, hold_its_fields
-from roslings.judge.showing import (
+from roslings.capabilities.camera.detection import (
     Screen,
     answer_nothing,
     answer_once,
@@ -65,7 +36,36 @@ from roslings.judge.showing import (
     survive,
     tell_once,
 )
-from roslings.judge.starting import declare_its_parameters
+from roslings.capabilities.camera.projector import Projector, Shot, place_ball
+from roslings.capabilities.parameters.act import list_parameters
+from roslings.capabilities.parameters.demands import declare_its_parameters
+from roslings.capabilities.topics.demands import have_rate
+from roslings.capabilities.topics.relay import carry_its_time, hold_its_fields
+from roslings.course import lab
+from roslings.devices.camera import Encoding, Light
+from roslings.devices.rover import Disc
+from roslings.experiment import Scene, experiment
+from roslings.experiment.start import Start
+from roslings.judge import (
+    ExperimentView,
+    PackageView,
+    be_built_as,
+    be_named,
+    be_the_only_one,
+    be_there,
+    be_well_formed,
+    carry_its_type,
+    check,
+    come_up,
+    during,
+    end_within,
+    exit_cleanly,
+    install,
+    list_what_it_imports,
+    match_qos,
+    outlast_the_soak,
+    stay_up,
+)
 
 CARD = lab("pi-camera").card
 CAMERA, FINDER = CARD.node("camera"), CARD.node("ball_finder")

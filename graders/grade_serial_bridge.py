@@ -4,32 +4,10 @@ The numbers, names and points stand in labs/serial-bridge/card.yaml. Experiments
 node beside a board and watch both; checks read what was seen and run nothing.
 """
 
-from roslings.course import lab
-from roslings.devices.rover import Body
-from roslings.experiment import Scene, experiment
-from roslings.experiment.cable import board_beside, unasked
-from roslings.experiment.starting import list_parameters
-from roslings.judge import (
-    ExperimentView,
-    PackageView,
-    be_built_as,
-    be_named,
-    be_the_only_one,
-    be_there,
-    be_well_formed,
-    carry_its_type,
-    check,
-    come_up,
-    during,
-    end_within,
-    exit_cleanly,
-    install,
-    list_what_it_imports,
-    match_qos,
-    outlast_the_soak,
-    stay_up,
-)
-from roslings.judge.cable import (
+from roslings.capabilities.parameters.act import list_parameters
+from roslings.capabilities.parameters.demands import declare_its_parameters
+from roslings.capabilities.serial.act import board_beside, unasked
+from roslings.capabilities.serial.demands import (
     come_back,
     come_so_far,
     drive_again,
@@ -51,7 +29,29 @@ from roslings.judge.cable import (
     tell_the_motion,
     tell_the_speeds,
 )
-from roslings.judge.starting import declare_its_parameters
+from roslings.course import lab
+from roslings.devices.rover import Body
+from roslings.experiment import Scene, experiment
+from roslings.judge import (
+    ExperimentView,
+    PackageView,
+    be_built_as,
+    be_named,
+    be_the_only_one,
+    be_there,
+    be_well_formed,
+    carry_its_type,
+    check,
+    come_up,
+    during,
+    end_within,
+    exit_cleanly,
+    install,
+    list_what_it_imports,
+    match_qos,
+    outlast_the_soak,
+    stay_up,
+)
 
 CARD = lab("serial-bridge").card
 BRIDGE = CARD.node("serial_bridge")

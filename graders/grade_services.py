@@ -4,29 +4,8 @@ The names, texts, times and points stand in labs/services/card.yaml. Experiments
 student's nodes and watch; checks read what was seen and run nothing.
 """
 
-from roslings.course import lab
-from roslings.experiment import Scene, experiment
-from roslings.experiment.asking import Asker, answering, await_end
-from roslings.judge import (
-    ExperimentView,
-    PackageView,
-    be_built_as,
-    be_named,
-    be_there,
-    be_well_formed,
-    carry_its_type,
-    check,
-    come_up,
-    end_within,
-    exit_cleanly,
-    have_rate,
-    install,
-    list_what_it_imports,
-    match_qos,
-    outlast_the_soak,
-)
-from roslings.judge.demands import written
-from roslings.judge.services import (
+from roslings.capabilities.services.act import Asker, answering, await_end
+from roslings.capabilities.services.demands import (
     answer_each,
     answer_in_time,
     ask,
@@ -40,6 +19,27 @@ from roslings.judge.services import (
     show_each,
     tell_the_answer,
 )
+from roslings.capabilities.topics.demands import have_rate
+from roslings.course import lab
+from roslings.experiment import Scene, experiment
+from roslings.judge import (
+    ExperimentView,
+    PackageView,
+    be_built_as,
+    be_named,
+    be_there,
+    be_well_formed,
+    carry_its_type,
+    check,
+    come_up,
+    end_within,
+    exit_cleanly,
+    install,
+    list_what_it_imports,
+    match_qos,
+    outlast_the_soak,
+)
+from roslings.judge.demands import written
 
 CARD = lab("services").card
 SERVER, CLIENT = CARD.node("motor_controller"), CARD.node("motor_client")

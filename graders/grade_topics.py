@@ -4,6 +4,7 @@ The numbers, names, texts and points stand in labs/topics/card.yaml. Experiments
 student's nodes and watch; checks read what was seen and run nothing.
 """
 
+from roslings.capabilities.topics.demands import count_up, have_rate, say_its_text
 from roslings.course import lab
 from roslings.evidence import ExperimentSeen
 from roslings.experiment import Run, Scene, Unobserved, experiment, mending
@@ -19,10 +20,8 @@ from roslings.judge import (
     carry_its_type,
     check,
     come_up,
-    count_up,
     end_within,
     exit_cleanly,
-    have_rate,
     hold_just,
     install,
     list_what_it_imports,
@@ -30,7 +29,6 @@ from roslings.judge import (
     match_qos,
     outlast_the_soak,
     repeat,
-    say_its_text,
     speak_unobserved,
     stay_up,
 )

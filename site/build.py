@@ -25,8 +25,8 @@ from course_site.yours import tell  # noqa: E402
 
 from roslings.course import CourseError, root  # noqa: E402
 from roslings.lessons import BadLessons  # noqa: E402
+from roslings.workspace.errors import WorkspaceError  # noqa: E402
 from roslings.workspace.student import workspace_root  # noqa: E402
-from roslings.workspace.trouble import WorkspaceError  # noqa: E402
 
 OK, FAILED = 0, 1
 

@@ -4,6 +4,7 @@ The numbers, names, texts and points stand in the lab's card.yaml. Experiments r
 nodes and watch; checks read what was seen and run nothing.
 """
 
+from roslings.capabilities.topics.demands import count_up, have_rate, say_its_text
 from roslings.course import lab
 from roslings.experiment import Scene, experiment
 from roslings.judge import (
@@ -17,14 +18,11 @@ from roslings.judge import (
     carry_its_type,
     check,
     come_up,
-    count_up,
     end_within,
-    have_rate,
     install,
     list_what_it_imports,
     match_qos,
     outlast_the_soak,
-    say_its_text,
     stay_up,
 )
 

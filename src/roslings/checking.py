@@ -17,8 +17,8 @@ from roslings.course import Lab
 from roslings.evidence import Evidence, Span
 from roslings.experiment import Choices, Measuring, measuring_process
 from roslings.saving import Graded
+from roslings.workspace.errors import shown
 from roslings.workspace.inspect import inspect_package
-from roslings.workspace.trouble import shown
 
 if TYPE_CHECKING:
     from roslings.judge.loaded import Judge
@@ -66,7 +66,7 @@ class Ready:
     def _load_judge(self) -> None:
         if self._judge:
             return
-        from roslings.judge.beforehand import load_judge
+        from roslings.judge.preload import load_judge
 
         load_judge(self._lab.name)
 
@@ -95,8 +95,8 @@ def _judge_of(lab: Lab, choices: Choices) -> Iterator[Judge | None]:
 
 def ready_again_and_again(lab: Lab) -> Generator[Ready, None, None]:
     """Ready for one package after the other, with all loaded that is the same for each."""
-    from roslings.experiment.beforehand import load_beforehand
-    from roslings.judge.beforehand import load_judge
+    from roslings.experiment.preload import load_beforehand
+    from roslings.judge.preload import load_judge
 
     load_beforehand(lab.name)
     load_judge(lab.name)

@@ -1,52 +1,95 @@
-"""Exit codes, and what a command says when it cannot do what was asked."""
+"""How a process ended after Ctrl-C: in time or late, cleanly or not.
+
+A leaf: it imports only the evidence. Experiments use it to look at a bad end a second time; checks
+use it to judge.
+"""
 
 from __future__ import annotations
 
-import sys
+from collections.abc import Iterable, Sequence
 
-OK, FAILED, WRONG_USE, INCONCLUSIVE, INTERRUPTED = 0, 1, 2, 3, 130
-EXIT_OF_OUTCOME = {"pass": OK, "fail": FAILED, "inconclusive": INCONCLUSIVE}
-EXIT_OF_ERROR = {
-    "roslings.arena.lease:NoFreeDomain": INCONCLUSIVE,
-    "roslings.arena.users:NoFreeUser": INCONCLUSIVE,
-    "roslings.batch.crew:NurseryGone": INCONCLUSIVE,
-    "roslings.batch.trouble:BatchError": WRONG_USE,
-    "roslings.course.files:CourseError": WRONG_USE,
-    "roslings.devices.trouble:DeviceTrouble": WRONG_USE,
-    "roslings.drills.running:RunBrokeOff": INCONCLUSIVE,
-    "roslings.experiment.measure:MeasuringFailed": INCONCLUSIVE,
-    "roslings.experiment.walls:NoWall": WRONG_USE,
-    "roslings.jupyter.trouble:NoLessonToOpen": WRONG_USE,
-    "roslings.lessons.document:BadLessons": WRONG_USE,
-    "roslings.report.evidence_file:BadEvidence": WRONG_USE,
-    "roslings.report.evidence_folder:CannotKeepThere": WRONG_USE,
-    "roslings.report.json_file:BadVerdictFile": WRONG_USE,
-    "roslings.report.terminal:NoSuchCheck": WRONG_USE,
-    "roslings.report.whole_file:CannotWrite": INCONCLUSIVE,
-    "roslings.ros2.problem:Problem": WRONG_USE,
-    "roslings.saving:NoBagWriter": WRONG_USE,
-    "roslings.saving:NothingToSave": WRONG_USE,
-    "roslings.workspace.trouble:MachineTrouble": INCONCLUSIVE,
-    "roslings.workspace.trouble:WorkspaceError": WRONG_USE,
-    "builtins:FileExistsError": WRONG_USE,
-    "builtins:NotADirectoryError": WRONG_USE,
-}
-"""What a command may raise, by name: to import all these rooms takes longer than most commands."""
+from roslings.evidence import ExperimentSeen, ProcessSeen
+
+NOT_READ_HERE = 69
+"""Exit code of our own `ros2 launch` for a file that only the full ROS reads: EX_UNAVAILABLE of
+sysexits(3). Of such a file nothing can be said."""
 
 
-def explain(error: Exception) -> int:
-    """Say what went wrong; the exit code tells whose fault it is. Raises what nobody expects."""
-    code = exit_code_of(error)
-    if code is None:
-        raise error
-    print(f"roslings: {error}", file=sys.stderr)
-    return code
+def is_late(seen: ProcessSeen, limit_s: float) -> bool:
+    """After Ctrl-C it took more than `limit_s` of its own time, or had to be killed."""
+    if seen.ending is None:
+        return False
+    own_s = seen.ending.own_s
+    return own_s is None or own_s > limit_s
 
 
-def exit_code_of(error: Exception) -> int | None:
-    """The exit code for what went wrong; None for what nobody expected.
+def is_unclean(seen: ProcessSeen) -> bool:
+    """It ended after Ctrl-C, with another exit code than 0 or with a traceback of the student's."""
+    if seen.ending is None or seen.ending.after_s is None:
+        return False
+    traces = tracebacks(seen)
+    return (seen.status != 0 or bool(traces)) and not _is_race_in_rclpy(seen.status, traces)
 
-    A narrower kind counts before a wider one: MachineTrouble is a WorkspaceError too.
+
+def must_end_again(seen: ExperimentSeen, earlier: Iterable[ExperimentSeen], limit_s: float) -> bool:
+    """A process ended badly, and no other experiment has shown the same of its executable.
+
+    One bad end is no proof: of some thousand nodes that end well, one did not, on a busy computer,
+    and nothing that was measured told why.
     """
-    kinds = (f"{kind.__module__}:{kind.__qualname__}" for kind in type(error).__mro__)
-    return next((EXIT_OF_ERROR[kind] for kind in kinds if kind in EXIT_OF_ERROR), None)
+    known = [process for each in earlier for process in each.processes.values()]
+    return any(
+        _is_bad(process, limit_s)
+        and not any(p.executable == process.executable and _is_bad(p, limit_s) for p in known)
+        for process in seen.processes.values()
+    )
+
+
+def _is_bad(seen: ProcessSeen, limit_s: float) -> bool:
+    return is_late(seen, limit_s) or is_unclean(seen)
+
+
+def tracebacks(seen: ProcessSeen) -> list[list[str]]:
+    """Each traceback's lines, from the line before it, which tells what Python did with it."""
+    texts = [line.plain for line in seen.lines if line.text.strip()]
+    starts = [i for i, text in enumerate(texts) if text.startswith("Traceback")]
+    ends = [*starts, len(texts)][1:]
+    return [texts[max(i - 1, 0) : end] for i, end in zip(starts, ends, strict=True)]
+
+
+def _is_race_in_rclpy(status: int | None, traces: Sequence[Sequence[str]]) -> bool:
+    """Ctrl-C ended rclpy's context while rclpy itself worked with it: no fault of the student's.
+
+    rclpy's signal handler shuts the context down in another thread, whatever the node does then.
+    Seen where that came between the two steps of try_shutdown(), in a callback that publishes,
+    and before a wait: once in some twenty endings of a node that is busy with messages; one in
+    four with a 2 kHz timer. The last traceback is the one that the node ended with. One before
+    it can be Ctrl-C in a destructor, where Python says so and goes on.
+    """
+    if not traces:
+        return False
+    last = traces[-1]
+    if status == 0:
+        return all(_is_interrupted_destructor(trace) for trace in traces)
+    return _between_two_steps_of_try_shutdown(last) or _in_the_executor(last)
+
+
+def _is_interrupted_destructor(trace: Sequence[str]) -> bool:
+    return "Exception ignored in" in trace[0] and any(
+        text.startswith("KeyboardInterrupt") for text in trace
+    )
+
+
+def _between_two_steps_of_try_shutdown(trace: Sequence[str]) -> bool:
+    inside = any("in try_shutdown" in text for text in trace)
+    return inside and any("rcl_shutdown already called" in text for text in trace)
+
+
+def _in_the_executor(trace: Sequence[str]) -> bool:
+    """Not what a node does by itself after spin(): that fails each time, and is to be mended."""
+    spinning = any("/rclpy/executors.py" in text for text in trace)
+    return spinning and any(_tells_of_ended_context(text) for text in trace)
+
+
+def _tells_of_ended_context(text: str) -> bool:
+    return "RCLError" in text and ("context is invalid" in text or "context is not valid" in text)

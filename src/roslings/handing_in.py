@@ -17,8 +17,8 @@ from roslings.experiment.soaking import SOAKING
 from roslings.judge.demands import lifetime_s
 from roslings.judge.words import describe_end
 from roslings.report.safe_text import harmless
+from roslings.workspace.errors import WorkspaceError
 from roslings.workspace.inspect import inspect_package
-from roslings.workspace.trouble import WorkspaceError
 
 TROUBLE = (CannotStart, MeasuringFailed, NoFreeDomain, NoFreeUser, WorkspaceError)
 

@@ -22,10 +22,10 @@ from pathlib import Path, PurePosixPath
 from typing import NoReturn
 
 from roslings import __version__
+from roslings.bootstrap.errors import Trouble, of_the_disk, say
 from roslings.bootstrap.machine import Machine, require_unix, require_wheels, this_machine
 from roslings.bootstrap.place import require_usable
 from roslings.bootstrap.seeds import interpreter
-from roslings.bootstrap.trouble import Trouble, of_the_disk, say
 
 ENGINE = PurePosixPath("src/roslings")
 """Where a course keeps the engine."""

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 
 from roslings.shapes import SHAPES
 from roslings.verdict import Verdict
+from roslings.workspace.errors import MachineTrouble, WorkspaceError, without_places
 from roslings.workspace.student import package_of
-from roslings.workspace.trouble import MachineTrouble, WorkspaceError, without_places
 
 if TYPE_CHECKING:
     from roslings.course import Lab
@@ -56,8 +56,8 @@ def handed_in(lab: Lab, path: Path | None, others: bool) -> Iterator[Path]:
     if not others or path is None:
         yield package_of(lab, path)
         return
-    from roslings.batch.opening import package_in
-    from roslings.batch.trouble import Refused
+    from roslings.batch.errors import Refused
+    from roslings.batch.unpack import package_in
     from roslings.experiment.run_folder import run_folder
 
     with run_folder() as room:

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from roslings import course
-from roslings.workspace.trouble import quoted
+from roslings.workspace.errors import quoted
 
 if TYPE_CHECKING:
     from roslings.report.typed import Typed

@@ -26,7 +26,7 @@ from roslings.batch import grading
 from roslings.batch.alone import alone_in
 from roslings.batch.gradebook import gradebook
 from roslings.batch.result import Order, Result, broken
-from roslings.batch.shift import Standing
+from roslings.batch.scheduler import Standing
 from roslings.batch.submissions import digest_of
 from roslings.course import Lab, lab
 from roslings.course.files import BadCourseFile

@@ -16,7 +16,7 @@ from pathlib import Path
 import pytest
 
 from roslings.batch.command import Choices, grade
-from roslings.batch.far import NoCluster, UnfitWorkers
+from roslings.batch.dask_pool import NoCluster, UnfitWorkers
 from roslings.batch.gradebook import gradebook
 from roslings.batch.result import Result
 from roslings.course import lab
@@ -198,7 +198,7 @@ def test_a_part_that_cannot_start_says_so() -> None:
 
 def test_no_scheduler_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """With how to start one."""
-    monkeypatch.setattr("roslings.batch.far.CONNECT_WITHIN_S", 1.0)
+    monkeypatch.setattr("roslings.batch.dask_pool.CONNECT_WITHIN_S", 1.0)
     handed_in(tmp_path / "in")
     with pytest.raises(NoCluster, match="cluster scheduler"):
         graded(tmp_path / "in", "tcp://127.0.0.1:1", tmp_path / "out")

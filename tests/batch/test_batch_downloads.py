@@ -12,12 +12,12 @@ from packed import PACKAGE, make_zip, windows_zip, zip_bytes, zip_with_link
 
 from roslings.batch.archives import unpack
 from roslings.batch.downloads import is_download, submissions_at
+from roslings.batch.errors import BadTable, BatchError, HostileArchive, Refused
 from roslings.batch.newest import natural, newest_first
-from roslings.batch.opening import package_in
 from roslings.batch.platform_names import platform_name
 from roslings.batch.roster import Student, insist_on_owners, match
 from roslings.batch.submissions import name_of
-from roslings.batch.trouble import BadTable, BatchError, HostileArchive, Refused
+from roslings.batch.unpack import package_in
 from roslings.cli import main
 
 ANNA = Student("Anna Berg", "s1001", "a.berg@example.org", cells={"github_username": "annaberg"})

@@ -21,9 +21,9 @@ from packed import (
 )
 
 from roslings.batch.archives import Budget, unpack
-from roslings.batch.opening import package_in
+from roslings.batch.errors import BadTable, HostileArchive, NoSubmissions, Refused
 from roslings.batch.submissions import digest_of, find_submissions
-from roslings.batch.trouble import BadTable, HostileArchive, NoSubmissions, Refused
+from roslings.batch.unpack import package_in
 from roslings.workspace.sources import Limits
 
 SMALL = Limits(bytes=100_000, files=50)

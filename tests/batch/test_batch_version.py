@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from roslings.batch import version
-from roslings.batch.far import FIT, fitness
+from roslings.batch.dask_pool import FIT, fitness
 from roslings.batch.version import ENGINE, engine_in, version_of
 from roslings.course import Lab, lab
 

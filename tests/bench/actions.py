@@ -16,11 +16,11 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
+from roslings.capabilities.actions.act import cancelled_after_s, stopped_after_s
 from roslings.checking import ready
 from roslings.course import Lab, lab, root
 from roslings.evidence import ExperimentSeen
 from roslings.experiment import Choices, measure
-from roslings.experiment.acting import cancelled_after_s, stopped_after_s
 from roslings.rates import measure_rate
 from roslings.workspace.inspect import inspect_package
 

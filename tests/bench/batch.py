@@ -38,7 +38,7 @@ from roslings.batch.capacity import Capacity
 from roslings.batch.gradebook import Gradebook, gradebook
 from roslings.batch.grading import unpacked
 from roslings.batch.result import Result
-from roslings.batch.shift import Shift, Standing, Wish
+from roslings.batch.scheduler import Shift, Standing, Wish
 from roslings.batch.submissions import find_submissions
 from roslings.course.soak import soak_seconds
 from roslings.evidence import SoakSeen

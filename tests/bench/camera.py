@@ -17,10 +17,10 @@ from typing import Any
 import cv2
 import numpy as np
 
+from roslings.capabilities.camera.pixels import FilmLooker, MarkLooker
 from roslings.course import lab
 from roslings.devices.camera import Light, SyntheticCamera
 from roslings.devices.rover import Disc
-from roslings.experiment.looking import FilmLooker, MarkLooker
 
 sys.path.insert(0, str(lab("pi-camera").solution))
 from pi_camera.ball_finder import find_ball, picture_of  # type: ignore[import-not-found]

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import os
 
+from roslings.capabilities.actions.act import Director, timed_feedback
+from roslings.capabilities.robot.act import robot_beside, start_near
 from roslings.course import lab
 from roslings.experiment import Scene, experiment
-from roslings.experiment.acting import Director, timed_feedback
-from roslings.experiment.driving import robot_beside, start_near
 
 CARD = lab("actions").card
 SERVER = CARD.node("drive_server")

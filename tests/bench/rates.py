@@ -25,8 +25,8 @@ from roslings.arena import Arena, Place, Wall, choose_isolation, opened, ros_env
 from roslings.course import NodeContract
 from roslings.evidence import ExperimentSeen
 from roslings.experiment import Scene
-from roslings.experiment.declare import Clock
 from roslings.experiment.simulated import followed_clock
+from roslings.grader import Clock
 from roslings.probe import Probe
 from roslings.rates import measure_rate
 

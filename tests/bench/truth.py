@@ -40,12 +40,12 @@ from roslings.arena.kernel import cores
 from roslings.authoring.prove import Package, Solution, graded, packages_of, proof_of
 from roslings.batch.gradebook import FILE, gradebook
 from roslings.batch.result import Result
-from roslings.batch.shift import Standing
+from roslings.batch.scheduler import Standing
 from roslings.batch.version import engine_in, version_of
 from roslings.course import Lab, all_labs
 from roslings.course.labs import MUTANTS
-from roslings.experiment.declare import Clock
 from roslings.experiment.run_folder import run_folder
+from roslings.grader import Clock
 
 SEED = 19
 CHUNK = 48

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from roslings import installed
+from roslings.bootstrap.errors import Trouble
 from roslings.bootstrap.machine import Machine
-from roslings.bootstrap.trouble import Trouble
 
 FITS = Machine("Linux", "x86_64", 64, (2, 39), (3, 12), cpython=True)
 MAC = replace(FITS, system="Darwin", architecture="arm64", glibc=())

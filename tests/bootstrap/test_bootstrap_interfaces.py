@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 from course_copy import CourseCopy
 
+from roslings.bootstrap.errors import Trouble
 from roslings.bootstrap.interfaces import Interfaces
 from roslings.bootstrap.place import Place
-from roslings.bootstrap.trouble import Trouble
 from roslings.bootstrap.virtual import Virtual
 
 GROUP = 'interfaces = ["bag-x"]\n'

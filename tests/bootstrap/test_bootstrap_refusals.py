@@ -12,9 +12,9 @@ import pytest
 from course_copy import CourseCopy
 from pythons_here import BASE
 
+from roslings.bootstrap.errors import Trouble
 from roslings.bootstrap.machine import Machine, require_wheels, this_machine
 from roslings.bootstrap.place import require_usable
-from roslings.bootstrap.trouble import Trouble
 
 FITS = Machine("Linux", "x86_64", 64, (2, 39), (3, 12), cpython=True)
 

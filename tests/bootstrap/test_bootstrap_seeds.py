@@ -14,7 +14,7 @@ from package_index import PackageIndex
 from pythons_here import BASE
 
 from roslings.bootstrap import seeds
-from roslings.bootstrap.trouble import Trouble
+from roslings.bootstrap.errors import Trouble
 
 
 @pytest.fixture

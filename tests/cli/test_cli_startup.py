@@ -13,9 +13,9 @@ import pytest
 
 from roslings import course
 from roslings.cli import main
-from roslings.exits import EXIT_OF_ERROR, exit_code_of
+from roslings.errors import EXIT_OF_ERROR, exit_code_of
 from roslings.verdict import CheckResult, Environment, Timings, Verdict
-from roslings.workspace.trouble import CannotRead, NoWorkspace
+from roslings.workspace.errors import CannotRead, NoWorkspace
 
 ENGINE = (
     "roslings.arena", "roslings.batch", "roslings.evidence", "roslings.experiment",

@@ -15,9 +15,9 @@ from tiny_course import DAY, write_course
 from roslings.course import root
 from roslings.jupyter.choosing import chosen_day, place_for
 from roslings.jupyter.copies import Copies
+from roslings.jupyter.errors import NoSuchDay, NotWritten
 from roslings.jupyter.meanings import with_meanings
 from roslings.jupyter.server import Place, command, write_kernel
-from roslings.jupyter.trouble import NoSuchDay, NotWritten
 from roslings.lessons import Day, read_lessons
 
 

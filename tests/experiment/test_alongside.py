@@ -10,8 +10,8 @@ import pytest
 from roslings.arena.lease import leased_domain
 from roslings.evidence import ExperimentSeen
 from roslings.experiment.alongside import Alongside, Runs
-from roslings.experiment.declare import Experiment, experiment
 from roslings.experiment.turns import Turns
+from roslings.grader import Experiment, experiment
 from roslings.probe.probe import CalledOff, Probe
 
 LONG_S = 60.0

@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 from watching import HERE, RATE, TOPIC, watched
 
+from roslings.capabilities.topics.demands import have_rate
 from roslings.evidence import ExperimentSeen
-from roslings.experiment.declare import Clock
-from roslings.judge.demands import have_rate
+from roslings.grader import Clock
 from roslings.judge.dropped import Looks, watched_experiment
 from roslings.judge.faults import Fault, Inconclusive
 from roslings.judge.views import ExperimentView

@@ -9,7 +9,7 @@ import pytest
 
 from roslings.course import lab
 from roslings.experiment import Choices, MeasuringFailed, measure
-from roslings.experiment.beforehand import load_beforehand
+from roslings.experiment.preload import load_beforehand
 from roslings.workspace.inspect import inspect_package
 
 TOPICS = lab("topics")

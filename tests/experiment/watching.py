@@ -20,8 +20,8 @@ from roslings.course import NodeContract, RateContract, TopicContract
 from roslings.evidence import ExperimentSeen
 from roslings.experiment import Scene, experiment
 from roslings.experiment.assignment import Assignment
-from roslings.experiment.declare import Clock
 from roslings.experiment.measuring import Stage, run_all
+from roslings.grader import Clock
 
 HERE = Path(__file__).parent
 RATE = RateContract(hz=2.0, within=0.05)

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import pytest
 
-from roslings.endings import must_end_again
 from roslings.evidence import Ending, ExperimentSeen, LogLine, ProcessSeen
+from roslings.exits import must_end_again
 from roslings.judge import end_within, exit_cleanly
 from roslings.judge.faults import DoesNotEnd, Inconclusive, UncleanExit
 from roslings.judge.views import ProcessView

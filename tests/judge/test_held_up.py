@@ -6,6 +6,18 @@ from typing import Any
 
 import pytest
 
+from roslings.capabilities.actions import faults as action_faults
+from roslings.capabilities.actions.act import HEARS, answer_to
+from roslings.capabilities.actions.demands import accept, hear_meanwhile
+from roslings.capabilities.camera.demands import MISSING, tell_of_trouble
+from roslings.capabilities.camera.detection import Screen, find_the_ball
+from roslings.capabilities.camera.faults import detection as showing_faults
+from roslings.capabilities.camera.faults import images as camera_faults
+from roslings.capabilities.serial import faults as cable_faults
+from roslings.capabilities.serial.demands import drive_as_told, stop_by_itself
+from roslings.capabilities.services import faults
+from roslings.capabilities.services.act import CLIENT_ENDS
+from roslings.capabilities.services.demands import answer_in_time, give_up
 from roslings.course import ActionContract, NodeContract, ServiceContract, TopicContract
 from roslings.devices.board import Drive
 from roslings.evidence import (
@@ -20,22 +32,10 @@ from roslings.evidence import (
     ProcessSeen,
     StageMark,
 )
-from roslings.experiment.acting import HEARS, answer_to
-from roslings.experiment.asking import CLIENT_ENDS
 from roslings.experiment.own_time import PATIENCE_S
 from roslings.judge import ExperimentView, Inconclusive
-from roslings.judge.actions import accept, hear_meanwhile
-from roslings.judge.cable import drive_as_told, stop_by_itself
-from roslings.judge.camera import MISSING, tell_of_trouble
 from roslings.judge.demands import require_its_time
 from roslings.judge.faults import Fault
-from roslings.judge.faults import actions as action_faults
-from roslings.judge.faults import cable as cable_faults
-from roslings.judge.faults import camera as camera_faults
-from roslings.judge.faults import services as faults
-from roslings.judge.faults import showing as showing_faults
-from roslings.judge.services import answer_in_time, give_up
-from roslings.judge.showing import Screen, find_the_ball
 
 S = 10**9
 LAMP = ServiceContract.model_validate(

@@ -11,7 +11,7 @@ import pytest
 
 from roslings.judge.faults.files import SyntaxErrorInCode
 from roslings.judge.faults.python_words import hint_for
-from roslings.near import nearest
+from roslings.matching import nearest
 from roslings.workspace import code
 
 LAUNCHER = """\

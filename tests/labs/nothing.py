@@ -10,7 +10,7 @@ from typing import Literal
 
 from roslings.batch.result import Result
 from roslings.course import Lab
-from roslings.experiment.declare import Clock
+from roslings.grader import Clock
 from roslings.workspace.inspect import inspect_package
 
 Kind = Literal["empty", "starter", "idle"]

@@ -11,9 +11,9 @@ from pydantic import ValidationError
 from written_evidence import evidence
 from written_verdicts import too_slow
 
+from roslings.capabilities.robot.report import MOST_POINTS, describe, way_picture, ways_of
 from roslings.evidence import ExperimentSeen, MessageSeen, PictureKept, TopicSeen, WaySeen
 from roslings.report.html import html_of
-from roslings.report.html.way_svg import MOST_POINTS, describe, way_picture, ways_of
 
 # One red pixel.
 PNG = "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4z8AAAAMBAQDJ/pLvAAAAAElFTkSuQmCC"

@@ -383,7 +383,7 @@ def known(made: Stage, token: str, port: int, domain: int) -> dict[str, str]:
         "mark": made.mark, "token": token, "secret": SECRET, "out": str(made.out),
         "course": str(made.course), "home": str(made.home), "hidden": str(made.hidden),
         "submissions": str(made.submissions), "tmp": str(made.scratch), "port": str(port),
-        "address": own_address(), "domain": str(domain), "witness": "roslings.batch.nursery",
+        "address": own_address(), "domain": str(domain), "witness": "roslings.batch.fork_server",
         "terminals": str(Path("/dev/pts").stat().st_dev),
     }  # fmt: skip
 

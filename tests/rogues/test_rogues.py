@@ -32,8 +32,8 @@ from rogue import Attempt, attempts
 from stage import NO_TIME, UNTIL_S
 
 from roslings.arena import choose_isolation
-from roslings.batch.opening import package_in
-from roslings.batch.trouble import Refused
+from roslings.batch.errors import Refused
+from roslings.batch.unpack import package_in
 
 ENTRIES: dict[str, Entry] = {each.name: each for each in (*attempts(), *PARCELS)}
 HARMLESS = ("exits_0_from_atexit-run", "fake_std_msgs", "reads-build", "zip_link")

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from terminal import DEAF, Shell, ours
 
-from roslings.endings import NOT_READ_HERE
+from roslings.exits import NOT_READ_HERE
 
 XML = """\
 <launch>

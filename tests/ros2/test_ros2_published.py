@@ -12,10 +12,10 @@ import pytest
 from published import LOOK, PUBLISHED, SHOWN, shows
 from terminal import HERE, Shell
 
-from roslings.ros2 import eye
+from roslings.ros2 import discovery as eye
 from roslings.ros2.cli import parser_for
 from roslings.ros2.commands.hello import parser_for as hello_parser_for
-from roslings.ros2.eye import Settling, Sight
+from roslings.ros2.discovery import Settling, Sight
 from roslings.ros2.words import Parser
 
 LOOKING = {

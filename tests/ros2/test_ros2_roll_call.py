@@ -14,8 +14,9 @@ import inside
 import pytest
 from terminal import SOURCE, Shell, eventually
 
-from roslings.ros2 import eye, roll_call
-from roslings.ros2.eye import Settling, Sight
+from roslings.ros2 import discovery as eye
+from roslings.ros2 import roll_call
+from roslings.ros2.discovery import Settling, Sight
 from roslings.ros2.participants import HERE, own_participants, participants_here
 from roslings.ros2.roll_call import RollCall, announcement, ports_in
 from roslings.rtps import PREFIX

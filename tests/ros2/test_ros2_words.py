@@ -11,9 +11,10 @@ import pytest
 from terminal import SOURCE, Shell, ours
 
 from roslings.arena import QUICK_DISCOVERY
-from roslings.ros2 import eye, surroundings
+from roslings.ros2 import discovery as eye
+from roslings.ros2 import surroundings
 from roslings.ros2.cli import COMMANDS
-from roslings.ros2.eye import Sight
+from roslings.ros2.discovery import Sight
 from roslings.ros2.participants import participants_here
 
 START = SOURCE / "roslings" / "ros2" / "start.py"

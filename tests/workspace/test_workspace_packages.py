@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from hardship import Run
 
-from roslings.workspace import trouble
+from roslings.workspace import errors as trouble
 from roslings.workspace.packages import DEEPEST, MOST_FOLDERS, find_package
 
 

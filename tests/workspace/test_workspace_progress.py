@@ -137,7 +137,7 @@ def test_what_may_not_be_written_is_told(workspace: Path, without_rights: Run) -
         from pathlib import Path
         from roslings.verdict import Verdict
         from roslings.workspace.progress import record
-        from roslings.workspace.trouble import CannotWrite
+        from roslings.workspace.errors import CannotWrite
         try:
             record(Verdict.model_validate_json({verdict(40).model_dump_json(by_alias=True)!r}))
         except CannotWrite:
@@ -154,7 +154,7 @@ def test_a_full_disk_keeps_the_old_file(with_little_room: Run) -> None:
         from pathlib import Path
         from roslings.verdict import Verdict
         from roslings.workspace.progress import read_progress, record
-        from roslings.workspace.trouble import DiskFull
+        from roslings.workspace.errors import DiskFull
         little = Path(sys.argv[1])
         seen = Verdict.model_validate_json({verdict(40).model_dump_json(by_alias=True)!r})
         record(seen, little)

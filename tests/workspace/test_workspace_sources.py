@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from hardship import Run
 
-from roslings.workspace import trouble
+from roslings.workspace import errors as trouble
 from roslings.workspace.copying import HALF_MADE
 from roslings.workspace.sources import Limits, files
 from roslings.workspace.student import stage
@@ -124,7 +124,7 @@ def test_what_may_not_be_read_or_written_is_told(package: Path, without_rights: 
         import sys
         from pathlib import Path
         from roslings.workspace.student import stage
-        from roslings.workspace.trouble import WorkspaceError
+        from roslings.workspace.errors import WorkspaceError
         try:
             print(stage(Path(sys.argv[1]), Path(sys.argv[2])))
         except WorkspaceError as error:
@@ -150,7 +150,7 @@ def test_a_full_disk_leaves_nothing(package: Path, with_little_room: Run) -> Non
         import sys
         from pathlib import Path
         from roslings.workspace.student import stage
-        from roslings.workspace.trouble import DiskFull
+        from roslings.workspace.errors import DiskFull
         little = Path(sys.argv[1])
         try:
             stage(Path(sys.argv[2]), little / "src" / "chatter")

@@ -12,7 +12,7 @@ import pytest
 from hardship import Run
 
 from roslings.course import Lab
-from roslings.workspace import trouble
+from roslings.workspace import errors as trouble
 from roslings.workspace.copying import HALF_MADE
 from roslings.workspace.sources import files
 from roslings.workspace.student import (
@@ -155,7 +155,7 @@ def test_start_on_a_full_disk_leaves_nothing(topics: Lab, with_little_room: Run)
         from pathlib import Path
         from roslings.course import lab
         from roslings.workspace.student import start
-        from roslings.workspace.trouble import DiskFull
+        from roslings.workspace.errors import DiskFull
         little = Path(sys.argv[1])
         try:
             (little / "mine").write_bytes(bytes(56_000))
@@ -261,7 +261,7 @@ def test_a_full_disk_keeps_the_older_zip(topics: Lab, package: Path, with_little
         from pathlib import Path
         from roslings.course import lab
         from roslings.workspace.student import pack
-        from roslings.workspace.trouble import DiskFull
+        from roslings.workspace.errors import DiskFull
         out, package = Path(sys.argv[1]) / "a.zip", Path(sys.argv[2])
         pack(lab("topics"), out, package)
         old = out.read_bytes()

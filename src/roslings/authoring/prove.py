@@ -13,15 +13,15 @@ from pathlib import Path
 from typing import Protocol
 
 from roslings.batch.capacity import Capacity
-from roslings.batch.crew import GRADING
 from roslings.batch.gradebook import gradebook
 from roslings.batch.result import Order, Result
-from roslings.batch.shift import Shift, Watcher, Wish, always
+from roslings.batch.scheduler import Shift, Watcher, Wish, always
 from roslings.batch.submissions import Submission
+from roslings.batch.worker_pool import GRADING
 from roslings.course import Lab, Mutant
 from roslings.course.task import is_current
-from roslings.experiment.declare import Clock
 from roslings.experiment.run_folder import LOCK, run_folder
+from roslings.grader import Clock
 from roslings.judge.sheet import dependants, explained, sheet
 
 

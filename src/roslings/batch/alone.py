@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from roslings.batch.trouble import BatchError
+from roslings.batch.errors import BatchError
 
 
 @contextmanager

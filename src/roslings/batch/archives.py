@@ -25,9 +25,9 @@ from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 from typing import IO, cast
 
-from roslings.batch.trouble import HostileArchive, Refused
+from roslings.batch.errors import HostileArchive, Refused
+from roslings.workspace.errors import writing
 from roslings.workspace.sources import Limits, size
-from roslings.workspace.trouble import writing
 
 SUFFIXES = (".zip", ".tar", ".tar.gz", ".tgz", ".tar.xz", ".txz", ".tar.bz2", ".tbz2")
 CHUNK_BYTES = 64 * 1024

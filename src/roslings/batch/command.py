@@ -10,17 +10,17 @@ from roslings import course
 from roslings.arena import Isolation
 from roslings.batch.alone import alone_in
 from roslings.batch.capacity import Capacity
-from roslings.batch.crew import Limits
+from roslings.batch.dask_pool import FarCrew, far_crew
 from roslings.batch.downloads import submissions_at
-from roslings.batch.far import FarCrew, far_crew
+from roslings.batch.errors import BatchError
+from roslings.batch.export import Settings, hand_out, keep
 from roslings.batch.gradebook import Gradebook, gradebook
 from roslings.batch.grades import LateRule
-from roslings.batch.handout import Settings, hand_out, keep
+from roslings.batch.messages import soak_line, standing_line, summary_lines
 from roslings.batch.roster import insist_on_owners
-from roslings.batch.shift import Shift, Standing, Wish
+from roslings.batch.scheduler import Shift, Standing, Wish
 from roslings.batch.submissions import Submission
-from roslings.batch.trouble import BatchError
-from roslings.batch.words import soak_line, standing_line, summary_lines
+from roslings.batch.worker_pool import Limits
 from roslings.course import Lab
 from roslings.course.soak import soak_seconds
 from roslings.experiment import insist_on_wall

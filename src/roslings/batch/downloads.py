@@ -11,9 +11,9 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from roslings.batch.archives import SUFFIXES, Budget, is_clutter, unpack, zip_names
+from roslings.batch.errors import BatchError, HostileArchive, Refused
 from roslings.batch.platform_names import platform_name
 from roslings.batch.submissions import Submission, find_submissions, name_of
-from roslings.batch.trouble import BatchError, HostileArchive, Refused
 from roslings.experiment.run_folder import run_folder
 from roslings.workspace.packages import LARGEST_XML_BYTES, NAME
 from roslings.workspace.sources import Limits

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from datetime import datetime, timezone
 from pathlib import Path
 
+from roslings.batch.errors import BadGradebook
 from roslings.batch.result import Result
-from roslings.batch.trouble import BadGradebook
 
 FILE = "gradebook.sqlite"
 SCHEMA_VERSION = 1

@@ -12,10 +12,10 @@ from types import FrameType
 
 from roslings import course
 from roslings.arena import NoFreeDomain, NoFreeUser
+from roslings.batch.errors import Refused
 from roslings.batch.fingerprints import Fingerprint, fingerprint
-from roslings.batch.opening import package_in
 from roslings.batch.result import Order, Result, broken
-from roslings.batch.trouble import Refused
+from roslings.batch.unpack import package_in
 from roslings.batch.version import version_of
 from roslings.course import Lab
 from roslings.evidence import Evidence, evidence_json
@@ -26,8 +26,8 @@ from roslings.report.html.intervals import watched
 from roslings.report.whole_file import write_whole
 from roslings.saving import asked_rates
 from roslings.verdict import Verdict
+from roslings.workspace.errors import MachineTrouble
 from roslings.workspace.inspect import inspect_package
-from roslings.workspace.trouble import MachineTrouble
 
 NO_FINGERPRINT = Fingerprint("", frozenset())
 

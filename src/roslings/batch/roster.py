@@ -9,9 +9,9 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from roslings.batch.errors import BadTable, BatchError
 from roslings.batch.platform_names import platform_name
 from roslings.batch.tables import Row, read_table
-from roslings.batch.trouble import BadTable, BatchError
 from roslings.report.safe_text import harmless
 
 NAMES = ("name", "student", "full name", "student name")

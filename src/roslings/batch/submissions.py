@@ -10,12 +10,12 @@ from datetime import datetime
 from pathlib import Path
 
 from roslings.batch.archives import SUFFIXES, is_archive, is_clutter
+from roslings.batch.errors import BadTable, NoSubmissions
 from roslings.batch.platform_names import beside_a_file
 from roslings.batch.tables import Row, read_table
-from roslings.batch.trouble import BadTable, NoSubmissions
 from roslings.report.safe_text import harmless
+from roslings.workspace.errors import WorkspaceError
 from roslings.workspace.sources import sources
-from roslings.workspace.trouble import WorkspaceError
 
 NAMES = ("submission", "student", "name", "id")
 PATHS = ("path", "file", "folder", "archive")

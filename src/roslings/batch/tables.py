@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from roslings.batch.trouble import BadTable
+from roslings.batch.errors import BadTable
 
 MOST_BYTES = 50_000_000
 SEPARATORS = ",;\t"

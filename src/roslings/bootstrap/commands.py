@@ -5,9 +5,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from roslings.bootstrap.environment import Wish, make_ready
+from roslings.bootstrap.errors import Trouble, of_the_disk, say
 from roslings.bootstrap.pins import write_pins
 from roslings.bootstrap.place import Place
-from roslings.bootstrap.trouble import Trouble, of_the_disk, say
 from roslings.bootstrap.wheels import fill
 
 ROOT = Path(__file__).resolve().parents[3]

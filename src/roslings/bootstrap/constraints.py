@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from roslings.bootstrap.trouble import Trouble
+from roslings.bootstrap.errors import Trouble
 
 # Run by the environment's Python, which knows what a marker means there and what is installed.
 # The pip that it asks is itself pinned.

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from roslings.bootstrap import sizes
 from roslings.bootstrap.bytecode import compile_packages
+from roslings.bootstrap.errors import Trouble, say, wrapped
 from roslings.bootstrap.installing import TOOLS, Installer
 from roslings.bootstrap.interfaces import GROUP, Interfaces
 from roslings.bootstrap.lock import locked
@@ -19,7 +20,6 @@ from roslings.bootstrap.place import Place, require_usable
 from roslings.bootstrap.record import Record
 from roslings.bootstrap.seeds import interpreter
 from roslings.bootstrap.sourced import SourcedRos, find_sourced
-from roslings.bootstrap.trouble import Trouble, say, wrapped
 from roslings.bootstrap.virtual import Virtual
 
 

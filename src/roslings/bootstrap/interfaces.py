@@ -18,9 +18,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from roslings.bootstrap.errors import Trouble, say
 from roslings.bootstrap.place import Place
 from roslings.bootstrap.progress import going_on
-from roslings.bootstrap.trouble import Trouble, say
 from roslings.bootstrap.virtual import Virtual
 
 GROUP = "interfaces"

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from roslings.bootstrap.trouble import say
+from roslings.bootstrap.errors import say
 
 
 @contextmanager

@@ -10,7 +10,7 @@ import sys
 import sysconfig
 from dataclasses import dataclass
 
-from roslings.bootstrap.trouble import Trouble
+from roslings.bootstrap.errors import Trouble
 
 OLDEST_GLIBC = (2, 28)
 PYTHONS = ((3, 10), (3, 14))

@@ -15,11 +15,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from roslings.bootstrap import constraints, groups, sizes
+from roslings.bootstrap.errors import Trouble, say
 from roslings.bootstrap.installing import Installer, drain
 from roslings.bootstrap.packages import normal
 from roslings.bootstrap.place import Place
 from roslings.bootstrap.seeds import interpreter, other_pythons
-from roslings.bootstrap.trouble import Trouble, say
 from roslings.bootstrap.virtual import Virtual
 
 _HEADER = """\

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from roslings.bootstrap.trouble import Trouble, disk_full
+from roslings.bootstrap.errors import Trouble, disk_full
 
 # Settings of the user's own shell that would send packages elsewhere than into the environment.
 _LEADING_ASTRAY = ("PIP_TARGET", "PIP_PREFIX", "PIP_ROOT", "PIP_USER", "PIP_REQUIRE_VIRTUALENV")

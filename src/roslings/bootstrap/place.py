@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from roslings.bootstrap.trouble import Trouble
+from roslings.bootstrap.errors import Trouble
 
 # The start of a script names its Python (`#!...`), cut by the kernel at this many bytes.
 _SHEBANG_BYTES = 255

@@ -17,8 +17,8 @@ import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+from roslings.bootstrap.errors import Trouble
 from roslings.bootstrap.index import wheel_from_index
-from roslings.bootstrap.trouble import Trouble
 
 SYSTEM_FOLDERS = (Path("/usr/bin"), Path("/usr/local/bin"))  # whatever PATH says
 

@@ -7,7 +7,7 @@ import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from roslings.bootstrap.trouble import Trouble
+from roslings.bootstrap.errors import Trouble
 
 _NEW_TERMINAL = (
     "Open a new terminal that does not source it (look into ~/.bashrc), and run this there."

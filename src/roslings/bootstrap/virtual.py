@@ -8,7 +8,7 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-from roslings.bootstrap.trouble import Trouble, disk_full
+from roslings.bootstrap.errors import Trouble, disk_full
 
 COMMANDS = ("ros2", "rqt_graph", "rqt", "rqt_console", "rqt_plot", "rviz2")
 _COMMAND = """#!/bin/sh

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from roslings.bootstrap import groups, sizes
+from roslings.bootstrap.errors import Trouble, say
 from roslings.bootstrap.installing import TOOLS, Installer
 from roslings.bootstrap.machine import require_wheels, this_machine
 from roslings.bootstrap.place import Place
 from roslings.bootstrap.seeds import interpreter
-from roslings.bootstrap.trouble import Trouble, say
 from roslings.bootstrap.virtual import Virtual
 
 

@@ -13,7 +13,7 @@ from difflib import get_close_matches
 from importlib import import_module
 
 from roslings.cli.parser import NAMES, parser
-from roslings.exits import INTERRUPTED, OK, WRONG_USE, explain
+from roslings.errors import INTERRUPTED, OK, WRONG_USE, explain
 
 __all__ = ["for_pytest", "main", "parser", "run"]
 

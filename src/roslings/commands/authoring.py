@@ -9,7 +9,7 @@ from typing import Any
 
 from roslings import course
 from roslings.commands.showing import from_here
-from roslings.exits import FAILED, INCONCLUSIVE, OK, WRONG_USE
+from roslings.errors import FAILED, INCONCLUSIVE, OK, WRONG_USE
 
 USUALLY_PROVEN = ("packages", "contract")
 PROVABLE = (*USUALLY_PROVEN, "generated", "rewritten")

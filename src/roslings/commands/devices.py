@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from roslings import course
-from roslings.exits import FAILED, OK, WRONG_USE
+from roslings.errors import FAILED, OK, WRONG_USE
+from roslings.workspace.errors import shown
 from roslings.workspace.student import package_of
-from roslings.workspace.trouble import shown
 
 if TYPE_CHECKING:
     from roslings.evidence import GraphSeen

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from roslings.exits import EXIT_OF_OUTCOME, OK
+from roslings.errors import EXIT_OF_OUTCOME, OK
 from roslings.typed import program
 
 

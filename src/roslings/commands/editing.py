@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from roslings.workspace.trouble import shown
+from roslings.workspace.errors import shown
 
 TO_DO = re.compile(r"#\s*TODO\b")
 

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING
 from roslings import course
 from roslings.commands.showing import from_here, is_stdout, kept, read, replace_kept, show
 from roslings.course import Lab, NoSolution
-from roslings.exits import OK
+from roslings.errors import OK
 from roslings.typed import program
+from roslings.workspace.errors import shown
 from roslings.workspace.student import package_of, workspace_root
-from roslings.workspace.trouble import shown
 
 if TYPE_CHECKING:
     from roslings.saving import Graded

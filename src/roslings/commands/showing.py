@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from roslings.course import Lab
-from roslings.exits import EXIT_OF_OUTCOME
+from roslings.errors import EXIT_OF_OUTCOME
+from roslings.workspace.errors import WorkspaceError, shown
 from roslings.workspace.student import workspace_root
-from roslings.workspace.trouble import WorkspaceError, shown
 
 if TYPE_CHECKING:
     from roslings.verdict import Verdict

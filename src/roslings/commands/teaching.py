@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from roslings import course
 from roslings.commands.showing import show
-from roslings.exits import INCONCLUSIVE, OK
+from roslings.errors import INCONCLUSIVE, OK
 
 if TYPE_CHECKING:
     from roslings.batch.grades import LateRule
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 def regrade(options: argparse.Namespace) -> int:
     """Judge saved evidence again, of one check or of a whole class; nothing is run."""
     from roslings.batch.gradebook import lab_of
-    from roslings.batch.later import regrade_all
+    from roslings.batch.regrade import regrade_all
     from roslings.judge import judge
     from roslings.report import read_evidence
     from roslings.saving import Graded
@@ -61,9 +61,9 @@ def cluster(options: argparse.Namespace) -> int:
 
 
 def _late_rule(options: argparse.Namespace) -> LateRule | None:
+    from roslings.batch.errors import BatchError
     from roslings.batch.grades import LateRule
     from roslings.batch.submissions import as_time
-    from roslings.batch.trouble import BatchError
 
     if not options.deadline:
         return None
@@ -79,7 +79,7 @@ def _late_rule(options: argparse.Namespace) -> LateRule | None:
 
 def override(options: argparse.Namespace) -> int:
     """Give a score by hand."""
-    from roslings.batch.later import override as give
+    from roslings.batch.regrade import override as give
 
     told = give(options.folder, options.submission, options.score, options.reason, options.by)
     print("\n".join(told))

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from roslings import course
 from roslings.commands.showing import from_here
-from roslings.exits import OK
+from roslings.errors import OK
 from roslings.typed import program
 from roslings.workspace import progress
 from roslings.workspace.student import workspace_root

@@ -13,9 +13,9 @@ from roslings.drills.judging import DrillVerdict
 from roslings.drills.student import DrillStatus, file_of, next_drill, start, statuses
 from roslings.report.page import Page
 from roslings.timeline import NS_PER_S, process_began_ns
+from roslings.workspace.errors import WorkspaceError
 from roslings.workspace.progress import record_drill
 from roslings.workspace.student import workspace_root
-from roslings.workspace.trouble import WorkspaceError
 
 
 @dataclass(frozen=True)

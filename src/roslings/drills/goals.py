@@ -7,21 +7,28 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 from roslings.arena import Process
+from roslings.capabilities.actions import faults
+from roslings.capabilities.actions.act import await_action
+from roslings.capabilities.actions.demands import (
+    NO_RESPONSE,
+    NO_STATE,
+    RAISED,
+    perform,
+    perform_its_type,
+    shown,
+)
+from roslings.capabilities.actions.goals import Goal, GoalGiver, GoalTaker, read_actions
 from roslings.course import ActionContract
 from roslings.drills.card import PROGRAM, DrillCard, Give, Take
 from roslings.drills.faults import CancelUnheard, WrongGoal
 from roslings.drills.same import same
 from roslings.evidence import GoalSeen
 from roslings.experiment import Scene
-from roslings.experiment.acting import await_action
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
 from roslings.judge import ExperimentView, NothingToJudge
-from roslings.judge.actions import NO_RESPONSE, NO_STATE, RAISED, perform, perform_its_type, shown
 from roslings.judge.demands import require_steady
-from roslings.judge.faults import actions as faults
 from roslings.judge.words import describe_end
-from roslings.near import nearest
-from roslings.probe.actions import Goal, GoalGiver, GoalTaker, read_actions
+from roslings.matching import nearest
 
 ANSWER_WITHIN_S, ENDS_WITHIN_S = 1.0, 2.0
 """Of the node's own time: a drill's goal is over in less."""

@@ -30,14 +30,14 @@ from roslings.drills.steps import BY_GRAPH, Step, steps_of
 from roslings.drills.watching import BESIDE, CODE, watch
 from roslings.evidence import ExperimentSeen
 from roslings.experiment.assignment import Assignment
-from roslings.experiment.beforehand import TYPES
-from roslings.experiment.declare import Experiment, load_grader
 from roslings.experiment.measuring import Stage
+from roslings.experiment.preload import TYPES
 from roslings.experiment.run_folder import run_folder
 from roslings.experiment.scene import Scene
+from roslings.grader import Experiment, load_grader
 from roslings.judge import ExperimentView, Fault
 from roslings.judge.faults import SyntaxErrorInCode
-from roslings.probe.beforehand import load_ros
+from roslings.probe.preload import load_ros
 
 ENDS_WITHIN_S = 2.0
 LONGEST_S = 120.0

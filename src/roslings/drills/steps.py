@@ -10,6 +10,17 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
+from roslings.capabilities.parameters.demands import declare_its_parameters
+from roslings.capabilities.services.demands import (
+    answer_each,
+    ask,
+    serve,
+    serve_their_types,
+    tell_the_answer,
+)
+from roslings.capabilities.topics.act import nested
+from roslings.capabilities.topics.demands import count_up, have_rate, say_its_text
+from roslings.capabilities.topics.faults.messages import NoMessages
 from roslings.course import NodeContract, TopicContract
 from roslings.drills import faults
 from roslings.drills.answers import compare
@@ -17,7 +28,6 @@ from roslings.drills.card import PROGRAM, DrillCard, Heard, Tell
 from roslings.drills.goals import demands_of
 from roslings.drills.same import same
 from roslings.evidence import Spoken
-from roslings.experiment.telling import nested
 from roslings.judge import (
     ExperimentView,
     NothingToJudge,
@@ -26,23 +36,18 @@ from roslings.judge import (
     be_there,
     carry_its_type,
     come_up,
-    count_up,
     end_within,
     exit_cleanly,
-    have_rate,
     log_each,
     match_qos,
     repeat,
-    say_its_text,
     stay_up,
 )
 from roslings.judge.demands import most_similar, require_its_time, require_steady
-from roslings.judge.faults import DidNotComeUp, NoMessages, NotLogged
-from roslings.judge.services import answer_each, ask, serve, serve_their_types, tell_the_answer
-from roslings.judge.starting import declare_its_parameters
+from roslings.judge.faults import DidNotComeUp, NotLogged
 from roslings.judge.views import Demand, ProcessView
 from roslings.judge.words import describe_end
-from roslings.near import nearest_endpoint
+from roslings.matching import nearest_endpoint
 
 ENDS_WITHIN_S = 2.0
 BY_GRAPH = ("runs", "stays", "spins", "name", "topic", "qos")

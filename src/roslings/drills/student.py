@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from roslings.drills.course import Drill, all_drills
+from roslings.workspace.errors import writing
 from roslings.workspace.progress import read_progress
 from roslings.workspace.progress_file import DrillProgress
 from roslings.workspace.student import workspace_root
-from roslings.workspace.trouble import writing
 
 FOLDER = "drills"
 

@@ -14,7 +14,7 @@ from roslings.drills.student import DrillStatus
 from roslings.report.log_lines import helpful
 from roslings.report.page import Page
 from roslings.report.typed import Typed
-from roslings.workspace.trouble import shown
+from roslings.workspace.errors import shown
 
 LOG_LINES = 6
 BAR = 24

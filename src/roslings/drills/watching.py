@@ -8,19 +8,19 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from roslings.arena import Process
+from roslings.capabilities.parameters.act import list_parameters
+from roslings.capabilities.services.act import Asker, answering
+from roslings.capabilities.services.graph import read_services
+from roslings.capabilities.topics.act import nested
 from roslings.course import NodeContract, TopicContract
 from roslings.drills.card import PROGRAM, DrillCard, Tell
 from roslings.drills.goals import give_goals, take_goal
 from roslings.evidence import Endpoint, ExperimentSeen, GraphSeen
 from roslings.experiment import Run, Scene
-from roslings.experiment.asking import Asker, answering
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
 from roslings.experiment.scene import hears, publishes
 from roslings.experiment.start import Start
-from roslings.experiment.starting import list_parameters
-from roslings.experiment.telling import nested
-from roslings.near import nearest_endpoint
-from roslings.probe.services import read_services
+from roslings.matching import nearest_endpoint
 
 TRIES = 2
 """We see that we are joined with a node a little before the node does: what is said in between is

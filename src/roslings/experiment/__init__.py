@@ -4,7 +4,6 @@
 behind the wall that the machine allows, so that no fault in there reaches the command.
 """
 
-from roslings.experiment.declare import Experiment, experiment, experiments_of
 from roslings.experiment.measure import (
     Choices,
     Measuring,
@@ -15,6 +14,7 @@ from roslings.experiment.measure import (
 from roslings.experiment.scene import Run, Scene, mending
 from roslings.experiment.unobserved import Unobserved
 from roslings.experiment.walls import NoWall, insist_on_wall
+from roslings.grader import Experiment, experiment, experiments_of
 
 __all__ = [
     "Choices",

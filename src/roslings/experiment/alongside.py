@@ -10,7 +10,7 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from types import TracebackType
 
 from roslings.evidence import ExperimentSeen
-from roslings.experiment.declare import Experiment
+from roslings.grader import Experiment
 
 MOST_AT_ONCE = 8
 """Waiting costs little, but each has nodes, and those take memory."""

@@ -9,7 +9,7 @@ from pydantic import BaseModel
 
 from roslings.arena import Place, Sandbox, User, Wall
 from roslings.evidence import HeldBy, PackageSeen
-from roslings.experiment.declare import Clock
+from roslings.grader import Clock
 
 
 class Assignment(BaseModel):

@@ -12,11 +12,11 @@ from pathlib import Path
 from roslings.arena import Isolation, choose_isolation, isolation_for_strangers
 from roslings.evidence import Evidence, PackageSeen
 from roslings.experiment.assignment import Assignment
-from roslings.experiment.declare import Clock
 from roslings.experiment.forked import Fork
 from roslings.experiment.run_folder import run_folder
+from roslings.grader import Clock
+from roslings.workspace.errors import DiskFull
 from roslings.workspace.student import stage
-from roslings.workspace.trouble import DiskFull
 
 ENDS_WITHIN_S = 30.0
 LAST_WORDS = 20

@@ -18,8 +18,7 @@ from typing import Literal
 
 from roslings.arena import CannotStart, Installed, Place, opened, ros_environment
 from roslings.course import Card, lab
-from roslings.devices.trouble import DeviceTrouble
-from roslings.endings import must_end_again
+from roslings.devices.errors import DeviceTrouble
 from roslings.evidence import (
     BuildSeen,
     Evidence,
@@ -28,19 +27,20 @@ from roslings.evidence import (
     Span,
     evidence_json,
 )
+from roslings.exits import must_end_again
 from roslings.experiment.alongside import MOST_AT_ONCE, Alongside
 from roslings.experiment.assignment import Assignment
-from roslings.experiment.beforehand import load_beforehand
-from roslings.experiment.declare import Experiment, experiments_of, load_grader
 from roslings.experiment.machine import look_at_machine
 from roslings.experiment.middleware import note_a_deaf_node
 from roslings.experiment.packets import Tap, tapped
+from roslings.experiment.preload import load_beforehand
 from roslings.experiment.presence import Absences
 from roslings.experiment.scene import Scene
 from roslings.experiment.simulated import clock_publishers
 from roslings.experiment.soaking import SOAKING, Soak, soaking
 from roslings.experiment.turns import Turns
 from roslings.experiment.unobserved import Unobserved
+from roslings.grader import Experiment, experiments_of, load_grader
 from roslings.probe import Probe
 from roslings.probe.bag import fresh_folder, write_bag
 from roslings.probe.budget import GRADING_BYTES, LARGE_BYTES, Budget

@@ -28,7 +28,7 @@ from roslings.experiment.simulated import (
 )
 from roslings.experiment.start import PLAIN, Start
 from roslings.experiment.turns import Turns
-from roslings.near import Near, nearest, nearest_endpoint
+from roslings.matching import Near, nearest, nearest_endpoint
 from roslings.probe import Probe
 from roslings.probe.recorder import can_record
 from roslings.timeline import noted

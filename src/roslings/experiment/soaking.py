@@ -101,9 +101,9 @@ def beside(node: NodeContract, card: Card, arena: Arena, running: ExitStack) -> 
 
 def _board(arena: Arena, running: ExitStack) -> str:
     """A rover's board in real time, on an empty floor."""
+    from roslings.capabilities.serial.act import FLOOR, PORT
     from roslings.devices.board import Board, Mega
     from roslings.devices.rover import Rover
-    from roslings.experiment.cable import FLOOR, PORT
 
     board = running.enter_context(Board(Mega(Rover(FLOOR)), arena.devices / PORT))
     running.enter_context(board.running())

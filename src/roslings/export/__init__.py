@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from roslings.export.bundle import export
+from roslings.export.errors import CannotExport
 from roslings.export.systems import SYSTEMS, System
-from roslings.export.trouble import CannotExport
 
 __all__ = ["SYSTEMS", "CannotExport", "System", "export"]

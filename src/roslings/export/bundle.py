@@ -10,8 +10,8 @@ from uuid import NAMESPACE_URL, uuid5
 from roslings import course
 from roslings.authoring.release import course_files, is_for_students, leaks
 from roslings.course import Lab
+from roslings.export.errors import CannotExport
 from roslings.export.systems import SYSTEMS, System
-from roslings.export.trouble import CannotExport
 from roslings.workspace.sources import files
 
 PARTS = ("src", "labs", "graders", "days")

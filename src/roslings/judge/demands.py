@@ -5,12 +5,11 @@ from __future__ import annotations
 import difflib
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Sequence
-from itertools import pairwise
 from typing import TypeVar
 
-from roslings.course import CourseError, NodeContract, RateContract, TopicContract
-from roslings.endings import is_late, is_unclean, tracebacks
+from roslings.course import CourseError, NodeContract, TopicContract
 from roslings.evidence import Ending, ExperimentSeen, ProcessSeen, Spoken
+from roslings.exits import is_late, is_unclean, tracebacks
 from roslings.judge import faults
 from roslings.judge.remarks import remark
 from roslings.judge.views import (
@@ -21,12 +20,10 @@ from roslings.judge.views import (
     PackageView,
     PictureView,
     ProcessView,
-    TopicView,
-    text_pattern,
 )
 from roslings.judge.words import describe_end
-from roslings.near import own_endpoints
-from roslings.rates import LONGEST_STALL_S, Rate
+from roslings.matching import own_endpoints
+from roslings.rates import LONGEST_STALL_S
 
 FEWEST_MESSAGES = 5
 SIMILAR_LINE = 0.5
@@ -396,30 +393,6 @@ def _asked_edges(nodes: Sequence[NodeContract], topic: TopicContract) -> Iterabl
             yield f"{node.node} (subscription)"
 
 
-# --- messages ----------------------------------------------------------------------------------
-
-
-def have_rate(contract: TopicContract) -> Demand[TopicView]:
-    """The messages come at the card's rate, evenly."""
-    limit = written(contract.rate, contract.topic)
-
-    def demand(topic: TopicView) -> None:
-        require_believable(topic.experiment)
-        rate = topic.rate
-        if rate is None:
-            require_steady(topic.experiment.stall_s)
-            raise faults.NoMessages(topic.name, len(topic.messages), topic.experiment.watching_s)
-        kind = faults.rate_fault(rate, limit.low_hz, limit.high_hz)
-        if kind not in (faults.Bursts, faults.SentAgain):
-            require_enough(topic, rate, limit)
-        if kind:
-            if topic.experiment.clock == "wall" and not rate.far_above(limit.high_hz):
-                require_steady(topic.experiment.stall_s)
-            raise kind(topic.name, limit.hz, limit.within, rate)
-
-    return demand
-
-
 def require_believable(seen: ExperimentSeen) -> None:
     """Before a time is held against the student, or for them. Raises Inconclusive."""
     if seen.machine_fault:
@@ -428,37 +401,6 @@ def require_believable(seen: ExperimentSeen) -> None:
         raise faults.Inconclusive(
             f"in simulated time, {seen.not_believed}; check again with --clock auto"
         )
-
-
-def require_enough(topic: TopicView, rate: Rate, limit: RateContract) -> None:
-    """Watching longer could not turn the answer. Raises Inconclusive.
-
-    After the longest watch, a rate at the very limit is what it was measured to be.
-    """
-    if not topic.heard.watched_to_bound and not rate.clear_of((limit.low_hz, limit.high_hz)):
-        raise faults.Inconclusive(
-            f"too little evidence: {rate.hz:.3f} Hz (±{rate.uncertainty_hz:.3f}) was seen, too"
-            f" near to the limits, {limit.low_hz:g} Hz and {limit.high_hz:g} Hz; check again"
-        )
-
-
-def say_its_text(topic: TopicView) -> None:
-    """Every text is the card's, with some number."""
-    template = written(topic.contract.text, topic.name)
-    pattern = text_pattern(template)
-    for text in topic.texts:
-        if not pattern.fits(text):
-            raise faults.WrongText(template.format(n=0), text)
-
-
-def count_up(topic: TopicView) -> None:
-    """Each number is one more than the one before."""
-    kinds = {True: faults.CountSkips, False: faults.CountRestarts}
-    for before, after in pairwise(topic.numbers()):
-        if after == before:
-            raise faults.CountRepeats(before, after)
-        if after != before + 1:
-            raise kinds[after > before](before, after)
 
 
 # --- pictures ----------------------------------------------------------------------------------

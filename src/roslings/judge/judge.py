@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from roslings.course import Lab
 from roslings.course.files import CourseError
 from roslings.evidence import Evidence, ExperimentSeen, Span
-from roslings.experiment.declare import Experiment, experiments_of, load_grader
+from roslings.grader import Experiment, experiments_of, load_grader
 from roslings.judge.dropped import Looks, watched
 from roslings.judge.unrecorded import NotRecordedView
 from roslings.judge.views import ExperimentView, View, views_of

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from roslings.course import Lab
-from roslings.experiment.declare import load_grader
+from roslings.grader import load_grader
 from roslings.judge.check import check_of
 
 PREFIX = "test_"

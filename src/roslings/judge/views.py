@@ -22,7 +22,7 @@ from roslings.evidence import (
     TopicSeen,
 )
 from roslings.judge.faults import NothingToJudge
-from roslings.near import Near, nearest, nearest_endpoint, own_endpoints
+from roslings.matching import Near, nearest, nearest_endpoint, own_endpoints
 from roslings.rates import Rate, in_the_watch, measure_rate, measure_simulated_rate, own_rate
 
 LAST_LINES = 40

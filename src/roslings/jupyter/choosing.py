@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from roslings.jupyter.copies import Copies
+from roslings.jupyter.errors import NoSuchDay, NotWritten
 from roslings.jupyter.server import Place
-from roslings.jupyter.trouble import NoSuchDay, NotWritten
 from roslings.lessons import Day
 
 

@@ -19,7 +19,7 @@ from pathlib import Path
 
 from roslings.jupyter.meanings import with_meanings
 from roslings.lessons import Day, Glossary
-from roslings.workspace.trouble import shown, writing
+from roslings.workspace.errors import shown, writing
 
 LESSON, PICTURES, LIST = "lesson.ipynb", "pictures", "Days.md"
 MOST_COPIES = 1000

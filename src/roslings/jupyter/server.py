@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from roslings.jupyter.copies import LESSON, LIST, Copies
-from roslings.workspace.trouble import shown
+from roslings.workspace.errors import shown
 
 KERNEL = "roslings"
 TITLE = "ROS 2 (roslings)"

@@ -20,7 +20,7 @@ def graph_picture() -> Picture:
     from roslings.probe.graph import read_graph
     from roslings.report import describe_graph
     from roslings.report.html.graph_svg import graph_svg
-    from roslings.ros2.eye import Eye
+    from roslings.ros2.discovery import Eye
 
     with Eye() as eye:
         seen = read_graph(eye.settle().node)

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
-from roslings.near import nearest
+from roslings.matching import nearest
 from roslings.notebook.trouble import NothingHeard, OtherType, listed
 
 TURN_S = 0.05

@@ -157,7 +157,7 @@ class Session:
 
     def names(self) -> list[str]:
         """Full names of all nodes that run in this ROS domain, e.g. `["/talker"]`."""
-        from roslings.ros2.eye import Eye
+        from roslings.ros2.discovery import Eye
 
         self._spinning.check()
         with Eye() as eye:

@@ -40,8 +40,8 @@ def _nothing_to_check(lab: str) -> str:
     """Why there is nothing to check, with the next step; empty where there is something."""
     from roslings import course
     from roslings.course import CourseError
+    from roslings.workspace.errors import NoPackage, NoWorkspace, WorkspaceError
     from roslings.workspace.student import package_of
-    from roslings.workspace.trouble import NoPackage, NoWorkspace, WorkspaceError
 
     try:
         package_of(course.lab(lab))

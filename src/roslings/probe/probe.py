@@ -18,7 +18,7 @@ from roslings.evidence import (
     Qos,
     Spoken,
 )
-from roslings.near import own_endpoints
+from roslings.matching import own_endpoints
 from roslings.probe import canary
 from roslings.probe.budget import MB, Budget, Share, Store, size_of
 from roslings.probe.clock import Barrier, SimClock

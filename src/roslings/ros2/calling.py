@@ -6,7 +6,7 @@ import time
 from collections.abc import Iterable
 from typing import Any
 
-from roslings.ros2.eye import Eye
+from roslings.ros2.discovery import Eye
 from roslings.ros2.problem import Problem, did_you_mean
 
 PATIENCE_S = 10.0

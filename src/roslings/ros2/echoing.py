@@ -9,7 +9,7 @@ from collections.abc import Callable
 from typing import Any
 
 from roslings.ros2 import qos
-from roslings.ros2.eye import Eye
+from roslings.ros2.discovery import Eye
 from roslings.ros2.habits import index_in_field
 from roslings.ros2.interfaces import class_of, full_name
 from roslings.ros2.listening import filter_in, known_type, subscribe, topic_in

@@ -9,7 +9,7 @@ from typing import Any
 from roslings.ros2 import stopping
 from roslings.ros2.calling import answer_of
 from roslings.ros2.commands.action import actions
-from roslings.ros2.eye import Eye
+from roslings.ros2.discovery import Eye
 from roslings.ros2.interfaces import class_of, full_name
 from roslings.ros2.names import checked_topic
 from roslings.ros2.problem import Problem, did_you_mean

@@ -9,7 +9,7 @@ from collections import Counter
 from collections.abc import Iterable
 from typing import Any
 
-from roslings.ros2.eye import Eye
+from roslings.ros2.discovery import Eye
 from roslings.ros2.multicast import GROUP, PORT, Ear, Voice
 from roslings.ros2.names import checked_topic
 from roslings.ros2.words import OK

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 from roslings.ros2 import qos
-from roslings.ros2.eye import Eye
+from roslings.ros2.discovery import Eye
 from roslings.ros2.interfaces import class_of
 from roslings.ros2.names import checked_topic
 from roslings.ros2.problem import Problem, did_you_mean

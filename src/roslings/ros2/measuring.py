@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
-from roslings.ros2.eye import Eye
+from roslings.ros2.discovery import Eye
 from roslings.ros2.interfaces import class_of, name_of
 from roslings.ros2.listening import awaited_type, filter_in, known_type, subscribe, topic_in
 from roslings.ros2.problem import Problem

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from roslings.ros2.calling import ask
-from roslings.ros2.eye import Eye
+from roslings.ros2.discovery import Eye
 
 WORDS = {
     1: ("boolean", "Boolean value is:", "bool_value"),

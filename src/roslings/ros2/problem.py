@@ -13,7 +13,7 @@ class Problem(Exception):
 
 def did_you_mean(wanted: str, names: Iterable[str]) -> str:
     """` Did you mean NAME?` for the most similar name; empty where none is similar."""
-    from roslings.near import nearest
+    from roslings.matching import nearest
 
     near = nearest(wanted, names)
     return f" Did you mean {near.found}?" if near and near.how != "other" else ""

@@ -72,7 +72,7 @@ def run(options: argparse.Namespace) -> int:
 def seen_graph() -> GraphSeen:
     """The whole graph, without our own node."""
     from roslings.probe.graph import read_graph
-    from roslings.ros2.eye import Eye
+    from roslings.ros2.discovery import Eye
 
     with Eye() as eye:
         return read_graph(eye.settle().node)

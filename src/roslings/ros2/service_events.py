@@ -7,8 +7,8 @@ from typing import Any
 
 from roslings.ros2 import qos
 from roslings.ros2.commands.service import ServiceNotThere
+from roslings.ros2.discovery import Eye
 from roslings.ros2.echoing import shape_in
-from roslings.ros2.eye import Eye
 from roslings.ros2.interfaces import class_of
 from roslings.ros2.names import checked_topic
 from roslings.ros2.words import OK

@@ -112,7 +112,7 @@ def shape_options(parser: argparse.ArgumentParser) -> None:
 
 def complete_topics(parsed_args: argparse.Namespace, **_: Any) -> list[str]:
     """Every topic, for the Tab key."""
-    from roslings.ros2.eye import Eye
+    from roslings.ros2.discovery import Eye
 
     with Eye() as eye:
         return list(eye.settle().topics(getattr(parsed_args, "include_hidden_topics", False)))
@@ -120,7 +120,7 @@ def complete_topics(parsed_args: argparse.Namespace, **_: Any) -> list[str]:
 
 def complete_nodes(parsed_args: argparse.Namespace, **_: Any) -> list[str]:
     """Every node, for the Tab key."""
-    from roslings.ros2.eye import Eye
+    from roslings.ros2.discovery import Eye
 
     with Eye() as eye:
         return eye.settle().nodes(getattr(parsed_args, "include_hidden_nodes", False))
@@ -128,7 +128,7 @@ def complete_nodes(parsed_args: argparse.Namespace, **_: Any) -> list[str]:
 
 def complete_services(parsed_args: argparse.Namespace, **_: Any) -> list[str]:
     """Every service, for the Tab key."""
-    from roslings.ros2.eye import Eye
+    from roslings.ros2.discovery import Eye
 
     with Eye() as eye:
         return list(eye.settle().services(getattr(parsed_args, "include_hidden_services", False)))
@@ -152,7 +152,7 @@ def complete_type_of(what: str, kind: str, look: Any = None) -> Any:
     """
 
     def complete(parsed_args: argparse.Namespace, **how: Any) -> list[str]:
-        from roslings.ros2.eye import Eye
+        from roslings.ros2.discovery import Eye
         from roslings.ros2.names import absolute
 
         with Eye() as eye:

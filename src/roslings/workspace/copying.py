@@ -10,8 +10,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
+from roslings.workspace.errors import AlreadyThere, reading, shown, writing
 from roslings.workspace.sources import Limits, Source, sources
-from roslings.workspace.trouble import AlreadyThere, reading, shown, writing
 
 HALF_MADE = ".roslings-half-made-"
 """Hidden, so that colcon does not look into it."""

@@ -6,8 +6,8 @@ import difflib
 from collections.abc import Iterator
 from pathlib import Path
 
+from roslings.workspace.errors import reading
 from roslings.workspace.sources import files, size
-from roslings.workspace.trouble import reading
 
 LARGEST_TEXT_BYTES = 1_000_000
 

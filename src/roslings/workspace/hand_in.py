@@ -10,9 +10,9 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
+from roslings.workspace.errors import AlreadyThere, NoSuchPath, reading, shown, writing
 from roslings.workspace.packages import package_name
 from roslings.workspace.sources import files
-from roslings.workspace.trouble import AlreadyThere, NoSuchPath, reading, shown, writing
 
 BEGINNING_OF_TIME = (1980, 1, 1, 0, 0, 0)
 """The earliest date of the zip format. One date for all makes equal packages equal zips."""

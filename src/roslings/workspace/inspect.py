@@ -11,10 +11,10 @@ from pathlib import Path
 from roslings.course import Card
 from roslings.evidence import PackageSeen, PictureSeen
 from roslings.workspace import code
+from roslings.workspace.errors import reading
 from roslings.workspace.manifest import read_manifest
 from roslings.workspace.pictures import look_at
 from roslings.workspace.sources import files
-from roslings.workspace.trouble import reading
 
 NOT_THE_PACKAGES_CODE = frozenset({"test", "tests", "launch", "resource"})
 

@@ -10,8 +10,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
-from roslings.workspace.sources import BUILT, MADE
-from roslings.workspace.trouble import (
+from roslings.workspace.errors import (
     Archive,
     EmptyFolder,
     IgnoredByColcon,
@@ -28,6 +27,7 @@ from roslings.workspace.trouble import (
     WorkspaceError,
     reading,
 )
+from roslings.workspace.sources import BUILT, MADE
 
 MOST_FOLDERS = 5_000
 DEEPEST = 8

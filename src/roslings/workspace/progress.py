@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from roslings.course import Lab, all_labs
+from roslings.workspace.errors import WorkspaceError, reading, writing
 from roslings.workspace.progress_file import (
     Damaged,
     DrillProgress,
@@ -23,7 +24,6 @@ from roslings.workspace.progress_file import (
     progress_in,
 )
 from roslings.workspace.student import started_package, workspace_root
-from roslings.workspace.trouble import WorkspaceError, reading, writing
 
 if TYPE_CHECKING:
     from roslings.verdict import Verdict

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from roslings.workspace.trouble import LinkLeadsOutside, TooLarge, reading
+from roslings.workspace.errors import LinkLeadsOutside, TooLarge, reading
 
 BUILT = frozenset({"build", "install", "log"})
 """colcon's folders; a package built in its own folder has them at its top."""

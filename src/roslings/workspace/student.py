@@ -13,10 +13,7 @@ from pathlib import Path
 from roslings.course import Lab
 from roslings.workspace.copying import copy_package
 from roslings.workspace.difference import changes_since
-from roslings.workspace.hand_in import Packed, default_zip, write_zip
-from roslings.workspace.packages import find_package, package_name, packages_in
-from roslings.workspace.sources import Limits, files
-from roslings.workspace.trouble import (
+from roslings.workspace.errors import (
     AlreadyThere,
     NoWorkspace,
     WorkspaceError,
@@ -24,6 +21,9 @@ from roslings.workspace.trouble import (
     reading,
     shown,
 )
+from roslings.workspace.hand_in import Packed, default_zip, write_zip
+from roslings.workspace.packages import find_package, package_name, packages_in
+from roslings.workspace.sources import Limits, files
 
 __all__ = [
     "Packed",

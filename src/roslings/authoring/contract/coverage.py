@@ -20,11 +20,11 @@ from roslings.authoring.contract.words import Word, words_of
 from roslings.authoring.prove import Proof, Solution, graded, proof_of
 from roslings.batch.gradebook import gradebook
 from roslings.batch.result import Result
-from roslings.batch.shift import Watcher
+from roslings.batch.scheduler import Watcher
 from roslings.course import Lab
 from roslings.course.files import read_tree
-from roslings.experiment.declare import Clock
 from roslings.experiment.run_folder import run_folder
+from roslings.grader import Clock
 
 SEEN = "seen"
 MADE = shutil.ignore_patterns("solution", "starter", "mutants")

@@ -15,7 +15,7 @@ from roslings.batch.result import Result
 from roslings.batch.version import ENGINE, engine_in
 from roslings.course import Lab
 from roslings.course.labs import MUTANTS
-from roslings.experiment.declare import Clock
+from roslings.grader import Clock
 
 NOT_GRADING = frozenset({"authoring", "cli.py", "commands.py", "site", "doctor", "lessons"})
 """What no grading comes to: a change there leaves results as they are."""

@@ -16,10 +16,10 @@ from roslings.authoring.generated.packages import Fate, Wrong, fate_of
 from roslings.authoring.generated.table import Line, Outcome, told
 from roslings.authoring.prove import Proof, graded, mixed
 from roslings.batch.alone import alone_in
+from roslings.batch.errors import BatchError
 from roslings.batch.gradebook import gradebook
 from roslings.batch.result import Result
-from roslings.batch.shift import Watcher
-from roslings.batch.trouble import BatchError
+from roslings.batch.scheduler import Watcher
 from roslings.course import Lab
 from roslings.experiment.run_folder import run_folder
 

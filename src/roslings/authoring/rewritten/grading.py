@@ -12,11 +12,11 @@ from roslings.authoring.rewritten.keeping import kept_results
 from roslings.authoring.rewritten.source import Sources
 from roslings.authoring.rewritten.table import Made, made_from
 from roslings.batch.result import Result
-from roslings.batch.shift import Watcher
+from roslings.batch.scheduler import Watcher
 from roslings.batch.version import version_of
 from roslings.course import Lab
-from roslings.experiment.declare import Clock
 from roslings.experiment.run_folder import run_folder
+from roslings.grader import Clock
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from roslings import course
 from roslings.batch.alone import alone_in
-from roslings.batch.trouble import BatchError
+from roslings.batch.errors import BatchError
 
 
 class AlreadyRewriting(BatchError):

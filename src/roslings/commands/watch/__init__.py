@@ -9,7 +9,7 @@ from roslings import course
 from roslings.commands.watch.keyboard import Keyboard, keyboard
 from roslings.commands.watch.session import Session
 from roslings.commands.way import drill_before, drills_there
-from roslings.exits import OK
+from roslings.errors import OK
 from roslings.workspace import progress
 
 

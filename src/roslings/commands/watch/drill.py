@@ -12,7 +12,7 @@ from roslings.drills import Drill, all_drills, drill, telling
 from roslings.drills.command import checked
 from roslings.drills.judging import DrillVerdict
 from roslings.drills.student import start
-from roslings.exits import explain
+from roslings.errors import explain
 from roslings.typed import program
 
 

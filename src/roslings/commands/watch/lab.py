@@ -13,7 +13,7 @@ from roslings.commands.showing import from_here, replace_kept, show
 from roslings.commands.watch.keyboard import Keyboard
 from roslings.commands.watch.session import Session
 from roslings.course import Lab
-from roslings.exits import explain
+from roslings.errors import explain
 from roslings.typed import program
 from roslings.workspace import progress
 from roslings.workspace.student import package_of, start

@@ -16,9 +16,9 @@ import serial
 
 from roslings.devices.board.chip import BAUD, LINE_EVERY_MS, STOPS_AFTER_MS, Applied, Counts, Truth
 from roslings.devices.board.lines import BadLine, Drive, LineReader, Speeds
+from roslings.devices.errors import DeviceTrouble
 from roslings.devices.rover import Body, Pose, Wheels
 from roslings.devices.rover.body import moved
-from roslings.devices.trouble import DeviceTrouble
 
 SPEAKS_WITHIN_S = 8.0
 """A Mega starts anew when its port is opened, and waits up to 2 s for a new sketch."""

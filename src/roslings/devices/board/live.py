@@ -15,8 +15,8 @@ from roslings.devices.board.chip import BAUD, Chip
 from roslings.devices.board.mega import Mega
 from roslings.devices.board.on_pty import Board
 from roslings.devices.board.wire import Wire
+from roslings.devices.errors import DeviceTrouble
 from roslings.devices.rover import Rover
-from roslings.devices.trouble import DeviceTrouble
 
 TELL_EVERY_S = 1.0
 

@@ -15,7 +15,7 @@ from roslings.devices.board.chip import Chip
 from roslings.devices.board.port import Port
 from roslings.devices.board.spoil import Spoiler
 from roslings.devices.board.wire import Wire
-from roslings.devices.trouble import DeviceTrouble
+from roslings.devices.errors import DeviceTrouble
 
 TURN_EVERY_S = 0.004
 LONGEST_PAUSE_S = 0.1

@@ -11,7 +11,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from roslings.devices.trouble import DeviceTrouble
+from roslings.devices.errors import DeviceTrouble
 
 APT_LINE = (
     "sudo apt install gcc-avr avr-libc arduino-core-avr libsimavr-dev libelf-dev gcc libc6-dev"

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, Literal, Protocol, TextIO
 
+from roslings.devices.errors import DeviceTrouble
 from roslings.devices.rover.node import RoverNode
 from roslings.devices.rover.text_map import ASCII, UNICODE, Cell, cells
 from roslings.devices.rover.words import (
@@ -21,7 +22,6 @@ from roslings.devices.rover.words import (
     said,
 )
 from roslings.devices.rover.world import colour_of
-from roslings.devices.trouble import DeviceTrouble
 
 View = Literal["auto", "window", "terminal", "lines"]
 SIDE_COLUMNS = 34

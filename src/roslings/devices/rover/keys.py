@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
+from roslings.devices.errors import DeviceTrouble
 from roslings.devices.rover.node import QUIET
-from roslings.devices.trouble import DeviceTrouble
 from roslings.keyboard import Hands, Keys, NoKeys, Steering, keys_of
 
 NAME = "keyboard"

@@ -8,12 +8,12 @@ from collections.abc import Callable
 from pathlib import Path
 
 from roslings.devices.asked import listening
+from roslings.devices.errors import DeviceTrouble
 from roslings.devices.rover.displays import Display, View, opened
 from roslings.devices.rover.keys import driving
 from roslings.devices.rover.node import RoverNode
 from roslings.devices.rover.rover import Rover
 from roslings.devices.rover.words import position
-from roslings.devices.trouble import DeviceTrouble
 
 
 class CannotSave(DeviceTrouble):

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from roslings.evidence import Qos
 from roslings.judge.faults.base import Fault
-from roslings.near import Near
+from roslings.matching import Near
 
 
 @dataclass(eq=False)

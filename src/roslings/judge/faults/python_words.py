@@ -10,7 +10,7 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
-from roslings.near import nearest
+from roslings.matching import nearest
 
 PACKAGES = (
     "action_msgs", "builtin_interfaces", "diagnostic_msgs", "example_interfaces", "geometry_msgs",

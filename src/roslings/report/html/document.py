@@ -6,8 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from roslings.capabilities.camera import report as shown_part
 from roslings.evidence import Evidence
-from roslings.report.html import seen_part, shown_part, verdict_part
+from roslings.report.html import seen_part, verdict_part
 from roslings.report.html.intervals import Asked, watched
 from roslings.report.html.markup import Markup, joined, tag
 from roslings.report.whole_file import write_whole

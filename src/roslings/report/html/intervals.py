@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from roslings.evidence import Evidence, ExperimentSeen, MessageSeen, TopicSeen
-from roslings.near import nearest_endpoint, own_endpoints
+from roslings.matching import nearest_endpoint, own_endpoints
 from roslings.rates import (
     NS_PER_S,
     Rate,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from roslings.evidence import Evidence, ExperimentSeen, GraphSeen, ProcessSeen, Spoken
-from roslings.near import own_endpoints
+from roslings.matching import own_endpoints
 from roslings.rates import Rate
 from roslings.report.graph_words import describe_graph
 from roslings.report.html.graph_svg import graph_pictures

@@ -6,7 +6,7 @@ import difflib
 import re
 from collections.abc import Iterator
 
-from roslings.near import SIMILAR
+from roslings.matching import SIMILAR
 from roslings.report.html.markup import Markup, joined, prose, tag
 
 NAME = re.compile(r"(?<![\w/])(/[\w/]+|'[^'\n]{3,}'|\"[^\"\n]{3,}\")")

@@ -10,7 +10,7 @@ from typing import Any
 from roslings.ros2.bag.quality import offered
 from roslings.ros2.bag.reading import opened
 from roslings.ros2.bag.speech import tell
-from roslings.ros2.eye import Eye
+from roslings.ros2.discovery import Eye
 from roslings.ros2.interfaces import UnknownInterface, class_of
 from roslings.ros2.names import absolute
 from roslings.ros2.problem import Problem, did_you_mean

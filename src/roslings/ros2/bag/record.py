@@ -14,7 +14,7 @@ from roslings.probe.definition import definition_of
 from roslings.ros2 import stopping
 from roslings.ros2.bag.quality import kept
 from roslings.ros2.bag.speech import tell
-from roslings.ros2.eye import Eye
+from roslings.ros2.discovery import Eye
 from roslings.ros2.interfaces import UnknownInterface, class_of
 from roslings.ros2.names import checked_topic, is_hidden
 from roslings.ros2.problem import Problem, did_you_mean

@@ -18,7 +18,7 @@ from roslings.ros2.shared_options import (
 from roslings.ros2.words import FAILED, OK, Verbs, add
 
 if TYPE_CHECKING:
-    from roslings.ros2.eye import Eye
+    from roslings.ros2.discovery import Eye
 
 Party = tuple[str, list[str]]
 
@@ -66,7 +66,7 @@ def _action_name(parser: argparse.ArgumentParser) -> None:
 
 def complete_actions(**_: Any) -> list[str]:
     """Every action, for the Tab key."""
-    from roslings.ros2.eye import Eye
+    from roslings.ros2.discovery import Eye
 
     with Eye() as eye:
         return list(actions(eye.settle()))
@@ -94,7 +94,7 @@ def by_action(eye: Eye, role: str) -> list[tuple[str, list[Party]]]:
 
 def list_actions(options: argparse.Namespace) -> int:
     """`ros2 action list`."""
-    from roslings.ros2.eye import Eye
+    from roslings.ros2.discovery import Eye
 
     with Eye.asked_by(options) as eye:
         found = actions(eye.settle())
@@ -108,7 +108,7 @@ def list_actions(options: argparse.Namespace) -> int:
 
 def show_type(options: argparse.Namespace) -> int:
     """`ros2 action type ACTION`."""
-    from roslings.ros2.eye import Eye
+    from roslings.ros2.discovery import Eye
 
     name = full_topic(options.action_name)
     with Eye.asked_by(options) as eye:
@@ -120,7 +120,7 @@ def show_type(options: argparse.Namespace) -> int:
 
 def show_info(options: argparse.Namespace) -> int:
     """`ros2 action info ACTION`."""
-    from roslings.ros2.eye import Eye
+    from roslings.ros2.discovery import Eye
 
     name = absolute(options.action_name)
     with Eye.asked_by(options) as eye:

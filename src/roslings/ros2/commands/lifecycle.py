@@ -15,7 +15,7 @@ from roslings.ros2.shared_options import in_node, node_options
 from roslings.ros2.words import FAILED, OK, Verbs, add
 
 if TYPE_CHECKING:
-    from roslings.ros2.eye import Eye
+    from roslings.ros2.discovery import Eye
 
 GET_STATE, STATE_TYPE = "/get_state", "lifecycle_msgs/srv/GetState"
 
@@ -83,7 +83,7 @@ def _seen(options: argparse.Namespace) -> Iterator[tuple[Eye, str]]:
 
     Raises NodeNotFound, NotALifecycleNode.
     """
-    from roslings.ros2.eye import Eye
+    from roslings.ros2.discovery import Eye
 
     node = absolute(options.node_name)
     with Eye.asked_by(options) as eye:
@@ -98,7 +98,7 @@ def _seen(options: argparse.Namespace) -> Iterator[tuple[Eye, str]]:
 
 def list_nodes(options: argparse.Namespace) -> int:
     """`ros2 lifecycle nodes`."""
-    from roslings.ros2.eye import Eye
+    from roslings.ros2.discovery import Eye
 
     with Eye.asked_by(options) as eye:
         nodes = lifecycle_nodes(eye.settle(), options.all)
@@ -115,7 +115,7 @@ def show_states(options: argparse.Namespace) -> int:
         with _seen(options) as (eye, node):
             print(_state(eye, node))
         return OK
-    from roslings.ros2.eye import Eye
+    from roslings.ros2.discovery import Eye
 
     with Eye.asked_by(options) as eye:
         for node in lifecycle_nodes(eye.settle(), options.include_hidden_nodes):

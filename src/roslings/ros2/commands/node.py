@@ -47,7 +47,7 @@ def declare(command: argparse.ArgumentParser) -> None:
 
 def list_nodes(options: argparse.Namespace) -> int:
     """`ros2 node list`."""
-    from roslings.ros2.eye import Eye
+    from roslings.ros2.discovery import Eye
 
     with Eye.asked_by(options) as eye:
         names = eye.settle(only_nodes=True).nodes(hidden=options.all)
@@ -62,7 +62,7 @@ def list_nodes(options: argparse.Namespace) -> int:
 
 def show_info(options: argparse.Namespace) -> int:
     """`ros2 node info NODE`."""
-    from roslings.ros2.eye import Eye
+    from roslings.ros2.discovery import Eye
 
     with Eye.asked_by(options) as eye:
         name = absolute(options.node_name)

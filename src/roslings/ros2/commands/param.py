@@ -17,7 +17,7 @@ from roslings.ros2.shared_options import in_node, node_options
 from roslings.ros2.words import FAILED, OK, Verbs, add, seconds
 
 if TYPE_CHECKING:
-    from roslings.ros2.eye import Eye
+    from roslings.ros2.discovery import Eye
 
 
 class BadPattern(Problem):
@@ -104,7 +104,7 @@ def complete_parameters(parsed_args: argparse.Namespace, **_: Any) -> list[str]:
 @contextmanager
 def _seen(options: argparse.Namespace) -> Iterator[tuple[Eye, str]]:
     """Our eye and the full name of the node in `options`. Raises NodeNotFound."""
-    from roslings.ros2.eye import Eye
+    from roslings.ros2.discovery import Eye
 
     node = absolute(options.node_name)
     with Eye.asked_by(options) as eye:
@@ -126,7 +126,7 @@ def list_parameters(options: argparse.Namespace) -> int:
         with _seen(options) as (eye, node):
             print("".join(_name_lines(eye, node, options)), end="")
         return OK
-    from roslings.ros2.eye import Eye
+    from roslings.ros2.discovery import Eye
     from roslings.ros2.parameters import SERVICE
 
     with Eye.asked_by(options) as eye:

@@ -27,7 +27,7 @@ from roslings.ros2.shared_options import (
 from roslings.ros2.words import FAILED, OK, Verbs, add, rate
 
 if TYPE_CHECKING:
-    from roslings.ros2.eye import Eye
+    from roslings.ros2.discovery import Eye
 
 MATCHED_WITHIN_S = 1.0
 
@@ -117,7 +117,7 @@ def _service_name(parser: argparse.ArgumentParser) -> None:
 
 def list_services(options: argparse.Namespace) -> int:
     """`ros2 service list`."""
-    from roslings.ros2.eye import Eye
+    from roslings.ros2.discovery import Eye
 
     with Eye.asked_by(options) as eye:
         services = eye.settle().services(hidden=options.include_hidden_services)
@@ -131,7 +131,7 @@ def list_services(options: argparse.Namespace) -> int:
 
 def show_type(options: argparse.Namespace) -> int:
     """`ros2 service type SERVICE`."""
-    from roslings.ros2.eye import Eye
+    from roslings.ros2.discovery import Eye
 
     with Eye.asked_by(options) as eye:
         services = eye.settle().services()
@@ -146,7 +146,7 @@ def show_type(options: argparse.Namespace) -> int:
 
 def find_services(options: argparse.Namespace) -> int:
     """`ros2 service find TYPE`."""
-    from roslings.ros2.eye import Eye
+    from roslings.ros2.discovery import Eye
     from roslings.ros2.interfaces import full_name
 
     wanted = full_type(options.service_type, full_name(options.service_type, "srv"))
@@ -160,7 +160,7 @@ def find_services(options: argparse.Namespace) -> int:
 
 def show_info(options: argparse.Namespace) -> int:
     """`ros2 service info SERVICE`."""
-    from roslings.ros2.eye import Eye
+    from roslings.ros2.discovery import Eye
 
     name = full_topic(options.service_name)
     with Eye.asked_by(options) as eye:
@@ -183,7 +183,7 @@ def echo(options: argparse.Namespace) -> int:
 
 def call(options: argparse.Namespace) -> int:
     """`ros2 service call SERVICE TYPE [VALUES]`."""
-    from roslings.ros2.eye import Eye
+    from roslings.ros2.discovery import Eye
     from roslings.ros2.interfaces import class_of, full_name
     from roslings.ros2.names import checked_topic
     from roslings.ros2.yaml_in import filled

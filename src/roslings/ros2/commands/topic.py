@@ -192,7 +192,7 @@ def _later(home: str, function: str) -> Run:
 
 def list_topics(options: argparse.Namespace) -> int:
     """`ros2 topic list`."""
-    from roslings.ros2.eye import Eye
+    from roslings.ros2.discovery import Eye
 
     with Eye.asked_by(options) as eye:
         found = eye.settle().topics(hidden=options.include_hidden_topics)
@@ -222,7 +222,7 @@ def _print_verbose(eye: object, topics: dict[str, list[str]]) -> None:
 
 def show_info(options: argparse.Namespace) -> int:
     """`ros2 topic info TOPIC`."""
-    from roslings.ros2.eye import Eye
+    from roslings.ros2.discovery import Eye
 
     topic = full_topic(options.topic_name)
     with Eye.asked_by(options) as eye:
@@ -241,7 +241,7 @@ def show_info(options: argparse.Namespace) -> int:
 
 def show_type(options: argparse.Namespace) -> int:
     """`ros2 topic type TOPIC`."""
-    from roslings.ros2.eye import Eye
+    from roslings.ros2.discovery import Eye
 
     with Eye.asked_by(options) as eye:
         topics = eye.settle().topics()
@@ -256,7 +256,7 @@ def show_type(options: argparse.Namespace) -> int:
 
 def find_topics(options: argparse.Namespace) -> int:
     """`ros2 topic find TYPE`."""
-    from roslings.ros2.eye import Eye
+    from roslings.ros2.discovery import Eye
     from roslings.ros2.interfaces import full_name
 
     wanted = full_type(options.topic_type, full_name(options.topic_type, "msg"))

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from roslings.endings import NOT_READ_HERE
+from roslings.exits import NOT_READ_HERE
 from roslings.ros2.problem import Problem
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 from xml.parsers import expat
 
-from roslings.endings import NOT_READ_HERE
+from roslings.exits import NOT_READ_HERE
 from roslings.ros2.launch.entity import BadLaunchFile, Entity
 from roslings.ros2.problem import Problem
 

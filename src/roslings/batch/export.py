@@ -1,0 +1,84 @@
+"""Everything that an instructor takes away, made from the gradebook alone."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from pathlib import Path
+
+from pydantic import BaseModel
+
+from roslings.batch.class_page import write_class_page
+from roslings.batch.csv_files import write_all
+from roslings.batch.fingerprints import fingerprint
+from roslings.batch.gradebook import Gradebook
+from roslings.batch.grades import Class, LateRule, class_of
+from roslings.batch.roster import read_roster
+from roslings.batch.student_pages import write_pages
+from roslings.course import Lab
+from roslings.workspace.errors import shown
+
+KEY = "handout"
+
+
+class Settings(BaseModel):
+    """What `grade` was told last; an override or a regrade writes everything anew by it."""
+
+    roster: Path | None = None
+    rule: LateRule | None = None
+    times: dict[str, datetime] = {}
+    """Submission to the time of handing in, where a list told it."""
+    hidden: Path | None = None
+    """The checks that students do not have."""
+    assignment: str = ""
+    """What Canvas calls the lab: the head of its column; empty for the lab's own title."""
+
+
+def settings_of(book: Gradebook) -> Settings:
+    """The settings that the gradebook keeps."""
+    kept = book.about(KEY)
+    return Settings.model_validate_json(kept) if kept else Settings()
+
+
+def keep(book: Gradebook, settings: Settings) -> None:
+    """Keep settings for later commands."""
+    book.note(KEY, settings.model_dump_json())
+
+
+def hand_out(book: Gradebook, lab: Lab, folder: Path) -> list[str]:
+    """Write the CSV files, a page for each student and one for the class; what is to be known.
+
+    Raises BadTable where the class list cannot be read, and CannotWrite.
+    """
+    settings = settings_of(book)
+    students = read_roster(settings.roster) if settings.roster else ()
+    found = class_of(book, settings.times, students, settings.rule)
+    write_all(found.grades, lab, folder, settings.assignment)
+    write_pages(book, lab, found.grades, folder / "students")
+    write_class_page(lab, found, fingerprint(lab.starter).marks, folder / "class.html")
+    return [*_remarks(found, settings), f"The class on one page: {shown(folder)}/class.html"]
+
+
+def _remarks(found: Class, settings: Settings) -> list[str]:
+    lines = []
+    if found.missing:
+        lines.append(_few("Handed in nothing", [grade.name for grade in found.missing]))
+    if found.unknown:
+        lines.append(_few("Of nobody in the class list", found.unknown))
+    if found.unclear:
+        lines.append(_few("Of more than one in the class list", list(found.unclear)))
+    if found.twice:
+        lines.append(
+            _few("Handed in several, the newest that was graded counts", list(found.twice))
+        )
+    untimed = sum(grade.late_days is None for grade in found.grades if grade.result)
+    if settings.rule and untimed:
+        lines.append(
+            f"For {untimed} submissions the time is not known: none of them counts as late.\n"
+            "Give a CSV file with the columns student, path, submitted."
+        )
+    return lines
+
+
+def _few(label: str, names: list[str], most: int = 8) -> str:
+    more = f" and {len(names) - most} more" if len(names) > most else ""
+    return f"{label} ({len(names)}): {', '.join(names[:most])}{more}"

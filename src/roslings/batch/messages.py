@@ -1,0 +1,84 @@
+"""What the command says: how far it is, and what came of all."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+
+from roslings.batch.gradebook import Gradebook
+from roslings.batch.result import Result
+from roslings.batch.scheduler import Standing
+
+WORDS = ("pass", "fail", "refused", "inconclusive")
+MEANINGS = {
+    "pass": "every check passes",
+    "fail": "a check fails",
+    "refused": "cannot be graded as handed in",
+    "inconclusive": "the machine could not tell",
+}
+MOST_NAMED = 10
+
+
+def standing_line(standing: Standing) -> str:
+    """How far the work is, on one line."""
+    parts = [f"{standing.done} of {standing.all} graded", f"{standing.working} at work"]
+    if standing.unclear:
+        parts.append(f"{standing.unclear} to try again")
+    if standing.left_s is not None and standing.done < standing.all:
+        parts.append(f"about {duration(standing.left_s)} left")
+    return ", ".join(parts)
+
+
+def duration(seconds: float) -> str:
+    """A time that nobody needs to the second."""
+    if seconds < 90:
+        return f"{seconds:.0f} s"
+    minutes = round(seconds / 60)
+    return f"{minutes} min" if minutes < 90 else f"{minutes // 60} h {minutes % 60} min"
+
+
+def summary_lines(book: Gradebook, names: Sequence[str]) -> list[str]:
+    """What came of the submissions called `names`."""
+    latest = book.latest()
+    results = [latest[name] for name in names if name in latest]
+    counts = Counter(result.word for result in results)
+    lines = [f"{len(results)} of {len(names)} submissions graded."]
+    lines += [f"  {counts[word]:5} {word:13} {MEANINGS[word]}" for word in WORDS if counts[word]]
+    lines += _scores(results)
+    lines += _named("refused", (result for result in results if result.word == "refused"))
+    lines += _named("inconclusive", (r for r in results if r.word == "inconclusive"))
+    return lines
+
+
+def soak_line(results: Iterable[Result]) -> str:
+    """How long the nodes were left running, in the gradings that the gradebook holds now."""
+    soaked = sorted({result.verdict.soak_s for result in results if result.verdict})
+    if not any(soaked):
+        return "No node was left running longer than its checks took (--soak SECONDS does that)."
+    seconds = " or ".join(f"{each:g}" for each in soaked)
+    return f"Besides, the nodes of each were left running for {seconds} s."
+
+
+def _scores(results: Sequence[Result]) -> list[str]:
+    scores = sorted(result.score for result in results if result.score is not None)
+    if not scores:
+        return []
+    middle = scores[len(scores) // 2]
+    return [f"Scores: lowest {scores[0]:g}, middle {middle:g}, highest {scores[-1]:g}."]
+
+
+def _named(word: str, results: Iterable[Result]) -> list[str]:
+    """Those that want a person's eye, with the reason."""
+    found = list(results)
+    if not found:
+        return []
+    lines = [f"  {result.submission}: {_reason(result)}" for result in found[:MOST_NAMED]]
+    more = [f"  and {len(found) - MOST_NAMED} more"] if len(found) > MOST_NAMED else []
+    return [f"{word.capitalize()}:", *lines, *more]
+
+
+def _reason(result: Result) -> str:
+    if result.reason:
+        return result.reason.splitlines()[0]
+    checks = result.verdict.checks if result.verdict else ()
+    return next((f"{c.id}: {c.why}" for c in checks if c.outcome == "inconclusive"), "")

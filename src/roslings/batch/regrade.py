@@ -1,0 +1,122 @@
+"""What an instructor does after the grading: give a score by hand, judge all evidence again."""
+
+from __future__ import annotations
+
+import getpass
+from collections import Counter
+from pathlib import Path
+
+from roslings import course
+from roslings.batch.errors import BadGradebook, BatchError
+from roslings.batch.export import hand_out, keep, settings_of
+from roslings.batch.gradebook import Gradebook, gradebook, lab_of
+from roslings.batch.grades import Grade, class_of
+from roslings.batch.grading import rates_of, unpacked
+from roslings.batch.messages import summary_lines
+from roslings.batch.result import Result
+from roslings.batch.roster import read_roster
+from roslings.batch.version import version_of
+from roslings.course import Lab
+from roslings.judge import judge
+
+
+def override(folder: Path, submission: str, score: float, reason: str, by: str | None) -> list[str]:
+    """Put a person's score beside the measured one, and write everything anew.
+
+    `submission` is its name, or what the class list says of the student.
+    Raises BatchError for a submission that is not there, a score that is none, or no reason.
+    """
+    if not reason.strip():
+        raise BatchError("A score by hand needs a reason.", 'Say it: --reason "..."')
+    if not 0 <= score <= 100:
+        raise BatchError(f"{score:g} is no score.", "Give a number from 0 to 100.")
+    name = _lab_in(folder)
+    with gradebook(folder, name) as book:
+        lab = course.lab(name, settings_of(book).hidden)
+        submission = _meant(book, submission)
+        book.override(submission, score, reason, by or _who())
+        told = f"{submission} has {score:g} of 100 now; the measured score is kept beside it."
+        return [told, *hand_out(book, lab, folder)]
+
+
+def _lab_in(folder: Path) -> str:
+    found = lab_of(folder)
+    if found is None:
+        step = "Give the folder that ./roslings grade made (--out)."
+        raise BadGradebook(f"There is no gradebook in {folder}.", step)
+    return found
+
+
+def _meant(book: Gradebook, who: str) -> str:
+    """The submission of that name, else the one that counts for that student. Raises BatchError."""
+    if who in book.latest():
+        return who
+    found = [grade for grade in _grades(book) if grade.student and grade.student.is_called(who)]
+    if not found:
+        raise _nobody(book, who)
+    if len(found) > 1:
+        several = ", ".join(f"{grade.name} ({grade.submission or 'nothing'})" for grade in found)
+        raise BatchError(
+            f"{who!r} may be one of several: {several}.", "Give the submission's name."
+        )
+    if not found[0].result:
+        step = "A score by hand stands beside a measured one: grade something of theirs first."
+        raise BatchError(f"{found[0].name} handed in nothing.", step)
+    return found[0].submission
+
+
+def _grades(book: Gradebook) -> list[Grade]:
+    settings = settings_of(book)
+    students = read_roster(settings.roster) if settings.roster else ()
+    return class_of(book, settings.times, students, settings.rule).grades
+
+
+def _nobody(book: Gradebook, who: str) -> BatchError:
+    names = list(book.latest())
+    near = ", ".join(name for name in names if who.lower() in name.lower())
+    step = f"Is it one of these: {near}?" if near else "The names are in grades.csv."
+    return BatchError(f"There is no submission and no student {who!r} here.", step)
+
+
+def _who() -> str:
+    try:
+        return getpass.getuser()
+    except (KeyError, OSError):  # a user without a name
+        return "unknown"
+
+
+def regrade_all(folder: Path, lab_name: str, hidden: Path | None) -> list[str]:
+    """Judge all kept evidence again, running nothing; earlier verdicts are kept.
+
+    Without `hidden`, the hidden checks of the grading are used. Raises BadGradebook.
+    """
+    with gradebook(folder, course.lab(lab_name).name) as book:
+        settings = settings_of(book)
+        if hidden:
+            settings = settings.model_copy(update={"hidden": hidden.absolute()})
+            keep(book, settings)
+        lab = course.lab(lab_name, settings.hidden)
+        told = Counter(_again(book, result, lab) for result in book.latest().values())
+        changed, same, without = (told[word] for word in ("changed", "same", "without"))
+        lines = [f"{changed + same} judged again, {changed} scores changed."]
+        if without:
+            lines.append(f"{without} have no evidence: grade those again to judge them anew.")
+        return [*lines, *summary_lines(book, list(book.latest())), *hand_out(book, lab, folder)]
+
+
+def _again(book: Gradebook, result: Result, lab: Lab) -> str:
+    content = book.evidence(result)
+    if result.verdict is None:
+        return "refused"
+    if content is None:
+        return "without"
+    evidence = unpacked(content)
+    verdict = judge(lab, evidence).model_copy(update={"seconds": result.verdict.seconds})
+    version = version_of(lab)
+    if verdict == result.verdict and version == result.lab_version:
+        return "same"
+    attempt = book.attempts(result.submission, result.digest) + 1
+    words = {"verdict": verdict, "lab_version": version, "attempt": attempt,
+             "rates": rates_of(evidence, lab)}  # fmt: skip
+    book.write(result.model_copy(update=words))
+    return "same" if verdict.score == result.score else "changed"

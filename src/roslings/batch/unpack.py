@@ -1,0 +1,128 @@
+"""From what was handed in to the folder of its package."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from itertools import islice
+from pathlib import Path
+
+from roslings.batch.archives import Budget, is_archive, is_clutter, unpack
+from roslings.batch.errors import HostileArchive, Refused
+from roslings.batch.newest import newest_first
+from roslings.workspace.errors import MachineTrouble, WorkspaceError, without_places
+from roslings.workspace.packages import find_package, nothing_in, package_name, packages_in
+from roslings.workspace.sources import files
+
+MOST_ARCHIVES = 20
+"""Of one submission, all levels together."""
+DEEPEST = 3
+"""A zip in a zip in a zip."""
+
+
+def package_in(handed_in: Path, name: str, room: Path) -> Path:
+    """The folder of the package `name` in a submission; archives are unpacked into `room`.
+
+    Where a folder or an archive holds no package but archives, the newest of these that has the
+    package counts.
+    Raises Refused, and MachineTrouble where the disk is in the way.
+    """
+    opening = Opening(name, room)
+    try:
+        package = _chosen(opening.folder_of(handed_in), name)
+        files(package)  # a link that leaves the package, or too much in it
+        return package
+    except MachineTrouble:
+        raise
+    except WorkspaceError as error:
+        raise _in_its_own_words(error, (*opening.unpacked, handed_in, room)) from error
+
+
+@dataclass
+class Opening:
+    """What is unpacked of one submission: its bounds hold for all of its archives together."""
+
+    name: str
+    """Of the package that is looked for."""
+    room: Path
+    budget: Budget = field(default_factory=Budget)
+    unpacked: list[Path] = field(default_factory=list)
+
+    def folder_of(self, handed_in: Path) -> Path:
+        """The folder with what was handed in. Raises Refused."""
+        if not handed_in.exists():
+            raise Refused("There is nothing at its path.", "Look at the path in the list.")
+        if handed_in.is_dir():
+            return self._searched(handed_in, 0)
+        if not is_archive(handed_in):
+            reason = f"It is neither a folder nor an archive: {handed_in.suffix or 'no ending'}."
+            raise Refused(reason, "Hand in the zip file that ./roslings pack LAB makes.")
+        return self._out_of(handed_in, 0)
+
+    def _out_of(self, archive: Path, depth: int) -> Path:
+        number = len(self.unpacked)
+        folder = self.room / (f"unpacked-{number}" if number else "unpacked")
+        self.unpacked.append(folder)
+        unpack(archive, folder, self.budget)
+        return self._searched(folder, depth)
+
+    def _searched(self, folder: Path, depth: int) -> Path:
+        """The folder itself, or what comes out of an archive in it."""
+        if depth == DEEPEST or packages_in(folder):
+            return folder
+        inside = list(islice(_archives_in(folder), MOST_ARCHIVES))
+        opened = [*self._tried(inside, depth + 1)]
+        with_package = [each for each in opened if packages_in(each)]
+        return next(
+            (each for each in with_package if self._has_it(each)), [*with_package, folder][0]
+        )
+
+    def _tried(self, archives: list[Path], depth: int) -> Iterator[Path]:
+        """Each that can be unpacked, the newest first. Raises HostileArchive where it is alone."""
+        for archive in newest_first(archives):
+            if len(self.unpacked) >= MOST_ARCHIVES:
+                return
+            try:
+                folder = self._out_of(archive, depth)
+            except HostileArchive:
+                if len(archives) == 1:
+                    raise
+            except Refused:  # broken: what is said is that a packed file is there
+                continue
+            else:
+                yield folder
+                if self._has_it(folder):
+                    return
+
+    def _has_it(self, folder: Path) -> bool:
+        return any(package_name(package) == self.name for package in packages_in(folder))
+
+
+def _archives_in(folder: Path) -> Iterator[Path]:
+    """Archives at any depth; a link may lead to somebody else's, so none is followed."""
+    for here, folders, names in os.walk(folder):
+        folders[:] = sorted(each for each in folders if not _is_passed_by(each))
+        for name in sorted(names):
+            path = Path(here, name)
+            if is_archive(path) and not _is_passed_by(name) and not path.is_symlink():
+                yield path
+
+
+def _is_passed_by(name: str) -> bool:
+    return name.startswith(".") or is_clutter(name)
+
+
+def _chosen(folder: Path, name: str) -> Path:
+    if not packages_in(folder):
+        raise nothing_in(folder, name)
+    package = find_package(folder, name)
+    if not package.resolve().is_relative_to(folder.resolve()):
+        reason = "A link in it leads to another place."
+        raise Refused(reason, "Replace the link by the files themselves.")
+    return package
+
+
+def _in_its_own_words(error: WorkspaceError, places: tuple[Path, ...]) -> Refused:
+    """The same sentences, without the paths of the machine that grades."""
+    return Refused(without_places(error.problem, places), without_places(error.next_step, places))

@@ -1,0 +1,1 @@
+"""Actions: goals that take a while, with feedback, and can be cancelled."""

@@ -1,0 +1,1 @@
+"""Cameras: pictures that a node publishes, and pictures that a node looks at."""

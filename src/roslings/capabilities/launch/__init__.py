@@ -1,0 +1,1 @@
+"""Launch files: several nodes started by one command."""

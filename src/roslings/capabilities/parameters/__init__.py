@@ -1,0 +1,1 @@
+"""Parameters: settings of a node, given at its start or while it runs."""

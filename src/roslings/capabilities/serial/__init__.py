@@ -1,0 +1,1 @@
+"""Serial: a board on a cable, and the lines on it."""

@@ -1,0 +1,1 @@
+"""Services: one node asks, another answers."""

@@ -1,0 +1,1 @@
+"""What can be wrong with messages: their rhythm, their text, and what is made of their values."""
