@@ -663,3 +663,8 @@ class Evidence(Record):
 def evidence_json(evidence: Evidence, indent: int | None = None) -> bytes:
     """JSON in UTF-8, in one piece: large evidence has no room for a text of it beside its bytes."""
     return TypeAdapter(Evidence).dump_json(evidence, by_alias=True, indent=indent)
+
+
+def read_json(content: bytes) -> Evidence:
+    """Evidence of this schema or an earlier one. Raises pydantic's ValidationError."""
+    return Evidence.model_validate_json(content)

@@ -18,7 +18,7 @@ from roslings.batch.result import Order, Result, broken
 from roslings.batch.unpack import package_in
 from roslings.batch.version import version_of
 from roslings.course import Lab
-from roslings.evidence import Evidence, evidence_json
+from roslings.evidence import Evidence, evidence_json, read_json
 from roslings.experiment import Choices, MeasuringFailed, measure
 from roslings.experiment.soaking import SOAKING
 from roslings.judge.loaded import judge_for
@@ -76,7 +76,7 @@ def packed(evidence: Evidence) -> bytes:
 
 def unpacked(content: bytes) -> Evidence:
     """The same evidence."""
-    return Evidence.model_validate_json(zlib.decompress(content))
+    return read_json(zlib.decompress(content))
 
 
 def grade(order: Order) -> tuple[Result, Evidence | None]:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from roslings.evidence import SCHEMA_VERSION, Evidence, evidence_json
+from roslings.evidence import SCHEMA_VERSION, Evidence, evidence_json, read_json
 
 FILE = "evidence.json"
 AGAIN = "Save it again with: ./roslings check LAB --evidence DIR"
@@ -42,7 +42,7 @@ def read_evidence(path: Path, lab: str) -> Evidence:
     content = _content(file)
     _require_ours(file, content, lab)
     try:
-        evidence = Evidence.model_validate_json(content)
+        evidence = read_json(content)
     except ValidationError as error:
         raise BadEvidence(file, f"damaged: {_first(error)}.") from error
     for seen in [*evidence.experiments.values(), *evidence.attempts]:
