@@ -21,6 +21,7 @@ from roslings.capabilities.actions.demands import (
     cancel_each,
     cancel_in_time,
     end_so,
+    give_up,
     hear_meanwhile,
     keep_to_the_first,
     perform,
@@ -36,7 +37,6 @@ from roslings.capabilities.actions.demands import (
     trip,
 )
 from roslings.capabilities.robot.act import robot_beside, start_near
-from roslings.capabilities.services.demands import give_up
 from roslings.course import lab
 from roslings.experiment import Scene, experiment
 from roslings.experiment.start import Start

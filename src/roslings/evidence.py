@@ -1,30 +1,26 @@
 """What was seen of a student's package: the only thing that a check may look at.
 
-This module imports nothing of ours, so that every room can speak it. Times that end in `_ns`
-are nanoseconds: `arrival_ns` on the monotonic clock, `source_ns` on the publisher's wall clock.
+What every experiment sees stands here; what only some see, of services or of a cable, is a part of
+it, and its record lies in the room of the capability. This module names none of them, so that every
+room can speak it. Times that end in `_ns` are nanoseconds: `arrival_ns` on the monotonic clock,
+`source_ns` on the publisher's wall clock.
 """
 
 from __future__ import annotations
 
-from typing import Any, Literal
+import json
+import re
+from collections.abc import Callable, Mapping
+from typing import Annotated, Any, Literal, TypeVar
 
-from pydantic import BaseModel, ConfigDict, Field, TypeAdapter
+from pydantic import BeforeValidator, ConfigDict, Field, SerializeAsAny, TypeAdapter
 from pydantic.dataclasses import dataclass
 
-SCHEMA_VERSION = 1
+from roslings.capability import capabilities, capability
+from roslings.record import SMALL, PartSeen, Record, UnknownPart
 
-
-class Record(BaseModel):
-    """A model that is written once, and that refuses unknown fields when it is read back.
-
-    Numbers that JSON cannot hold become the texts NaN, Infinity and -Infinity: float() reads them.
-    """
-
-    model_config = ConfigDict(extra="forbid", ser_json_inf_nan="strings")
-
-
-SMALL = ConfigDict(extra="forbid", ser_json_inf_nan="strings")
-"""Of the records that there are thousands of: with slots, they take a third of a model's memory."""
+SCHEMA_VERSION = 2
+P = TypeVar("P", bound=PartSeen)
 
 
 @dataclass(slots=True, kw_only=True, config=SMALL)
@@ -213,242 +209,11 @@ class CanarySeen(Record):
     )
 
 
-class ServiceEnd(Record):
-    """One side of a service: who answers it, or who may call it."""
-
-    kind: Literal["server", "client"]
-    node: str = Field(description="Full name of the node")
-    service: str
-    type: str = Field(description="e.g. `std_srvs/srv/SetBool`")
-
-
-class CallSeen(Record):
-    """One call of a service: what was asked, what came back, and when."""
-
-    service: str
-    type: str
-    request: Any
-    response: Any = Field(default=None, description="None where no answer came")
-    sent_ns: int
-    answered_ns: int | None = Field(default=None, description="None where no answer came")
-    part: str = Field(default="", description="The part of the experiment that it belongs to")
-    number: int = Field(default=0, description="Its place in that part, from 0")
-    client: int = Field(default=0, description="Which of several clients at once called")
-    watched_until_ns: int | None = Field(
-        default=None, description="How long the topics were watched for its effect"
-    )
-
-
-class ActionEnd(Record):
-    """One side of an action: who performs it, or who may give goals to it."""
-
-    kind: Literal["server", "client"]
-    node: str = Field(description="Full name of the node")
-    action: str
-    type: str = Field(description="e.g. `test_msgs/action/Fibonacci`")
-
-
-class GoalSeen(Record):
-    """One goal of an action: what was asked, what came of it, and when."""
-
-    action: str
-    type: str
-    goal: Any
-    part: str = Field(default="", description="The part of the experiment that it belongs to")
-    id: list[int] = Field(description="The goal's number of 16 bytes; its feedback carries it")
-    sent_ns: int
-    answered_ns: int | None = Field(default=None, description="None where nobody answered")
-    accepted: bool | None = None
-    cancel_sent_ns: int | None = Field(default=None, description="None where it was not cancelled")
-    cancel_answered_ns: int | None = None
-    cancel_accepted: bool | None = None
-    ended_ns: int | None = Field(default=None, description="None where no result came")
-    status: str | None = Field(default=None, description="ROS's word, e.g. `succeeded`")
-    result: Any = None
-    watched_until_ns: int | None = Field(
-        default=None, description="How long the robot was watched after it"
-    )
-    cpu_wait_s: float = Field(
-        default=0.0,
-        description="From the request to cancel on: how long threads of the node were ready to run"
-        " and no processor was free, added up, since a cancel goes from one to the next",
-    )
-
-    @property
-    def feedback_topic(self) -> str:
-        """Where ROS hides the feedback of the action."""
-        return f"{self.action}/_action/feedback"
-
-
-class PoseSeen(Record):
-    """Where a robot really was at a moment."""
-
-    arrival_ns: int = Field(description="Observer's monotonic clock")
-    x_m: float
-    y_m: float
-    heading_rad: float
-
-
-class CommandSeen(Record):
-    """One command that reached a robot."""
-
-    arrival_ns: int
-    forward_m_s: float
-    turn_rad_s: float
-
-
-class DriveSeen(Record):
-    """A drive: how a robot moved, and what it was told."""
-
-    path: list[PoseSeen] = Field(default_factory=list)
-    commands: list[CommandSeen] = Field(default_factory=list)
-
-
-class CableLine(Record):
-    """One whole line on a serial cable, without the end of line, as it was sent."""
-
-    board_s: float = Field(description="The board's clock")
-    sent_ns: int = Field(description="Observer's monotonic clock")
-    text: str
-
-
-class MotorsSeen(Record):
-    """What reached the motors, from one moment on."""
-
-    board_s: float
-    left_pwm: int
-    right_pwm: int
-
-
-class BoardMark(Record):
-    """How things really stood at a moment of the experiment."""
-
-    part: str
-    arrival_ns: int = Field(description="Observer's monotonic clock")
-    board_s: float
-    x_m: float
-    y_m: float
-    heading_rad: float
-    left_pwm: int
-    right_pwm: int
-
-
-class BoardSeen(Record):
-    """All that was seen at the board's end of a serial cable."""
-
-    told: list[CableLine] = Field(default_factory=list, description="By the board, unspoiled")
-    heard: list[CableLine] = Field(default_factory=list, description="From the node")
-    motors: list[MotorsSeen] = Field(default_factory=list)
-    marks: list[BoardMark] = Field(default_factory=list)
-    rejected: int = Field(default=0, description="Lines of the node that the board refused")
-    lost_bytes: int = Field(default=0, description="Sent by the board, and read too late")
-    host_bits_s: int | None = Field(
-        default=None, description="To which the node has set its end at last; None where it has not"
-    )
-
-
-class ParameterDeclared(Record):
-    """One parameter of a node, as the node itself says it."""
-
-    node: str
-    name: str
-    type: Literal["bool", "integer", "double", "string", "other"]
-    value: bool | int | float | str | None = Field(description="None where the type is another")
-
-
-class ParameterSet(Record):
-    """One try to set a node's parameter while it ran."""
-
-    node: str
-    name: str
-    value: bool | int | float | str
-    asked_ns: int = Field(description="Observer's monotonic clock")
-    answered_ns: int | None = Field(default=None, description="None where no answer came")
-    accepted: bool = False
-    reason: str = Field(default="", description="Why it was refused, in the node's words")
-
-
-class PixelsSeen(Record):
-    """What the bytes of one picture held; the bytes themselves are not kept."""
-
-    bytes: int
-    level: float | None = Field(
-        default=None, description="Mean of all values, 0 to 255; None where they cannot be read"
-    )
-    shows: int | None = Field(default=None, description="Which known picture is most like it")
-    off: float | None = Field(default=None, description="Mean distance from that one, in levels")
-    swapped_off: float | None = Field(
-        default=None, description="The same, with red and blue exchanged"
-    )
-    round_off: float | None = Field(
-        default=None,
-        description="Its distance where values beyond 0 and 255 came out at the other end, or with"
-        " the other sign; looked at where `off` is large",
-    )
-    lighter: float = Field(default=0.0, description="Levels added to the known picture before")
-    marked: float | None = Field(
-        default=None, description="Part of the pixels around the ball that were drawn over"
-    )
-    swapped_marked: float | None = Field(
-        default=None, description="The same, where red and blue are exchanged back"
-    )
-    spoiled: float | None = Field(
-        default=None, description="Part of all other pixels that were changed"
-    )
-
-
-class DiscShown(Record):
-    """A ball in a picture, from the upper left corner."""
-
-    x_px: float
-    y_px: float
-    radius_px: float
-    hue: int
-
-
-class PictureShown(Record):
-    """One picture that the grader showed to a node, without its pixels."""
-
-    part: str
-    topic: str
-    width: int
-    height: int
-    encoding: str
-    step: int
-    bytes: int
-    stamp_ns: int
-    frame_id: str
-    ball: DiscShown | None = None
-    decoy: DiscShown | None = Field(default=None, description="A ball of another colour")
-    sent_ns: int = Field(default=0, description="Observer's monotonic clock, at the first try")
-    until_ns: int = Field(default=0, description="How long its answer was waited for")
-    tries: int = Field(default=0, description="How often it was sent: some are lost on the way")
-    answered: bool = Field(default=False, description="The node published something after it")
-    turned: bool = Field(default=False, description="The node's callbacks ran after it")
-
-
 class StageMark(Record):
     """The moment at which a part of an experiment began."""
 
     part: str
     at_ns: int = Field(description="Observer's monotonic clock")
-
-
-class PictureKept(Record):
-    """A picture for the reader of the report; bounded, so that evidence stays small."""
-
-    title: str
-    caption: str = Field(description="What it shows, in words")
-    png: str = Field(description="A PNG, in base64", pattern=r"^[A-Za-z0-9+/=]+$")
-    width: int
-    height: int
-
-
-class WaySeen(Record):
-    """Where something went, on the floor."""
-
-    name: str
-    points_m: list[tuple[float, float]] = Field(description="x and y, metres")
 
 
 Kind = Literal["messages", "topics", "rosout", "graph", "requests"]
@@ -462,6 +227,40 @@ class Dropped(Record):
     kind: Kind
     count: int = 0
     bytes: int = Field(default=0, description="As they came; 0 where nobody knows")
+
+
+class UnreadablePart(Exception):
+    """A part of the evidence was written by a newer capability than the one that is here."""
+
+    def __init__(self, name: str, version: int) -> None:
+        super().__init__(
+            f"the evidence of {name} has version {version}, which this roslings cannot read;"
+            " bring roslings up to date"
+        )
+
+
+def _read_parts(parts: Any) -> Any:
+    """Each part as its capability has it; one that nobody here can read is kept whole."""
+    if not isinstance(parts, Mapping):
+        raise ValueError("the parts are no mapping of names")
+    return {name: _read_part(name, content) for name, content in parts.items()}
+
+
+def _read_part(name: str, content: Any) -> PartSeen:
+    if isinstance(content, PartSeen):
+        return content
+    if not isinstance(content, Mapping) or not isinstance(version := content.get("v"), int):
+        raise ValueError(f"the part {name} has no version")
+    known = capability(name)
+    if known is None or known.seen is None or version > known.version:
+        return UnknownPart.model_validate(content)
+    fields = dict(content)
+    for step in range(version, known.version):
+        fields = known.upgrade[step](fields)
+    return known.seen.model_validate({**fields, "v": known.version})  # type: ignore[no-any-return]
+
+
+Parts = Annotated[dict[str, SerializeAsAny[PartSeen]], BeforeValidator(_read_parts)]
 
 
 class ExperimentSeen(Record):
@@ -484,23 +283,10 @@ class ExperimentSeen(Record):
     ticks: list[Tick] = Field(default_factory=list)
     segments: list[Segment] = Field(default_factory=list)
     canary: CanarySeen | None = None
-    services: list[ServiceEnd] = Field(default_factory=list)
-    calls: list[CallSeen] = Field(default_factory=list, description="Made by the grader")
-    served: list[CallSeen] = Field(default_factory=list, description="Answered by the grader")
-    actions: list[ActionEnd] = Field(default_factory=list)
-    goals: list[GoalSeen] = Field(default_factory=list, description="Given by the grader")
-    orders: list[GoalSeen] = Field(default_factory=list, description="Given to the grader")
-    drive: DriveSeen | None = Field(default=None, description="The robot, where there was one")
-    board: BoardSeen | None = Field(default=None, description="The board, where there was one")
-    parameters: dict[str, list[str]] = Field(
-        default_factory=dict, description="Node to the names of its parameters"
+    parts: Parts = Field(
+        default_factory=dict, description="Name of a capability to what was seen of it"
     )
-    declared: list[ParameterDeclared] = Field(default_factory=list)
-    parameter_sets: list[ParameterSet] = Field(default_factory=list)
-    shown: list[PictureShown] = Field(default_factory=list, description="By the grader")
     stages: list[StageMark] = Field(default_factory=list)
-    pictures: list[PictureKept] = Field(default_factory=list)
-    ways: list[WaySeen] = Field(default_factory=list)
     stuck: list[str] = Field(
         default_factory=list, description="Nodes that ran, and whose callbacks ran no more"
     )
@@ -534,6 +320,14 @@ class ExperimentSeen(Record):
         default=False, description="... because the node takes its time from elsewhere"
     )
 
+    def part(self, kind: type[P]) -> P:
+        """What was seen of a capability; empty where nothing was. Raises UnreadablePart."""
+        return _readable(self.parts.get(kind.NAME, kind()), kind)
+
+    def recording(self, kind: type[P]) -> P:
+        """The same, to write into it: it is kept from now on."""
+        return _readable(self.parts.setdefault(kind.NAME, kind()), kind)
+
     @property
     def doubt(self) -> str | None:
         """Why its times say nothing about the student; None where they do."""
@@ -543,6 +337,12 @@ class ExperimentSeen(Record):
     def cpu_wait_s(self) -> float:
         """The longest time for which one of its processes waited for a processor."""
         return max((p.cpu_wait_s or 0.0 for p in self.processes.values()), default=0.0)
+
+
+def _readable(part: PartSeen, kind: type[P]) -> P:
+    if not isinstance(part, kind):
+        raise UnreadablePart(kind.NAME, part.v)
+    return part
 
 
 class HeldUp(Record):
@@ -641,7 +441,7 @@ class Span(Record):
 class Evidence(Record):
     """All that was seen of one package in one grading; judged again without running anything."""
 
-    schema_version: Literal[1] = Field(default=1, alias="schema")
+    schema_version: Literal[2] = Field(default=2, alias="schema")
     lab: str
     seed: int
     machine: MachineSeen
@@ -666,5 +466,38 @@ def evidence_json(evidence: Evidence, indent: int | None = None) -> bytes:
 
 
 def read_json(content: bytes) -> Evidence:
-    """Evidence of this schema or an earlier one. Raises pydantic's ValidationError."""
-    return Evidence.model_validate_json(content)
+    """Evidence of this schema, or of an earlier one, step by step. Raises ValidationError."""
+    found = _FIRST_FIELD.match(content)
+    if found and int(found[1]) == SCHEMA_VERSION:
+        return Evidence.model_validate_json(content)
+    evidence = json.loads(content)
+    while (version := evidence.get("schema")) in _UPGRADES:
+        evidence = {**_UPGRADES[version](evidence), "schema": version + 1}
+    return Evidence.model_validate(evidence)
+
+
+_FIRST_FIELD = re.compile(rb'\s*\{\s*"schema"\s*:\s*([0-9]+)\b')
+"""Whether evidence is of this schema is known by its first bytes: it may be large."""
+
+
+def _with_parts(evidence: dict[str, Any]) -> dict[str, Any]:
+    """From schema 1 to 2: what single capabilities saw goes from an experiment into its parts."""
+    experiments = evidence.get("experiments", {})
+    return {
+        **evidence,
+        "experiments": {name: _divided(seen) for name, seen in experiments.items()},
+        "attempts": [_divided(seen) for seen in evidence.get("attempts", [])],
+    }
+
+
+def _divided(seen: dict[str, Any]) -> dict[str, Any]:
+    rest, parts = dict(seen), {}
+    for each in capabilities():
+        found = {new: rest.pop(old) for old, new in each.in_schema_1.items() if old in rest}
+        if any(found.values()):
+            parts[each.name] = {"v": 1, **found}
+    return {**rest, "parts": parts}
+
+
+_UPGRADES: dict[int, Callable[[dict[str, Any]], dict[str, Any]]] = {1: _with_parts}
+"""Schema to the step to the next one."""

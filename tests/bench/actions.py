@@ -17,6 +17,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from roslings.capabilities.actions.act import cancelled_after_s, stopped_after_s
+from roslings.capabilities.actions.record import ActionsSeen
+from roslings.capabilities.robot.record import RobotSeen
 from roslings.checking import ready
 from roslings.course import Lab, lab, root
 from roslings.evidence import ExperimentSeen
@@ -52,7 +54,7 @@ def show(name: str, times_s: Sequence[float]) -> None:
 
 def show_rates(seen: ExperimentSeen) -> None:
     """The feedback of the goal that was driven to its end."""
-    last = seen.goals[-1]
+    last = seen.part(ActionsSeen).goals[-1]
     messages = seen.topics[last.feedback_topic].messages
     own = [m for m in messages if m.content["goal_id"]["uuid"] == last.id]
     if rate := measure_rate(own):
@@ -72,10 +74,10 @@ def main(cancels: int) -> None:
     """Print all of it."""
     with tempfile.TemporaryDirectory() as folder:
         seen = timed(Path(folder), cancels)
-    goals = [goal for goal in seen.goals if goal.cancel_sent_ns]
+    goals = [goal for goal in seen.part(ActionsSeen).goals if goal.cancel_sent_ns]
     show_rates(seen)
     show("cancel: goal ended", [t for g in goals if (t := cancelled_after_s(g)) is not None])
-    drive = seen.drive
+    drive = seen.part(RobotSeen).drive
     assert drive is not None
     stops = [stopped_after_s(goal, drive) for goal in goals]
     show("cancel: robot told to stand still", [t for t in stops if t is not None])

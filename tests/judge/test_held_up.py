@@ -5,33 +5,27 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+from seen_with import seen_with
 
 from roslings.capabilities.actions import faults as action_faults
 from roslings.capabilities.actions.act import HEARS, answer_to
 from roslings.capabilities.actions.demands import accept, hear_meanwhile
+from roslings.capabilities.actions.record import GoalSeen
 from roslings.capabilities.camera.demands import MISSING, tell_of_trouble
 from roslings.capabilities.camera.detection import Screen, find_the_ball
 from roslings.capabilities.camera.faults import detection as showing_faults
 from roslings.capabilities.camera.faults import images as camera_faults
+from roslings.capabilities.camera.record import PictureShown
 from roslings.capabilities.serial import faults as cable_faults
 from roslings.capabilities.serial.demands import drive_as_told, stop_by_itself
+from roslings.capabilities.serial.record import BoardMark, BoardSeen, CableLine
 from roslings.capabilities.services import faults
 from roslings.capabilities.services.act import CLIENT_ENDS
 from roslings.capabilities.services.demands import answer_in_time, give_up
+from roslings.capabilities.services.record import CallSeen
 from roslings.course import ActionContract, NodeContract, ServiceContract, TopicContract
 from roslings.devices.board import Drive
-from roslings.evidence import (
-    BoardMark,
-    BoardSeen,
-    CableLine,
-    CallSeen,
-    ExperimentSeen,
-    GoalSeen,
-    HeldUp,
-    PictureShown,
-    ProcessSeen,
-    StageMark,
-)
+from roslings.evidence import HeldUp, ProcessSeen, StageMark
 from roslings.experiment.own_time import PATIENCE_S
 from roslings.judge import ExperimentView, Inconclusive
 from roslings.judge.demands import require_its_time
@@ -58,7 +52,7 @@ def view(part: str, held_s: float, ended_ns: int | None = None, **seen: Any) -> 
     process = ProcessSeen(executable="it", started_ns=0, ended_ns=ended_ns)
     held = {part: HeldUp(cpu_wait_s=held_s, stall_s=0.0)}
     words = {"processes": {"it": process}, "held_up": held, **seen}
-    return ExperimentView(ExperimentSeen(name="x", clock="wall", **words))
+    return ExperimentView(seen_with(name="x", clock="wall", **words))
 
 
 def told(part: str, held_s: float, demand: Any, fault: type[Fault], **seen: Any) -> bool:

@@ -8,11 +8,14 @@ from typing import Any
 
 import pytest
 from pydantic import ValidationError
+from seen_with import seen_with
 from written_evidence import evidence
 from written_verdicts import too_slow
 
+from roslings.capabilities.camera.record import PictureKept
+from roslings.capabilities.robot.record import WaySeen
 from roslings.capabilities.robot.report import MOST_POINTS, describe, way_picture, ways_of
-from roslings.evidence import ExperimentSeen, MessageSeen, PictureKept, TopicSeen, WaySeen
+from roslings.evidence import ExperimentSeen, MessageSeen, TopicSeen
 from roslings.report.html import html_of
 
 # One red pixel.
@@ -36,7 +39,7 @@ def driven(points: list[tuple[Any, Any]], told: list[tuple[Any, Any]]) -> Experi
     """A drive."""
     way = [WaySeen(name="where it really was", points_m=points)] if points else []
     topics = {"/odom": odometry(told)}
-    return ExperimentSeen(name="driving", clock="wall", ways=way, topics=topics)
+    return seen_with(name="driving", clock="wall", ways=way, topics=topics)
 
 
 def page(*experiments: ExperimentSeen) -> str:
@@ -47,7 +50,7 @@ def page(*experiments: ExperimentSeen) -> str:
 def test_a_picture_stands_in_the_page_itself_with_its_words() -> None:
     """The browser may draw what the page carries, and fetch nothing."""
     kept = PictureKept(title="A ball", caption='A "ball" <b>', png=PNG, width=1, height=1)
-    text = page(ExperimentSeen(name="looking", clock="wall", pictures=[kept]))
+    text = page(seen_with(name="looking", clock="wall", pictures=[kept]))
     assert f'src="data:image/png;base64,{PNG}"' in text
     assert 'alt="A &quot;ball&quot; &lt;b&gt;"' in text
     assert "<figcaption>A &quot;ball&quot; &lt;b&gt;</figcaption>" in text

@@ -6,6 +6,7 @@ import ast
 import math
 from typing import Any
 
+from roslings.capabilities.actions.record import ActionsSeen
 from roslings.drills.card import PROGRAM, Answer, DrillCard
 from roslings.drills.faults import NoAnswerYet, ProgramChanged, WrongAnswer
 from roslings.evidence import ExperimentSeen
@@ -75,7 +76,7 @@ def seen_of(answer: Answer, card: DrillCard, view: ExperimentView) -> Any:
     if answer.shows == "node":
         return _number(view.seen.graph.nodes, answer.number)
     if answer.shows == "state":
-        return _number([goal.status for goal in view.seen.goals], answer.number)
+        return _number([goal.status for goal in view.seen.part(ActionsSeen).goals], answer.number)
     if answer.shows == "rate_hz":
         return _rate_hz(card, view)
     return _of_topic(answer, card, view)

@@ -18,11 +18,11 @@ from roslings.capabilities.actions.demands import (
     shown,
 )
 from roslings.capabilities.actions.goals import Goal, GoalGiver, GoalTaker, read_actions
+from roslings.capabilities.actions.record import ActionsSeen, GoalSeen
 from roslings.course import ActionContract
 from roslings.drills.card import PROGRAM, DrillCard, Give, Take
 from roslings.drills.faults import CancelUnheard, WrongGoal
 from roslings.drills.same import same
-from roslings.evidence import GoalSeen
 from roslings.experiment import Scene
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
 from roslings.judge import ExperimentView, NothingToJudge
@@ -45,7 +45,7 @@ def give_goals(card: DrillCard, scene: Scene, process: Process) -> None:
         await_action(scene)
     for number, give in enumerate(card.gives):
         if any(end.kind == "server" and end.action == give.action and end.type == give.type
-               for end in scene.seen.actions):  # fmt: skip
+               for end in scene.seen.part(ActionsSeen).ends):  # fmt: skip
             _give(give, f"{number}", scene, process)
 
 
@@ -73,7 +73,7 @@ def take_goal(take: Take, scene: Scene, process: Process) -> None:
     """Be the server of the program's one goal, tell feedback, and end it."""
     scene.until(lambda: _clients_noted(scene), FIRST_MESSAGE_WITHIN_S)
     with GoalTaker(scene.probe, take.action, take.type, take.accepts) as taker:
-        scene.until_own(lambda: bool(scene.seen.orders), ASKS_WITHIN_S)
+        scene.until_own(lambda: bool(scene.seen.part(ActionsSeen).orders), ASKS_WITHIN_S)
         if not scene.until(lambda: taker.has_goal, ANSWER_WITHIN_S if take.accepts else 0.0):
             _let_read(take, scene, process)
             return
@@ -86,13 +86,13 @@ def take_goal(take: Take, scene: Scene, process: Process) -> None:
 def _clients_noted(scene: Scene) -> bool:
     """Whether the program has a client, of whatever action; a slip in its name is told."""
     ends = read_actions(scene.probe.eye, scene.seen.graph.nodes)
-    scene.seen.actions = ends or scene.seen.actions
+    scene.seen.recording(ActionsSeen).ends = ends or scene.seen.part(ActionsSeen).ends
     return any(end.kind == "client" for end in ends)
 
 
 def _let_read(take: Take, scene: Scene, process: Process) -> None:
     """The server stays until the program has had its answer."""
-    if scene.seen.orders:
+    if scene.seen.part(ActionsSeen).orders:
         scene.until_own(lambda: not process.alive, READS_WITHIN_S)
 
 
@@ -119,7 +119,7 @@ def _performs(action: ActionContract) -> Callable[[ExperimentView], None]:
 
 def _handles(give: Give, number: int) -> Callable[[ExperimentView], None]:
     def demand(view: ExperimentView) -> None:
-        goal = next((g for g in view.seen.goals if g.part == f"{number}"), None)
+        goal = next((g for g in view.seen.part(ActionsSeen).goals if g.part == f"{number}"), None)
         if goal is None:
             raise NothingToJudge(f"no goal could be given to {give.action}")
         _require_answer(view, give, goal)
@@ -192,7 +192,7 @@ def _require_result(give: Give, goal: GoalSeen) -> None:
 
 def _require_no_slip(view: ExperimentView, take: Take) -> None:
     """Raises SendsElsewhere where it is a client of an action of another name."""
-    clients = (end.action for end in view.seen.actions if end.kind == "client")
+    clients = (end.action for end in view.seen.part(ActionsSeen).ends if end.kind == "client")
     near = nearest(take.action, clients)
     if near and not near.exact:
         raise faults.SendsElsewhere(near)
@@ -200,14 +200,14 @@ def _require_no_slip(view: ExperimentView, take: Take) -> None:
 
 def _sends(take: Take) -> Callable[[ExperimentView], None]:
     def demand(view: ExperimentView) -> None:
-        if not view.seen.orders:
+        if not view.seen.part(ActionsSeen).orders:
             require_steady(view.seen.stall_s)
             _require_no_slip(view, take)
             process = view.labelled(PROGRAM)
             ended = f"the program ended ({describe_end(process.seen)})"
             how = ended if process.seen.ended_by_itself else "the program ran on"
             raise faults.SentNoGoal(PROGRAM, take.action, how, log=process.last_lines(6))
-        found = view.seen.orders[0].goal
+        found = view.seen.part(ActionsSeen).orders[0].goal
         if not all(same(found.get(name), value) for name, value in take.goal.items()):
             raise WrongGoal(take.action, shown(take.goal), shown(found))
 

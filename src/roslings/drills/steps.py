@@ -18,6 +18,7 @@ from roslings.capabilities.services.demands import (
     serve_their_types,
     tell_the_answer,
 )
+from roslings.capabilities.services.record import ServicesSeen
 from roslings.capabilities.topics.act import nested
 from roslings.capabilities.topics.demands import count_up, have_rate, say_its_text
 from roslings.capabilities.topics.faults.messages import NoMessages
@@ -129,7 +130,7 @@ def _unless_asked(
 
     def demand(view: ExperimentView) -> None:
         process = view.process(node)
-        if not (view.seen.calls and process.shown):
+        if not (view.seen.part(ServicesSeen).calls and process.shown):
             process.must(look)
 
     return demand

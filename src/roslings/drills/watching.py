@@ -8,9 +8,11 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from roslings.arena import Process
+from roslings.capabilities.actions.record import ActionsSeen
 from roslings.capabilities.parameters.act import list_parameters
 from roslings.capabilities.services.act import Asker, answering
 from roslings.capabilities.services.graph import read_services
+from roslings.capabilities.services.record import ServicesSeen
 from roslings.capabilities.topics.act import nested
 from roslings.course import NodeContract, TopicContract
 from roslings.drills.card import PROGRAM, DrillCard, Tell
@@ -191,16 +193,18 @@ def _talk_with(node: NodeContract, card: DrillCard, scene: Scene, process: Proce
 def _has_clients(scene: Scene) -> bool:
     """Whether the program is a client of something; a slip in a name is told."""
     ends = read_services(scene.probe.eye, scene.seen.graph.nodes)
-    scene.seen.services = ends or scene.seen.services
+    scene.seen.recording(ServicesSeen).ends = ends or scene.seen.part(ServicesSeen).ends
     return any(end.kind == "client" for end in ends)
 
 
 def _await_request(node: NodeContract, scene: Scene, process: Process) -> None:
     """Wait for a request, and then for the line about its answer."""
 
-    if not scene.until_own(lambda: len(scene.seen.served) > 0, ASKS_WITHIN_S):
+    if not scene.until_own(lambda: len(scene.seen.part(ServicesSeen).served) > 0, ASKS_WITHIN_S):
         return
-    line = (node.log or "").format(text=scene.seen.served[0].response.get("message", ""))
+    line = (node.log or "").format(
+        text=scene.seen.part(ServicesSeen).served[0].response.get("message", "")
+    )
     if not scene.is_written(process, line):
         _let_spin(scene, process)
     if not scene.seen.stuck:
@@ -264,7 +268,9 @@ def _heard(scene: Scene, tell: Tell) -> int:
 def _await_output(card: DrillCard, scene: Scene, process: Process) -> None:
     """Wait for what must be printed, and for the end of a program that ends by itself."""
     asks = card.takes or any(node.calls for node in card.nodes)
-    if card.exits is not None and (scene.seen.served or scene.seen.orders or not asks):
+    if card.exits is not None and (
+        scene.seen.part(ServicesSeen).served or scene.seen.part(ActionsSeen).orders or not asks
+    ):
         scene.until_own(lambda: not process.alive, ENDS_WITHIN_S)
         process.wait_ended(0.0 if process.alive else ENDS_WITHIN_S)
     elif card.prints:

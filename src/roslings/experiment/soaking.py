@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from time import monotonic
 
 from roslings.arena import Arena, Installed, Place, Process, opened
+from roslings.capability import Plain, capabilities
 from roslings.course import Card, NodeContract
 from roslings.evidence import SoakSeen
 from roslings.experiment.start import PLAIN, Start
@@ -24,8 +25,6 @@ SOAKING = "Your nodes run on for a while, to see that they stay"
 LOOK_EVERY_S = 0.5
 LOOKS_AT_REST, LOOK_AGAIN_S, RESTS_WITHIN_S = 3, 0.1, 5.0
 KEPT_LINES = 40
-IMAGE = "sensor_msgs/msg/Image"
-PICTURES = 4
 
 
 @dataclass(frozen=True)
@@ -90,34 +89,8 @@ def soaking(soak: Soak | None) -> Iterator[Future[SoakSeen] | None]:
 
 
 def beside(node: NodeContract, card: Card, arena: Arena, running: ExitStack) -> Start:
-    """How a node is started: with the device that it needs, which ends when `running` does."""
-    names = {parameter.name for parameter in node.parameters}
-    if card.board and "port" in names:
-        return Start(parameters={"port": _board(arena, running)})
-    if "device" in names and any(topic.type == IMAGE for topic in node.publishes):
-        return Start(parameters={"device": _camera(arena, running)})
-    return PLAIN
-
-
-def _board(arena: Arena, running: ExitStack) -> str:
-    """A rover's board in real time, on an empty floor."""
-    from roslings.capabilities.serial.act import FLOOR, PORT
-    from roslings.devices.board import Board, Mega
-    from roslings.devices.rover import Rover
-
-    board = running.enter_context(Board(Mega(Rover(FLOOR)), arena.devices / PORT))
-    running.enter_context(board.running())
-    return board.name
-
-
-def _camera(arena: Arena, running: ExitStack) -> str:
-    """A camera before which a ball goes round."""
-    from roslings.devices.camera import SocketCamera, SyntheticCamera
-    from roslings.devices.camera.live import ROUND_PICTURES, ball_at
-
-    painter = SyntheticCamera(encoding="bgr8")
-    places = range(0, ROUND_PICTURES, ROUND_PICTURES // PICTURES)
-    film = [painter.frame([ball_at(place, 5, painter.eye)]) for place in places]
-    camera = SocketCamera(arena.devices / "camera", lambda number: film[number % len(film)])
-    running.enter_context(camera).plug_in()
-    return str(camera.path)
+    """How a node is started: with the devices that it needs, which end when `running` does."""
+    lent: dict[str, Plain] = {}
+    for each in capabilities():
+        lent |= each.companions_of(node, card, arena, running)
+    return Start(parameters=lent) if lent else PLAIN

@@ -14,14 +14,15 @@ from typing import Any, TypeVar
 
 from roslings.evidence import Evidence, ExperimentSeen, Kind, ProcessSeen, TopicSeen
 from roslings.judge.faults import Fault, Inconclusive, NothingToJudge
+from roslings.record import PartSeen
 
 R = TypeVar("R")
 WHERE: dict[Kind, tuple[str, ...]] = {
     "rosout": ("rosout",),
     "graph": ("graph",),
-    "requests": ("served", "orders", "drive", "board"),
 }
-"""A kind to the fields of an experiment that hold it; messages and topics are looked at one by one.
+"""A kind to the fields of an experiment that hold it. Messages and topics are looked at one by one,
+requests to the grader lie in the parts of capabilities.
 """
 JUDGED = (type(None), Fault, AssertionError, NothingToJudge)
 NAMES: dict[Kind, str] = {
@@ -80,14 +81,39 @@ def watched_experiment(seen: ExperimentSeen, looks: Looks) -> ExperimentSeen:
         for kind, names in WHERE.items() if kind in dropped
         for name in names
     }  # fmt: skip
-    parts = {
+    whole = {
         "topics": Topics(
             {name: _watched_topic(each, looks) for name, each in seen.topics.items()},
             _unheard(dropped.get("topics", 0), seen.name), looks,
         ),
         "processes": {name: _watched_process(each, looks) for name, each in seen.processes.items()},
+        "parts": Parts(seen.parts, _unasked(dropped.get("requests", 0), seen.name), looks),
     }  # fmt: skip
-    return _telling(seen.model_copy(update=parts), missing, looks)
+    return _telling(seen.model_copy(update=whole), missing, looks)
+
+
+class Parts(dict[str, PartSeen]):
+    """What capabilities saw; who reads what was asked of the grader is told that some is missing.
+
+    Also where nothing is there: then all of it had no room.
+    """
+
+    def __init__(
+        self, parts: Mapping[str, PartSeen], unasked: Missing | None, looks: Looks
+    ) -> None:
+        super().__init__(parts)
+        self._unasked, self._looks = unasked, looks
+
+    def get(self, name: str, default: Any = None) -> Any:
+        """As `dict.get`."""
+        found = super().get(name, default)
+        if found is None or not self._unasked:
+            return found
+        return _telling(found, dict.fromkeys(found.REQUESTS, self._unasked), self._looks)
+
+
+def _unasked(count: int, experiment: str) -> Missing | None:
+    return Missing(f"{count} {NAMES['requests']} of {experiment!r}") if count else None
 
 
 class Topics(dict[str, TopicSeen]):

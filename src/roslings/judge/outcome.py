@@ -5,6 +5,7 @@ from __future__ import annotations
 import traceback
 from typing import Any
 
+from roslings.evidence import UnreadablePart
 from roslings.judge.faults import Fault, Inconclusive, NothingToJudge, Unmet
 from roslings.judge.faults.python_words import hint_for
 from roslings.judge.remarks import remarks
@@ -28,7 +29,7 @@ def words_for(error: BaseException | None, title: str) -> dict[str, Any]:
         }
     if isinstance(error, NothingToJudge):
         return {"outcome": "skip", "why": str(error)}
-    if isinstance(error, Inconclusive):
+    if isinstance(error, Inconclusive | UnreadablePart):
         return {"outcome": "inconclusive", "why": str(error)}
     words = "".join(traceback.format_exception(error)).strip()
     why = "the grader itself failed here: tell your instructor"

@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 
 from roslings.course import Lab
+from roslings.evidence import UnreadablePart
 from roslings.judge.check import check_of
 from roslings.judge.dropped import Looks
 from roslings.judge.faults import Fault, Inconclusive, NothingToJudge
@@ -71,7 +72,7 @@ class Collector:
 
         What could not be told beside such a mistake needs no telling either.
         """
-        if not isinstance(error, Fault | Inconclusive):
+        if not isinstance(error, Fault | Inconclusive | UnreadablePart):
             return error
         for name, kinds in check_of(_function(item)).explained_by.items():
             if any(r.id == name and r.fault in kinds for r in self.results):

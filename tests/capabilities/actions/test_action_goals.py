@@ -8,6 +8,7 @@ import pytest
 
 from roslings.arena.lease import leased_domain
 from roslings.capabilities.actions.goals import GoalGiver, GoalTaker, read_actions
+from roslings.capabilities.actions.record import ActionsSeen
 from roslings.evidence import ExperimentSeen
 from roslings.probe import Probe
 from roslings.probe.content import UnknownType, message_class
@@ -43,11 +44,11 @@ def test_a_goal_is_followed_to_its_end(probe: Probe, giver: GoalGiver) -> None:
         assert not goal.ended
         taker.end("succeed", {"sequence": [0, 1, 1]})
         assert probe.until(lambda: goal.ended, WITHIN_S)
-    seen = probe.seen.goals[0]
+    seen = probe.seen.part(ActionsSeen).goals[0]
     assert (seen.part, seen.accepted, seen.status) == ("first", True, "succeeded")
     assert seen.result == {"sequence": [0, 1, 1]}
     assert seen.sent_ns <= (seen.answered_ns or 0) <= (seen.ended_ns or 0)
-    assert probe.seen.orders[0].goal == {"order": 3}
+    assert probe.seen.part(ActionsSeen).orders[0].goal == {"order": 3}
 
 
 def test_an_aborted_goal_is_told_from_a_reached_one(probe: Probe, giver: GoalGiver) -> None:

@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 import pytest
+from seen_with import seen_with
 
 from roslings.capabilities.actions import faults
 from roslings.capabilities.actions.act import cancelled_after_s, stopped_after_s
@@ -22,16 +23,12 @@ from roslings.capabilities.actions.demands import (
     succeed,
     tell_the_truth,
 )
+from roslings.capabilities.actions.record import ActionEnd, GoalSeen
+from roslings.capabilities.robot.record import CommandSeen, DriveSeen, PoseSeen
 from roslings.course import ActionContract, NodeContract, RateContract
 from roslings.evidence import (
-    ActionEnd,
-    CommandSeen,
-    DriveSeen,
-    ExperimentSeen,
-    GoalSeen,
     LogLine,
     MessageSeen,
-    PoseSeen,
     ProcessSeen,
     TopicSeen,
 )
@@ -92,7 +89,7 @@ def flight(
     bird = ProcessSeen(executable="bird", started_ns=0, lines=written)
     drive = DriveSeen(path=STRAIGHT, commands=list(commands))
     return ExperimentView(
-        ExperimentSeen(
+        seen_with(
             name="x", clock="wall", goals=list(goals), drive=drive, processes={"bird": bird},
             **words,
         )

@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
+from seen_with import seen_with
 
 from roslings.capabilities.camera.demands import (
     MISSING,
@@ -30,18 +31,15 @@ from roslings.capabilities.camera.detection import (
 )
 from roslings.capabilities.camera.faults import detection as faults
 from roslings.capabilities.camera.faults import images as camera_faults
+from roslings.capabilities.camera.record import CameraSeen, DiscShown, PictureShown, PixelsSeen
+from roslings.capabilities.parameters.record import ParameterSet
 from roslings.course import NodeContract, TopicContract
 from roslings.course.card import ParameterContract
 from roslings.evidence import (
-    DiscShown,
     Endpoint,
-    ExperimentSeen,
     GraphSeen,
     LogLine,
     MessageSeen,
-    ParameterSet,
-    PictureShown,
-    PixelsSeen,
     ProcessSeen,
     Qos,
     StageMark,
@@ -84,7 +82,7 @@ def end(node: str, topic: TopicContract) -> Endpoint:
 
 def filmed(*messages: MessageSeen, sets: tuple[ParameterSet, ...] = ()) -> ExperimentView:
     """An experiment with a camera."""
-    seen = ExperimentSeen(
+    seen = seen_with(
         name="filming",
         clock="wall",
         graph=GraphSeen(nodes=["/camera"], endpoints=[end("/camera", FILMED)]),
@@ -251,7 +249,7 @@ def place(number: int, x: Any, y: Any, stamp_ns: int | None = None, late: bool =
 def looking(pictures: list[PictureShown], places: list[Any], **process: Any) -> ExperimentView:
     """An experiment with a ball finder; it drew each picture that it answered."""
     ends = [end("/finder", SAYS), end("/finder", DRAWS)]
-    seen = ExperimentSeen(
+    seen = seen_with(
         name="looking",
         clock="wall",
         graph=GraphSeen(nodes=["/finder"], endpoints=ends),
@@ -364,10 +362,10 @@ def test_a_picture_without_a_ball_comes_back_too() -> None:
         view.must(draws)
     marks = DiscShown(x_px=9.0, y_px=9.0, radius_px=3.0, hue=5)
     drawn = drawing(3)
-    view.seen.shown.append(shown(3, part="drawn", ball=marks))
+    view.seen.recording(CameraSeen).shown.append(shown(3, part="drawn", ball=marks))
     view.seen.topics["/drawn"] = TopicSeen(name="/drawn", type=IMAGE, messages=[drawn])
     assert fault_of(view, draws) is faults.Unanswered
-    view.seen.shown[1].bytes = 921_600
+    view.seen.part(CameraSeen).shown[1].bytes = 921_600
     view.must(draws)
 
 

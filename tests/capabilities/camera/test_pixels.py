@@ -17,9 +17,10 @@ from roslings.capabilities.camera.pictures import (
     keep_picture,
 )
 from roslings.capabilities.camera.pixels import FilmLooker, MarkLooker
+from roslings.capabilities.camera.record import CameraSeen, PixelsSeen
 from roslings.devices.camera import Encoding, Frame, Light, SyntheticCamera
 from roslings.devices.rover import Disc, Eye
-from roslings.evidence import ExperimentSeen, PixelsSeen
+from roslings.evidence import ExperimentSeen
 
 BALL = Disc(60.0, 50.0, 15.0, hue=5)
 
@@ -124,11 +125,15 @@ def test_a_kept_picture_is_small_and_whole() -> None:
     noisy = SyntheticCamera(light=Light(noise=20.0)).frame([BALL]).rgb()
     for _ in range(MOST_PICTURES + 2):
         keep_picture(seen, "A ball", "A ball on the floor.", noisy)
-    assert len(seen.pictures) == MOST_PICTURES
-    content = base64.b64decode(seen.pictures[0].png)
+    assert len(seen.part(CameraSeen).pictures) == MOST_PICTURES
+    content = base64.b64decode(seen.part(CameraSeen).pictures[0].png)
     assert len(content) <= LARGEST_BYTES
     width, height, rows, _ = png.Reader(bytes=content).asRGB8()
-    assert (width, height) == (seen.pictures[0].width, seen.pictures[0].height) == (213, 160)
+    assert (
+        (width, height)
+        == (seen.part(CameraSeen).pictures[0].width, seen.part(CameraSeen).pictures[0].height)
+        == (213, 160)
+    )
     pixels = np.array(list(rows), np.uint8).reshape(height, width, 3)
     red, green, _ = pixels[int(BALL.v_px / 3), int(BALL.u_px / 3)]
     assert red > green + 50

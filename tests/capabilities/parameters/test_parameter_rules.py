@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import pytest
+from seen_with import seen_with
 
 from roslings.capabilities.parameters.demands import carried, declare_its_parameters
 from roslings.capabilities.parameters.faults import WrongDefault
+from roslings.capabilities.parameters.record import ParameterDeclared
 from roslings.course import NodeContract
 from roslings.course.card import ParameterContract
-from roslings.evidence import ExperimentSeen, GraphSeen, ParameterDeclared, ProcessSeen
+from roslings.evidence import GraphSeen, ProcessSeen
 from roslings.experiment.start import PLAIN, Start
 from roslings.judge import ExperimentView
 
@@ -51,7 +53,7 @@ def test_a_default_is_seen_where_nobody_gave_a_value(given: tuple[str, ...]) -> 
     """What the process was started with hides the default."""
     port = ParameterContract(name="port", type="string", about="", default="/a", tried="/b")
     node = NodeContract(node="/it", executable="it", parameters=(port,))
-    seen = ExperimentSeen(
+    seen = seen_with(
         name="x",
         clock="wall",
         graph=GraphSeen(nodes=["/it"], endpoints=[]),

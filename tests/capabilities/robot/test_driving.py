@@ -12,6 +12,7 @@ import pytest
 from roslings.arena.lease import leased_domain
 from roslings.capabilities.actions import act as acting
 from roslings.capabilities.robot.act import FLOOR, Robot, start_near
+from roslings.capabilities.robot.record import RobotSeen
 from roslings.devices.rover import Pose, Rover
 from roslings.evidence import ExperimentSeen
 from roslings.experiment.scene import Scene
@@ -48,7 +49,7 @@ def test_it_does_what_it_was_told_last(probe: Probe) -> None:
         assert probe.until(lambda: robot.distance_to(1.0, 2.0) > 0.4, WITHIN_S)
         voice.publish(Twist())
         assert probe.until(lambda: robot.stands, WITHIN_S)
-    drive = probe.seen.drive
+    drive = probe.seen.part(RobotSeen).drive
     assert drive is not None
     assert [c.forward_m_s for c in drive.commands] == [0.5, 0.0]
     assert drive.path[0].x_m == pytest.approx(1.0, abs=0.2)

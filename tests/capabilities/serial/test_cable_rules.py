@@ -5,6 +5,7 @@ from __future__ import annotations
 import binascii
 
 import pytest
+from seen_with import seen_with
 
 from roslings.capabilities.serial.demands import (
     come_so_far,
@@ -29,17 +30,10 @@ from roslings.capabilities.serial.faults import (
     WrongSpeedOfPort,
     WrongTwist,
 )
+from roslings.capabilities.serial.record import BoardMark, BoardSeen, CableLine, MotorsSeen
 from roslings.course import TopicContract
 from roslings.devices.rover import Body
-from roslings.evidence import (
-    BoardMark,
-    BoardSeen,
-    CableLine,
-    ExperimentSeen,
-    MessageSeen,
-    MotorsSeen,
-    TopicSeen,
-)
+from roslings.evidence import MessageSeen, TopicSeen
 from roslings.judge import ExperimentView, NothingToJudge
 from roslings.judge.faults import Inconclusive
 from roslings.judge.views import TopicView
@@ -59,7 +53,7 @@ def judge(first_line: int, messages: int) -> None:
         MessageSeen(source_ns=None, sequence=n, arrival_ns=begin + n * step, size=1)
         for n in range(messages)
     ]
-    seen = ExperimentSeen(name="x", clock="wall", board=BoardSeen(told=told))
+    seen = seen_with(name="x", clock="wall", board=BoardSeen(told=told))
     topic = TopicSeen(name="/speed", type=TOPIC.type, messages=heard)
     tell_every_line(ExperimentView(seen))(TopicView(TOPIC, "/speed", TOPIC.type, topic, seen))
 
@@ -99,7 +93,7 @@ def mark(part: str, board_s: float = 1.0, pwm: tuple[int, int] = (0, 0)) -> Boar
 
 def seen(board: BoardSeen) -> ExperimentView:
     """An experiment with this board."""
-    return ExperimentView(ExperimentSeen(name="x", clock="wall", board=board))
+    return ExperimentView(seen_with(name="x", clock="wall", board=board))
 
 
 HALF, ASKED = Body(wheel_radius_m=0.05), Body(wheel_radius_m=0.1)
@@ -182,7 +176,7 @@ def say_the_motion(
         left_pwm=0, right_pwm=0,
     )  # fmt: skip
     board = BoardSeen(told=told, marks=[mark])
-    seen = ExperimentSeen(name="x", clock="wall", board=board, stall_s=stall_s)
+    seen = seen_with(name="x", clock="wall", board=board, stall_s=stall_s)
     topic = TopicSeen(name="/odom", type=TOPIC.type, messages=[message])
     view = TopicView(TOPIC, "/odom", TOPIC.type, topic, seen)
     tell_the_motion(ExperimentView(seen), "arc", Body())(view)
@@ -206,6 +200,6 @@ def test_wheels_that_stand_tell_nothing() -> None:
 
 def test_what_was_not_done_on_a_busy_computer_is_no_skipped_check() -> None:
     """A skipped check costs its points."""
-    seen = ExperimentSeen(name="x", clock="wall", board=BoardSeen(), stall_s=5.0)
+    seen = seen_with(name="x", clock="wall", board=BoardSeen(), stall_s=5.0)
     with pytest.raises(Inconclusive):
         ExperimentView(seen).must(come_so_far("nonsense"))

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import pytest
+from seen_with import seen_with
 
 from roslings.capabilities.services import faults
 from roslings.capabilities.services.demands import ask, give_up
+from roslings.capabilities.services.record import ServiceEnd
 from roslings.course import GiveUpContract, NodeContract, ServiceContract
-from roslings.evidence import ExperimentSeen, LogLine, ProcessSeen, ServiceEnd
+from roslings.evidence import LogLine, ProcessSeen
 from roslings.judge import ExperimentView, during, stay_up
 from roslings.judge.faults import EndedWithError, NotLogged, StoppedByItself
 from roslings.judge.views import ProcessView
@@ -40,7 +42,7 @@ def seen(*lines: str, status: int = 1, type_: str | None = None) -> ExperimentVi
     )
     ends = [ServiceEnd(kind="client", node="/visitor", service="/light", type=type_ or LIGHT.type)]
     return ExperimentView(
-        ExperimentSeen(name="x", clock="wall", processes={"visitor": process}, services=ends)
+        seen_with(name="x", clock="wall", processes={"visitor": process}, services=ends)
     )
 
 

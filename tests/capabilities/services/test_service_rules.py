@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from seen_with import seen_with
 
 from roslings.capabilities.services import faults
 from roslings.capabilities.services.demands import (
@@ -12,13 +13,11 @@ from roslings.capabilities.services.demands import (
     say_at_first,
     serve,
 )
+from roslings.capabilities.services.record import CallSeen, ServiceEnd, ServicesSeen
 from roslings.course import NodeContract, ServiceContract, TopicContract
 from roslings.evidence import (
-    CallSeen,
-    ExperimentSeen,
     MessageSeen,
     ProcessSeen,
-    ServiceEnd,
     TopicSeen,
 )
 from roslings.judge import ExperimentView, Inconclusive
@@ -56,7 +55,7 @@ def seen(*calls: CallSeen, stall_s: float = 0.0, ended: bool = False) -> Experim
     """An experiment with these calls."""
     process = ProcessSeen(executable="lamp", started_ns=0, ended_by_itself=ended)
     return ExperimentView(
-        ExperimentSeen(
+        seen_with(
             name="x", clock="wall", calls=list(calls), stall_s=stall_s, processes={"lamp": process}
         )
     )
@@ -145,7 +144,7 @@ def test_another_service_is_no_slip_of_the_pen() -> None:
     other = ServiceEnd(kind="server", node="/lamp", service="/park", type="std_srvs/srv/Trigger")
     asks = ServiceEnd(kind="client", node="/lamp", service="/light", type=LAMP.type)
     view = seen()
-    view.seen.services = [other, asks]
+    view.seen.recording(ServicesSeen).ends = [other, asks]
     with pytest.raises(faults.NoService) as fault:
         serve(LAMP)(view)
     assert "has a client of /light" in fault.value.measured
@@ -155,7 +154,7 @@ def test_another_service_is_no_slip_of_the_pen() -> None:
 def test_a_client_asks_once(times: int, right: bool) -> None:
     """Each request does something."""
     view = seen()
-    view.seen.served = [call(0.0)] * times
+    view.seen.recording(ServicesSeen).served = [call(0.0)] * times
     if right:
         ask(NODE, LAMP)(view)
         return

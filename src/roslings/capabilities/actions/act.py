@@ -12,10 +12,11 @@ from typing import Any, Literal
 
 from roslings.arena import Process
 from roslings.capabilities.actions.goals import Goal, GoalGiver, GoalTaker, read_actions
+from roslings.capabilities.actions.record import ActionEnd, ActionsSeen, GoalSeen
 from roslings.capabilities.robot.act import STANDS_WITHIN_S, Robot
+from roslings.capabilities.robot.record import DriveSeen, RobotSeen
 from roslings.capabilities.services.act import TURNS_WITHIN_S, await_end
 from roslings.course import ActionContract, NodeContract, RateContract
-from roslings.evidence import ActionEnd, DriveSeen, GoalSeen
 from roslings.experiment.on_the_wall import (
     CANARY_WITHIN_S,
     FIRST_MESSAGE_WITHIN_S,
@@ -174,7 +175,7 @@ class Director:
     def _note_lateness(self, given: Goal) -> None:
         """A late end that this computer may have made late is no reason to judge."""
         limit_s, seen = self.action.cancels_within_s, self.scene.seen
-        drive = seen.drive
+        drive = seen.part(RobotSeen).drive
         took_s = [cancelled_after_s(given.seen), drive and stopped_after_s(given.seen, drive)]
         late_s = max([each - limit_s for each in took_s if each and limit_s], default=0.0)
         held_s = seen.stall_s + given.seen.cpu_wait_s
@@ -261,7 +262,7 @@ class Director:
 
     def _end(self) -> ActionEnd | None:
         """The action to use: the nearest by name among those of the right type."""
-        ends = [e for e in self.scene.seen.actions if e.kind == "server"]
+        ends = [e for e in self.scene.seen.part(ActionsSeen).ends if e.kind == "server"]
         right = [e for e in ends if e.type == self.action.type]
         near = nearest(self.action.action, (e.action for e in right))
         return next((e for e in right if near and e.action == near.found), None)
@@ -272,8 +273,8 @@ def await_action(scene: Scene) -> None:
 
     def there() -> bool:
         ends = read_actions(scene.probe.eye, scene.seen.graph.nodes)
-        if len(ends) >= len(scene.seen.actions):
-            scene.seen.actions = ends
+        if len(ends) >= len(scene.seen.part(ActionsSeen).ends):
+            scene.seen.recording(ActionsSeen).ends = ends
         return any(end.kind == "server" for end in ends)
 
     scene.appears(there, "an action")
@@ -328,7 +329,7 @@ def timed_feedback(scene: Scene, action: ActionContract) -> Iterator[None]:
 def _note_trouble(scene: Scene, limit: RateContract) -> None:
     """Whatever was seen of the rate, nobody will watch for longer."""
     seen = scene.seen
-    for topic in {goal.feedback_topic for goal in seen.goals}:
+    for topic in {goal.feedback_topic for goal in seen.part(ActionsSeen).goals}:
         scene.probe.note_longest_watch(topic)
         rate = own_rate(measure_rate(scene.probe.messages(topic)), seen)
         seen.machine_fault = seen.machine_fault or trouble(seen, rate, limit)
@@ -403,5 +404,5 @@ def await_client(scene: Scene, process: Process, node: NodeContract) -> None:
 
 def _note_clients(scene: Scene) -> bool:
     ends = read_actions(scene.probe.eye, scene.seen.graph.nodes)
-    scene.seen.actions = ends or scene.seen.actions
+    scene.seen.recording(ActionsSeen).ends = ends or scene.seen.part(ActionsSeen).ends
     return any(end.kind == "client" for end in ends)

@@ -20,11 +20,14 @@ from roslings.capabilities.actions.act import (
     cancelled_after_s,
     stopped_after_s,
 )
+from roslings.capabilities.actions.record import ActionEnd, ActionsSeen, GoalSeen
+from roslings.capabilities.robot.record import DriveSeen, PoseSeen, RobotSeen
+from roslings.capabilities.services import demands as services
 from roslings.capabilities.services.demands import end_by_itself, require_code, require_no_crash
 from roslings.capabilities.topics.faults.messages import NoMessages
 from roslings.capabilities.topics.faults.rhythm import rate_fault
 from roslings.course import ActionContract, NodeContract, OutcomeContract, RateContract
-from roslings.evidence import ActionEnd, DriveSeen, GoalSeen, MessageSeen, PoseSeen, TopicSeen
+from roslings.evidence import ExperimentSeen, MessageSeen, TopicSeen
 from roslings.experiment.own_time import PATIENCE_S
 from roslings.judge.demands import (
     insist_on_at_most,
@@ -86,7 +89,7 @@ def perform_its_type(action: ActionContract) -> Demand[ExperimentView]:
 
 
 def _ends(experiment: ExperimentView, kind: str) -> list[ActionEnd]:
-    return [end for end in experiment.seen.actions if end.kind == kind]
+    return [end for end in experiment.seen.part(ActionsSeen).ends if end.kind == kind]
 
 
 def _server(experiment: ExperimentView, action: ActionContract) -> ActionEnd | None:
@@ -134,10 +137,11 @@ class Trip:
 def trip(experiment: ExperimentView, node: NodeContract, part: str) -> Trip:
     """The goal of a part of the experiment. Raises NothingToJudge where it was not given."""
     seen = experiment.seen
-    goal = next((each for each in seen.goals if each.part == part), None)
-    if goal is None or seen.drive is None:
+    goal = next((each for each in seen.part(ActionsSeen).goals if each.part == part), None)
+    drive = seen.part(RobotSeen).drive
+    if goal is None or drive is None:
         raise NothingToJudge("no goal could be given")
-    return Trip(goal, seen.drive, experiment.process(node))
+    return Trip(goal, drive, experiment.process(node))
 
 
 def shown(goal: Mapping[str, float]) -> str:
@@ -556,7 +560,7 @@ def send_goal(
 
     def demand(experiment: ExperimentView) -> None:
         process = experiment.process(node)
-        if not experiment.seen.orders:
+        if not experiment.seen.part(ActionsSeen).orders:
             require_no_crash(process, f"sends a goal to {action.action}")
             near = nearest(action.action, (e.action for e in _ends(experiment, "client")))
             if near and not near.exact:
@@ -564,12 +568,14 @@ def send_goal(
             raise faults.SentNoGoal(
                 node.executable, action.action, _how_it_went(process), log=process.last_lines(6)
             )
-        found = experiment.seen.orders[0].goal
+        found = experiment.seen.part(ActionsSeen).orders[0].goal
         for name, wanted in goal.items():
             if (sent := float(found[name])) != wanted:
                 raise faults.SentAnotherGoal(node.executable, name, f"{wanted:g}", f"{sent:g}")
-        if len(experiment.seen.orders) > 1:
-            raise faults.GoalSentAgain(node.executable, action.action, len(experiment.seen.orders))
+        if len(experiment.seen.part(ActionsSeen).orders) > 1:
+            raise faults.GoalSentAgain(
+                node.executable, action.action, len(experiment.seen.part(ActionsSeen).orders)
+            )
 
     return demand
 
@@ -610,7 +616,7 @@ def end_so(node: NodeContract, outcome: OutcomeContract, text: str = "") -> Dema
     def demand(experiment: ExperimentView) -> None:
         process = experiment.process(node)
         line, case = outcome.log.format(text=text), outcome.when.removeprefix("when ")
-        experiment.must(end_by_itself(node, None, f"when {case}"))
+        experiment.must(end_by_itself(node, None, f"when {case}", _answered))
         require_no_crash(process, f"writes {line!r} when {case}")
         if not any(line in found for found in process.texts):
             raise NotLogged(
@@ -621,3 +627,13 @@ def end_so(node: NodeContract, outcome: OutcomeContract, text: str = "") -> Dema
         require_code(process, outcome.exit_code, f"when {case}")
 
     return demand
+
+
+def _answered(seen: ExperimentSeen) -> bool:
+    """A goal of the client came to the grader's server, which answers at once."""
+    return bool(seen.part(ActionsSeen).orders)
+
+
+def give_up(node: NodeContract) -> Demand[ExperimentView]:
+    """Without a server the client ends in time, says why, and its exit code says so, too."""
+    return services.give_up(node, wait="wait_for_server")

@@ -13,8 +13,9 @@ from contextlib import ExitStack
 from types import TracebackType
 from typing import Any, Literal
 
+from roslings.capabilities.actions.record import ActionEnd, ActionsSeen, GoalSeen
 from roslings.capabilities.services.calling import Call, Caller
-from roslings.evidence import ActionEnd, CallSeen, GoalSeen
+from roslings.capabilities.services.record import CallSeen
 from roslings.probe.content import message_class, to_plain
 from roslings.probe.probe import Probe
 
@@ -68,7 +69,7 @@ class GoalGiver:
             action=self._action, type=self._type, goal=goal, part=part, id=number,
             sent_ns=time.monotonic_ns(),
         )  # fmt: skip
-        self._probe.seen.goals.append(seen)
+        self._probe.seen.recording(ActionsSeen).goals.append(seen)
         request = self._goal.Request()
         request.goal_id.uuid = number
         for name, value in goal.items():
@@ -205,7 +206,7 @@ class GoalTaker:
             accepted=self._accepts,
         )
         if self._probe.store.keeps("requests", order):
-            self._probe.seen.orders.append(order)
+            self._probe.seen.recording(ActionsSeen).orders.append(order)
         self._probe.notify()
         return GoalResponse.ACCEPT if self._accepts else GoalResponse.REJECT
 

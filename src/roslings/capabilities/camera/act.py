@@ -10,7 +10,7 @@ from contextlib import contextmanager
 
 from roslings.arena import Process
 from roslings.capabilities.camera.pixels import IMAGE, FilmLooker
-from roslings.capabilities.services.calling import set_parameter
+from roslings.capabilities.parameters.calling import set_parameter
 from roslings.course import NodeContract, TopicContract
 from roslings.devices.camera import Frame, Light, SocketCamera, SyntheticCamera
 from roslings.devices.rover import Disc

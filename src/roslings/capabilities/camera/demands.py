@@ -10,8 +10,10 @@ from itertools import chain, pairwise
 
 from roslings.capabilities.camera.act import CAMERA
 from roslings.capabilities.camera.faults import images as faults
+from roslings.capabilities.camera.record import PixelsSeen
+from roslings.capabilities.parameters.record import ParameterSet, ParametersSeen
 from roslings.course import NodeContract, ParameterContract, TopicContract
-from roslings.evidence import LogLine, MessageSeen, ParameterSet, PixelsSeen, StageMark
+from roslings.evidence import LogLine, MessageSeen, StageMark
 from roslings.experiment.own_time import PATIENCE_S
 from roslings.judge.demands import most_similar, require_its_time, require_steady, written
 from roslings.judge.faults import Fault, NothingToJudge
@@ -141,7 +143,11 @@ def follow_brightness(
     """With each value that was set, the pictures are as much lighter as the card says."""
 
     def demand(experiment: ExperimentView) -> None:
-        sets = [each for each in experiment.seen.parameter_sets if each.name == parameter.name]
+        sets = [
+            each
+            for each in experiment.seen.part(ParametersSeen).sets
+            if each.name == parameter.name
+        ]
         good = [each for each in sets if _within_limits(each, parameter)]
         for each in good:
             require_set(each)
@@ -224,7 +230,7 @@ def refuse(node: NodeContract, parameter: ParameterContract) -> Demand[Experimen
         span = f"{parameter.type}, {parameter.least:g} to {parameter.most:g}"
         wrong = [
             each
-            for each in experiment.seen.parameter_sets
+            for each in experiment.seen.part(ParametersSeen).sets
             if each.name == parameter.name and not _within_limits(each, parameter)
         ]
         if not wrong:

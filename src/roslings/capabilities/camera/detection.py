@@ -9,9 +9,11 @@ from dataclasses import dataclass
 
 from roslings.capabilities.camera.demands import pixels_of, require_set
 from roslings.capabilities.camera.faults import detection as faults
+from roslings.capabilities.camera.record import CameraSeen, DiscShown, PictureShown, PixelsSeen
+from roslings.capabilities.parameters.record import ParametersSeen
 from roslings.capabilities.topics.relay import as_number, field_of
 from roslings.course import NodeContract, TopicContract
-from roslings.evidence import DiscShown, LogLine, MessageSeen, PictureShown, PixelsSeen
+from roslings.evidence import LogLine, MessageSeen
 from roslings.experiment.own_time import PATIENCE_S
 from roslings.judge.demands import most_similar, require_its_time, require_steady, written
 from roslings.judge.faults import Fault, Inconclusive, NothingToJudge
@@ -68,10 +70,12 @@ def looks(experiment: ExperimentView, screen: Screen, part: str) -> list[Look]:
 
 def _looks(experiment: ExperimentView, screen: Screen, parts: Sequence[str]) -> list[Look]:
     """The pictures of some parts, as many as were shown before the node ended."""
-    shown = [each for each in experiment.seen.shown if each.part in parts and each.tries]
+    shown = [
+        each for each in experiment.seen.part(CameraSeen).shown if each.part in parts and each.tries
+    ]
     said = _messages(experiment, screen.says)
     drawn = _messages(experiment, screen.draws)
-    stamps = {each.stamp_ns for each in experiment.seen.shown}
+    stamps = {each.stamp_ns for each in experiment.seen.part(CameraSeen).shown}
     return [
         Look(each, _answers(said, each, stamps), _answers(drawn, each, stamps)) for each in shown
     ]
@@ -232,8 +236,10 @@ def follow_the_hue(screen: Screen, part: str, across: str) -> Demand[ExperimentV
     """
 
     def demand(experiment: ExperimentView) -> None:
-        for each in experiment.seen.parameter_sets:
-            if each.asked_ns < max(shown.sent_ns for shown in experiment.seen.shown):
+        for each in experiment.seen.part(ParametersSeen).sets:
+            if each.asked_ns < max(
+                shown.sent_ns for shown in experiment.seen.part(CameraSeen).shown
+            ):
                 require_set(each)
         try:
             find_the_ball(screen, part)(experiment)
@@ -406,7 +412,11 @@ def survive(screen: Screen, part: str, words: str, must_say: bool) -> Demand[Exp
 
     def demand(experiment: ExperimentView) -> None:
         process = experiment.process(screen.node)
-        shown = [each for each in experiment.seen.shown if each.part == part and each.tries]
+        shown = [
+            each
+            for each in experiment.seen.part(CameraSeen).shown
+            if each.part == part and each.tries
+        ]
         if not shown:
             raise NothingToJudge("no picture could be shown to the node")
         if process.seen.ended_by_itself and not shown[-1].turned:
@@ -427,7 +437,7 @@ def tell_once(screen: Screen, parts: Sequence[str]) -> Demand[ExperimentView]:
 
     def demand(experiment: ExperimentView) -> None:
         process = experiment.process(screen.node)
-        for shown in experiment.seen.shown:
+        for shown in experiment.seen.part(CameraSeen).shown:
             if shown.part in parts:
                 lines = _lines_meanwhile(process, shown, line)
                 counts = Counter(each.plain != each.text for each in lines)

@@ -9,7 +9,8 @@ import numpy as np
 import numpy.typing as npt
 import png
 
-from roslings.evidence import ExperimentSeen, PictureKept
+from roslings.capabilities.camera.record import CameraSeen, PictureKept
+from roslings.evidence import ExperimentSeen
 
 WIDEST = 240
 LARGEST_BYTES = 64 * 1024
@@ -25,7 +26,7 @@ def keep_picture(seen: ExperimentSeen, title: str, caption: str, rgb: Pixels) ->
 
     Where MOST_PICTURES are there already, or it stays too large, it is left out.
     """
-    if len(seen.pictures) >= MOST_PICTURES:
+    if len(seen.part(CameraSeen).pictures) >= MOST_PICTURES:
         return
     small: Pixels = shrunk(rgb, WIDEST) & np.uint8(FINEST)
     content = png_of(small)
@@ -33,7 +34,7 @@ def keep_picture(seen: ExperimentSeen, title: str, caption: str, rgb: Pixels) ->
         text = base64.b64encode(content).decode("ascii")
         height, width, _ = small.shape
         kept = PictureKept(title=title, caption=caption, png=text, width=width, height=height)
-        seen.pictures.append(kept)
+        seen.recording(CameraSeen).pictures.append(kept)
 
 
 def shrunk(rgb: Pixels, widest: int) -> Pixels:

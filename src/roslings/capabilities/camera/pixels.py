@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from roslings.capabilities.camera.record import PixelsSeen
 from roslings.devices.camera import CHANNELS, ENCODINGS, Frame, NotAnImage
 from roslings.devices.rover import Disc
-from roslings.evidence import PixelsSeen
 
 IMAGE = "sensor_msgs/msg/Image"
 EVERY = 8

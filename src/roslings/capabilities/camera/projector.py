@@ -10,10 +10,11 @@ from typing import Any
 from roslings.arena import Process
 from roslings.capabilities.camera.pictures import draw_cross, draw_ring, keep_picture
 from roslings.capabilities.camera.pixels import IMAGE, MarkLooker
+from roslings.capabilities.camera.record import CameraSeen, DiscShown, PictureShown
 from roslings.course import TopicContract
 from roslings.devices.camera import Encoding, Frame, Light, SyntheticCamera
 from roslings.devices.rover import Disc, Eye
-from roslings.evidence import DiscShown, Endpoint, PictureShown
+from roslings.evidence import Endpoint
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
 from roslings.experiment.scene import Scene
 from roslings.experiment.timing import accounting
@@ -110,7 +111,7 @@ class Projector:
 
     def show(self, part: str, shot: Shot) -> None:
         """Show one picture, until it is answered or was shown often enough."""
-        frame = shot.frame(len(self._scene.seen.shown))
+        frame = shot.frame(len(self._scene.seen.part(CameraSeen).shown))
         self._looker.show(frame, shot.ball)
         seen = self._write_down(part, shot, frame)
         said, drawn = self._counts()
@@ -194,7 +195,7 @@ class Projector:
             ball=_written(shot.ball),
             decoy=_written(shot.decoy),
         )
-        self._scene.seen.shown.append(seen)
+        self._scene.seen.recording(CameraSeen).shown.append(seen)
         return seen
 
     def _send(self, seen: PictureShown, content: bytes) -> bool:
@@ -242,7 +243,11 @@ class Projector:
         if seen.ball is None or seen.encoding == COLOURLESS:
             return
         place = self._place(said)
-        if self._looker.latest is not None and place and not self._scene.seen.pictures:
+        if (
+            self._looker.latest is not None
+            and place
+            and not self._scene.seen.part(CameraSeen).pictures
+        ):
             words = f"{_where(seen)} {_answer(place)} This is the picture that your node drew."
             keep_picture(self._scene.seen, "What your node drew", words, self._looker.latest)
         off_px = _away(seen.ball, place) if place else float(frame.width)

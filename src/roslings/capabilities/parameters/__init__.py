@@ -1,1 +1,10 @@
 """Parameters: settings of a node, given at its start or while it runs."""
+
+from roslings.capabilities.parameters.record import ParametersSeen
+from roslings.capability import Capability
+
+CAPABILITY = Capability(
+    "parameters",
+    ParametersSeen,
+    in_schema_1={"parameters": "names", "declared": "declared", "parameter_sets": "sets"},
+)

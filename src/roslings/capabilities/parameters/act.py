@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from roslings.capabilities.services.calling import declared_by, parameters_of
+from roslings.capabilities.parameters.calling import declared_by, parameters_of
+from roslings.capabilities.parameters.record import ParametersSeen
 from roslings.course import NodeContract
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
 from roslings.experiment.scene import Scene
@@ -15,8 +16,8 @@ def list_parameters(scene: Scene, node: NodeContract) -> None:
     if near:
         lives = scene.arena.all_alive
         names = parameters_of(scene.probe, near.found, FIRST_MESSAGE_WITHIN_S, lives)
-        scene.seen.parameters[near.found] = names
-        scene.seen.declared += declared_by(
+        scene.seen.recording(ParametersSeen).names[near.found] = names
+        scene.seen.recording(ParametersSeen).declared += declared_by(
             scene.probe, near.found, names, FIRST_MESSAGE_WITHIN_S, lives
         )
 

@@ -15,9 +15,9 @@ from roslings.capabilities.parameters.faults import (
     WrongDefault,
     WrongParameterType,
 )
+from roslings.capabilities.parameters.record import ParameterDeclared, ParametersSeen
 from roslings.capabilities.topics.demands import have_rate
 from roslings.course import NodeContract, ParameterContract, RateContract, TopicContract
-from roslings.evidence import ParameterDeclared
 from roslings.judge.demands import require_believable, require_steady, written
 from roslings.judge.faults import NothingToJudge
 from roslings.judge.views import Demand, ExperimentView, TopicView
@@ -33,7 +33,7 @@ def has_parameter(node: NodeContract, parameter: ParameterContract) -> Demand[Ex
 
     def demand(experiment: ExperimentView) -> None:
         name = experiment.node(node).near.found
-        listed = experiment.seen.parameters.get(name)
+        listed = experiment.seen.part(ParametersSeen).names.get(name)
         if not listed:
             raise NothingToJudge(f"{name} did not say which parameters it has")
         own = tuple(each for each in listed if each not in GIVEN_BY_ROS and "." not in each)
@@ -74,7 +74,7 @@ def _declared(
     experiment: ExperimentView, node: NodeContract, parameter: ParameterContract
 ) -> ParameterDeclared:
     name = experiment.node(node).near.found
-    for each in experiment.seen.declared:
+    for each in experiment.seen.part(ParametersSeen).declared:
         if (each.node, each.name) == (name, parameter.name):
             return each
     raise NothingToJudge(f"{name} did not say what its parameters are")

@@ -13,10 +13,11 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, Literal
 
+from roslings.capabilities.robot.record import CommandSeen, DriveSeen, PoseSeen, RobotSeen
 from roslings.course import TopicContract
 from roslings.devices.rover import Box, Motion, Pose, Rover, World
 from roslings.devices.rover.node import LONGEST_PAUSE_S, ODOM_EVERY_S, STEP_S, odometry
-from roslings.evidence import CommandSeen, DriveSeen, Endpoint, PoseSeen
+from roslings.evidence import Endpoint
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
 from roslings.experiment.scene import Scene
 from roslings.matching import nearest_endpoint
@@ -50,7 +51,7 @@ class Robot:
         self.seen = DriveSeen()
 
     def __enter__(self) -> Robot:
-        self._probe.seen.drive = self.seen
+        self._probe.seen.recording(RobotSeen).drive = self.seen
         self._thread = threading.Thread(target=self._live, name="robot")
         self._thread.start()
         return self

@@ -6,7 +6,8 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from roslings.evidence import ExperimentSeen, MessageSeen, WaySeen
+from roslings.capabilities.robot.record import RobotSeen, WaySeen
+from roslings.evidence import Evidence, ExperimentSeen, MessageSeen
 from roslings.report.html.markup import Markup, joined, tag
 
 ODOMETRY = "nav_msgs/msg/Odometry"
@@ -29,14 +30,14 @@ def ways_of(seen: ExperimentSeen) -> list[WaySeen]:
 
     Where nobody knows the true way, nothing is drawn: a lone line proves nothing.
     """
-    if not seen.ways:
+    if not seen.part(RobotSeen).ways:
         return []
     told = [
         WaySeen(name=name, points_m=points)
         for name, topic in seen.topics.items()
         if topic.type == ODOMETRY and (points := _told(topic.messages))
     ]
-    return [_thinned(way) for way in (*seen.ways, *told) if way.points_m]
+    return [_thinned(way) for way in (*seen.part(RobotSeen).ways, *told) if way.points_m]
 
 
 def _told(messages: Sequence[MessageSeen]) -> list[Point]:
@@ -205,3 +206,19 @@ def _dot(point: Point, radius: float, kind: str) -> Markup:
 
 def _text(text: str, x: float, y: float, anchor: str) -> Markup:
     return tag("text", text, x=float(x), y=float(y), text_anchor=anchor)
+
+
+def ways(evidence: Evidence) -> Iterator[Markup]:
+    """For each drive, where it really went and where the nodes said it went."""
+    figures = [_ways(seen) for seen in evidence.experiments.values() if ways_of(seen)]
+    if figures:
+        words = "A ring is where a line begins, a dot is where it ends."
+        note = tag("p", words, class_="about")
+        yield tag("section", tag("h2", "The way that it went"), note, *figures)
+
+
+def _ways(seen: ExperimentSeen) -> Markup:
+    found = ways_of(seen)
+    heading = tag("h3", f"in {seen.name}")
+    caption = tag("figcaption", describe(found))
+    return tag("figure", heading, way_picture(found), legend(found), caption)

@@ -1,1 +1,11 @@
 """Serial: a board on a cable, and the lines on it."""
+
+from roslings.capabilities.serial.record import SerialSeen
+from roslings.capability import Capability
+
+CAPABILITY = Capability(
+    "serial",
+    SerialSeen,
+    in_schema_1={"board": "board"},
+    companions="roslings.capabilities.serial.companions:board_for",
+)

@@ -8,12 +8,20 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
+from roslings.capabilities.robot.record import RobotSeen, WaySeen
+from roslings.capabilities.serial.record import (
+    BoardMark,
+    BoardSeen,
+    CableLine,
+    MotorsSeen,
+    SerialSeen,
+)
 from roslings.course import ParameterContract, TopicContract
 from roslings.devices.board import Board, Chunk, Mega
 from roslings.devices.board.attached import AttachedBoard
 from roslings.devices.board.wire import LATENCY_S, Wire
 from roslings.devices.rover import Body, Box, Rover, World
-from roslings.evidence import BoardMark, BoardSeen, CableLine, Endpoint, MotorsSeen, WaySeen
+from roslings.evidence import Endpoint
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
 from roslings.experiment.scene import Scene, hears, says
 from roslings.experiment.start import PLAIN, Start
@@ -105,7 +113,7 @@ class Cable:
         self._way = WaySeen(name="where the rover really was", points_m=[])
         self._never_heard = 0
         """Lines that the board told before the node was there."""
-        scene.seen.board = self.seen
+        scene.seen.recording(SerialSeen).board = self.seen
 
     def start(self, settings: Mapping[str, bool | int | float | str] | None = None) -> Start:
         """How the node is started: with the name of this port, and with other settings."""
@@ -148,7 +156,7 @@ class Cable:
         """Wait until the node tells what the board says; marks the start."""
         self.await_messages(counted, SETTLES_LINES)
         self._never_heard = self._lines() - self._heard(counted)
-        self._scene.seen.ways.append(self._way)
+        self._scene.seen.recording(RobotSeen).ways.append(self._way)
         self.mark("start")
 
     def await_messages(

@@ -9,11 +9,12 @@ from typing import Any
 
 from roslings.capabilities.serial import faults as cable_faults
 from roslings.capabilities.serial.act import STANDS_WITHIN_S
+from roslings.capabilities.serial.record import BoardMark, BoardSeen, CableLine, SerialSeen
 from roslings.capabilities.topics.faults.messages import NoMessages
 from roslings.course import TopicContract
 from roslings.devices.board import BadLine, Drive, Speeds, unframed
 from roslings.devices.rover import Body, Motion, Wheels
-from roslings.evidence import BoardMark, BoardSeen, CableLine, MessageSeen, TopicSeen
+from roslings.evidence import MessageSeen, TopicSeen
 from roslings.experiment.own_time import PATIENCE_S
 from roslings.judge import faults
 from roslings.judge.demands import require_its_time, require_steady
@@ -462,9 +463,10 @@ def reckon_by_its_settings(
 
 
 def _board(experiment: ExperimentView) -> BoardSeen:
-    if experiment.seen.board is None:
+    board = experiment.seen.part(SerialSeen).board
+    if board is None:
         raise faults.NothingToJudge("there was no board")
-    return experiment.seen.board
+    return board
 
 
 def _mark(experiment: ExperimentView, part: str) -> BoardMark:

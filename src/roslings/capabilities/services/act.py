@@ -9,8 +9,9 @@ from contextlib import ExitStack, contextmanager
 from roslings.arena import Process
 from roslings.capabilities.services.calling import Call, Caller, Server
 from roslings.capabilities.services.graph import read_services
+from roslings.capabilities.services.record import ServiceEnd, ServicesSeen
 from roslings.course import AnswerContract, NodeContract, ServiceContract, TopicContract
-from roslings.evidence import ServiceEnd, StageMark
+from roslings.evidence import StageMark
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
 from roslings.experiment.scene import Scene
 from roslings.experiment.timing import accounting, timing
@@ -114,7 +115,7 @@ class Asker:
         calls = [c.send(dict(a.request)) for c, a in zip(callers, turn, strict=False)]
         for call in calls:
             call.seen.part, call.seen.number = part, number
-            self._scene.seen.calls.append(call.seen)
+            self._scene.seen.recording(ServicesSeen).calls.append(call.seen)
         for call in calls:
             if not call.wait(ANSWER_WITHIN_S, lambda: self._process.alive):
                 self._fell_silent()
@@ -144,21 +145,21 @@ class Asker:
 
     def _all_there(self) -> bool:
         self._look()
-        servers = [end for end in self._scene.seen.services if end.kind == "server"]
+        servers = [end for end in self._scene.seen.part(ServicesSeen).ends if end.kind == "server"]
         return len(servers) >= len(self._node.serves)
 
     def _look(self) -> None:
         """Read who serves what; the fullest sight is kept, as of the graph."""
         seen = self._scene.seen
         ends = read_services(self._scene.probe.eye, seen.graph.nodes)
-        if len(ends) >= len(seen.services):
-            seen.services = ends
+        if len(ends) >= len(seen.part(ServicesSeen).ends):
+            seen.recording(ServicesSeen).ends = ends
 
     def _server_of(self, service: ServiceContract) -> ServiceEnd | None:
         """The server to ask: the nearest by name among those of the right type."""
         servers = [
             end
-            for end in self._scene.seen.services
+            for end in self._scene.seen.part(ServicesSeen).ends
             if end.kind == "server" and end.type == service.type
         ]
         near = nearest(service.service, (end.service for end in servers))
@@ -197,5 +198,5 @@ def await_end(scene: Scene, process: Process, node: NodeContract) -> None:
 def _has_clients(scene: Scene) -> bool:
     """Note whom the nodes may call; a name that nobody serves is then told as a slip."""
     ends = read_services(scene.probe.eye, scene.seen.graph.nodes)
-    scene.seen.services = ends or scene.seen.services
+    scene.seen.recording(ServicesSeen).ends = ends or scene.seen.part(ServicesSeen).ends
     return any(end.kind == "client" for end in ends)

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 import statistics
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
 from roslings.capabilities.services import faults
 from roslings.capabilities.services.act import ANSWER_WITHIN_S, CLIENT_ENDS, MOST_LATE
+from roslings.capabilities.services.record import CallSeen, ServiceEnd, ServicesSeen
 from roslings.course import (
     AnswerContract,
     GiveUpContract,
@@ -17,7 +18,7 @@ from roslings.course import (
     ServiceContract,
     TopicContract,
 )
-from roslings.evidence import CallSeen, ProcessSeen, ServiceEnd
+from roslings.evidence import ExperimentSeen, ProcessSeen
 from roslings.experiment.own_time import PATIENCE_S
 from roslings.judge.demands import (
     insist_on_at_most,
@@ -81,7 +82,7 @@ def serve_their_types(*services: ServiceContract) -> Demand[ExperimentView]:
 
 
 def _ends(experiment: ExperimentView, kind: str) -> list[ServiceEnd]:
-    return [end for end in experiment.seen.services if end.kind == kind]
+    return [end for end in experiment.seen.part(ServicesSeen).ends if end.kind == kind]
 
 
 def _server(experiment: ExperimentView, service: ServiceContract) -> ServiceEnd | None:
@@ -119,7 +120,11 @@ def show_each(services: Sequence[ServiceContract], topic: TopicContract) -> Dema
     answers = {service.service: service.answers for service in services}
 
     def demand(experiment: ExperimentView) -> None:
-        calls = [c for c in experiment.seen.calls if c.part in answers and c.answered_ns]
+        calls = [
+            c
+            for c in experiment.seen.part(ServicesSeen).calls
+            if c.part in answers and c.answered_ns
+        ]
         if not calls:
             raise NothingToJudge("no call was answered")
         for call in calls:
@@ -154,7 +159,9 @@ def _same(found: Any, wanted: Any) -> bool:
 
 
 def _conversation(experiment: ExperimentView, service: ServiceContract) -> list[CallSeen]:
-    calls = [call for call in experiment.seen.calls if call.part == service.service]
+    calls = [
+        call for call in experiment.seen.part(ServicesSeen).calls if call.part == service.service
+    ]
     if not calls:
         raise NothingToJudge(f"{service.service} could not be called")
     return calls
@@ -226,7 +233,9 @@ def _said_after(experiment: ExperimentView, call: CallSeen, topic: TopicContract
 def before_the_calls(experiment: ExperimentView, topic: TopicContract) -> TopicView:
     """The topic as it was while nobody asked for anything."""
     view = experiment.topic(topic)
-    first_ns = min((call.sent_ns for call in experiment.seen.calls), default=None)
+    first_ns = min(
+        (call.sent_ns for call in experiment.seen.part(ServicesSeen).calls), default=None
+    )
     quiet = [m for m in view.messages if first_ns is None or m.arrival_ns < first_ns]
     return replace(view, heard=view.heard.model_copy(update={"messages": quiet}))
 
@@ -241,7 +250,7 @@ def answer_in_time(
     limit_s = written(service.within_s, service.service)
 
     def demand(experiment: ExperimentView) -> None:
-        calls = [call for call in experiment.seen.calls if call.part == part]
+        calls = [call for call in experiment.seen.part(ServicesSeen).calls if call.part == part]
         if not calls:
             raise NothingToJudge(f"{service.service} could not be called")
         for call in calls:
@@ -294,7 +303,8 @@ def ask(node: NodeContract, service: ServiceContract) -> Demand[ExperimentView]:
 
     def demand(experiment: ExperimentView) -> None:
         process = experiment.process(node)
-        if not experiment.seen.served:
+        served = experiment.seen.part(ServicesSeen).served
+        if not served:
             require_no_crash(process, f"calls {service.service}")
             near = nearest(service.service, (e.service for e in _ends(experiment, "client")))
             if near and not near.exact:
@@ -304,12 +314,12 @@ def ask(node: NodeContract, service: ServiceContract) -> Demand[ExperimentView]:
                 node.executable, service.service, _how_it_went(process.seen),
                 log=process.last_lines(6),
             )  # fmt: skip
-        found = experiment.seen.served[0].request
+        found = served[0].request
         if found != wanted:
             shown = (", ".join(f"{n}: {_shown(v)}" for n, v in d.items()) for d in (wanted, found))
             raise faults.AskedOtherwise(node.executable, *shown)
-        if len(experiment.seen.served) > 1:
-            raise faults.AskedAgain(node.executable, service.service, len(experiment.seen.served))
+        if len(served) > 1:
+            raise faults.AskedAgain(node.executable, service.service, len(served))
 
     return demand
 
@@ -342,23 +352,35 @@ def tell_the_answer(node: NodeContract) -> Demand[ExperimentView]:
 
     def demand(experiment: ExperimentView) -> None:
         process = experiment.process(node)
-        if experiment.seen.stuck or not experiment.seen.served:
+        served = experiment.seen.part(ServicesSeen).served
+        if experiment.seen.stuck or not served:
             raise NothingToJudge("it waits for ever, so it has no answer to write")
-        message = str(experiment.seen.served[0].response["message"])
+        message = str(served[0].response["message"])
         line = template.format(text=message)
         if not any(line in text for text in process.texts):
             near = most_similar(line, process.texts)
             when, place = f"when the answer is {message!r}", "where your code has the answer"
             raise NotLogged(node.executable, line, near, when=when, place=place)
-        insist_on_at_most(process, [line], len(experiment.seen.served))
+        insist_on_at_most(process, [line], len(served))
 
     return demand
 
 
+def _answered(seen: ExperimentSeen) -> bool:
+    """A request of the client came to the grader's server, which answers at once."""
+    return bool(seen.part(ServicesSeen).served)
+
+
 def end_by_itself(
-    node: NodeContract, exit_code: int | None = 0, when: str = "after the answer"
+    node: NodeContract,
+    exit_code: int | None = 0,
+    when: str = "after the answer",
+    answered: Callable[[ExperimentSeen], bool] = _answered,
 ) -> Demand[ExperimentView]:
-    """The client ends when it has its answer, with this exit code; None: with any."""
+    """The client ends when it has its answer, with this exit code; None: with any.
+
+    `answered` tells whether it was given one.
+    """
 
     def demand(experiment: ExperimentView) -> None:
         process = experiment.process(node)
@@ -366,8 +388,8 @@ def end_by_itself(
             require_steady(experiment.seen.stall_s)
             require_its_time(experiment.seen, CLIENT_ENDS, PATIENCE_S, "the client's end")
             if experiment.seen.stuck:
-                answered = bool(experiment.seen.served or experiment.seen.orders)
-                raise faults.ClientDeadlock(node.executable, process.ran_s, answered, when=when)
+                told = answered(experiment.seen)
+                raise faults.ClientDeadlock(node.executable, process.ran_s, told, when=when)
             raise faults.ClientStays(node.executable, process.ran_s, when=when)
         if exit_code is not None:
             require_code(process, exit_code, when)
@@ -375,8 +397,11 @@ def end_by_itself(
     return demand
 
 
-def give_up(node: NodeContract) -> Demand[ExperimentView]:
-    """Without a server the client ends in time, says why, and its exit code says so, too."""
+def give_up(node: NodeContract, wait: str = "wait_for_service") -> Demand[ExperimentView]:
+    """Without a server the client ends in time, says why, and its exit code says so, too.
+
+    `wait` is the method of the client that waits for a server.
+    """
     contract: GiveUpContract = written(node.gives_up, node.node)
 
     def demand(experiment: ExperimentView) -> None:
@@ -386,7 +411,6 @@ def give_up(node: NodeContract) -> Demand[ExperimentView]:
         if took_s is None or late_s > 0:
             require_steady(experiment.seen.stall_s)
             require_its_time(experiment.seen, CLIENT_ENDS, late_s, "the client's end")
-            wait = "wait_for_server" if node.orders else "wait_for_service"
             kind = faults.NeverGivesUp if took_s is None else faults.GivesUpLate
             raise kind(node.executable, took_s or process.ran_s, contract.within_s, wait)
         if not any(contract.log in text for text in process.texts):

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterable
 from typing import Any, Literal
 
-from roslings.evidence import ServiceEnd
+from roslings.capabilities.services.record import ServiceEnd
 
 OF_ROS_ITSELF = ("rcl_interfaces/", "type_description_interfaces/")
 """Every node has these: its parameters, and the description of its types."""

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from roslings.capabilities.camera import report as shown_part
+from roslings.capability import capabilities
 from roslings.evidence import Evidence
 from roslings.report.html import seen_part, verdict_part
 from roslings.report.html.intervals import Asked, watched
@@ -71,8 +71,7 @@ def _body(
     rest = [each for each in heard if not any(each is plot for plot in plots.values())]
     parts = joined(
         *verdict_part.body(verdict, figures),
-        *shown_part.pictures(evidence),
-        *shown_part.ways(evidence),
+        *(section for each in capabilities() for section in each.sections_of(evidence)),
         *seen_part.topics(evidence, rest),
         *seen_part.said(evidence),
         *seen_part.graphs(evidence),

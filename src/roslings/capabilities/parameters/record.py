@@ -1,0 +1,42 @@
+"""The parameters that a node has, and what became of each try to set one."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from roslings.record import PartSeen, Record
+
+
+class ParameterDeclared(Record):
+    """One parameter of a node, as the node itself says it."""
+
+    node: str
+    name: str
+    type: Literal["bool", "integer", "double", "string", "other"]
+    value: bool | int | float | str | None = Field(description="None where the type is another")
+
+
+class ParameterSet(Record):
+    """One try to set a node's parameter while it ran."""
+
+    node: str
+    name: str
+    value: bool | int | float | str
+    asked_ns: int = Field(description="Observer's monotonic clock")
+    answered_ns: int | None = Field(default=None, description="None where no answer came")
+    accepted: bool = False
+    reason: str = Field(default="", description="Why it was refused, in the node's words")
+
+
+class ParametersSeen(PartSeen):
+    """All that was seen of parameters in an experiment."""
+
+    NAME = "parameters"
+
+    names: dict[str, list[str]] = Field(
+        default_factory=dict, description="Node to the names of its parameters"
+    )
+    declared: list[ParameterDeclared] = Field(default_factory=list)
+    sets: list[ParameterSet] = Field(default_factory=list, description="Tries to set one")

@@ -1,0 +1,48 @@
+"""Where a robot really went, and what it was told."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from roslings.record import PartSeen, Record
+
+
+class PoseSeen(Record):
+    """Where a robot really was at a moment."""
+
+    arrival_ns: int = Field(description="Observer's monotonic clock")
+    x_m: float
+    y_m: float
+    heading_rad: float
+
+
+class CommandSeen(Record):
+    """One command that reached a robot."""
+
+    arrival_ns: int
+    forward_m_s: float
+    turn_rad_s: float
+
+
+class DriveSeen(Record):
+    """A drive: how a robot moved, and what it was told."""
+
+    path: list[PoseSeen] = Field(default_factory=list)
+    commands: list[CommandSeen] = Field(default_factory=list)
+
+
+class WaySeen(Record):
+    """Where something went, on the floor."""
+
+    name: str
+    points_m: list[tuple[float, float]] = Field(description="x and y, metres")
+
+
+class RobotSeen(PartSeen):
+    """All that was seen of a robot in an experiment."""
+
+    NAME = "robot"
+    REQUESTS = ("drive",)
+
+    drive: DriveSeen | None = Field(default=None, description="The robot, where there was one")
+    ways: list[WaySeen] = Field(default_factory=list)
