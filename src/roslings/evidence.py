@@ -299,6 +299,10 @@ class ExperimentSeen(Record):
         description="The end of the watch for a rate in real time: of what came later nobody"
         " noted what this computer took from it",
     )
+    patience_s: float = Field(
+        default=20.0,
+        description="So long a process that waited for a processor was waited for, at most",
+    )
     stall_s: float = Field(
         default=0.0, description="Longest time for which the observer itself was not run"
     )

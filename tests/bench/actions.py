@@ -16,8 +16,7 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from roslings.capabilities.actions.act import cancelled_after_s, stopped_after_s
-from roslings.capabilities.actions.record import ActionsSeen
+from roslings.capabilities.actions.record import ActionsSeen, cancelled_after_s, stopped_after_s
 from roslings.capabilities.robot.record import RobotSeen
 from roslings.checking import ready
 from roslings.course import Lab, lab, root

@@ -15,10 +15,10 @@ import pytest
 
 from roslings.course import root
 from roslings.devices.board import Chip, Drive, LineReader, Mega, Speeds, Spoiler, framed
-from roslings.devices.board.lines import LONGEST_LINE
 from roslings.devices.emulated import APT_LINE, EmulatedMega, built, missing
 from roslings.devices.rover import Body, Box, Motion, Pose, Rover, Wheels, World
-from roslings.devices.rover.body import moved
+from roslings.models.board_lines import LONGEST_LINE
+from roslings.models.differential_drive import moved
 
 SKETCH = root() / "labs" / "serial-bridge" / "firmware" / "rover_mega" / "rover_mega.ino"
 FLOOR = World(room=Box(-50, -50, 50, 50))

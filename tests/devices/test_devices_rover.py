@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from roslings.devices.rover import Ball, Body, Box, Circle, Motion, Pose, Rover, Wheels, World
-from roslings.devices.rover.body import moved, wrapped
 from roslings.devices.rover.picture import save
 from roslings.devices.rover.sensors import RangeSensor, Scanner, by_rep_117
+from roslings.models.differential_drive import moved, wrapped
 
 EMPTY = World(room=Box(-50, -50, 50, 50))
 QUICK = Body(motor_lag_s=1e-6)

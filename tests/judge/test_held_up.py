@@ -8,9 +8,8 @@ import pytest
 from seen_with import seen_with
 
 from roslings.capabilities.actions import faults as action_faults
-from roslings.capabilities.actions.act import HEARS, answer_to
 from roslings.capabilities.actions.demands import accept, hear_meanwhile
-from roslings.capabilities.actions.record import GoalSeen
+from roslings.capabilities.actions.record import HEARS, GoalSeen, answer_to
 from roslings.capabilities.camera.demands import MISSING, tell_of_trouble
 from roslings.capabilities.camera.detection import Screen, find_the_ball
 from roslings.capabilities.camera.faults import detection as showing_faults
@@ -20,9 +19,8 @@ from roslings.capabilities.serial import faults as cable_faults
 from roslings.capabilities.serial.demands import drive_as_told, stop_by_itself
 from roslings.capabilities.serial.record import BoardMark, BoardSeen, CableLine
 from roslings.capabilities.services import faults
-from roslings.capabilities.services.act import CLIENT_ENDS
 from roslings.capabilities.services.demands import answer_in_time, give_up
-from roslings.capabilities.services.record import CallSeen
+from roslings.capabilities.services.record import CLIENT_ENDS, CallSeen
 from roslings.course import ActionContract, NodeContract, ServiceContract, TopicContract
 from roslings.devices.board import Drive
 from roslings.evidence import HeldUp, ProcessSeen, StageMark

@@ -8,11 +8,11 @@ import pytest
 
 from roslings.course import lab
 from roslings.evidence import Endpoint, ExperimentSeen, GraphSeen, LogLine, ProcessSeen, Qos, Spoken
-from roslings.experiment.unobserved import written_hz
 from roslings.judge.faults import Fault, Inconclusive
 from roslings.judge.faults.unobserved import SpeaksOnlyWhenObserved, WritesWhatWasNotSent
 from roslings.judge.unobserved import speak_unobserved
 from roslings.judge.views import ExperimentView
+from roslings.log_rates import written_hz
 
 CARD = lab("topics").card
 TALKER, LISTENER = CARD.node("talker"), CARD.node("listener")

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from roslings.devices.rover.body import Body, Pose
 from roslings.devices.rover.moving_map import moving_map
 from roslings.devices.rover.rover import Moment
 from roslings.devices.rover.world import default_world
+from roslings.models.differential_drive import Body, Pose
 from roslings.notebook.picture import Picture
 
 ALIKE = 10

@@ -16,7 +16,7 @@ from roslings.arena import LONGEST_WAIT_S, Arena, Process
 from roslings.course import NodeContract, TopicContract
 from roslings.evidence import Endpoint, ExperimentSeen, Part, Span
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S, WallWatch
-from roslings.experiment.own_time import OwnTime
+from roslings.experiment.own_time import PATIENCE_S, OwnTime
 from roslings.experiment.presence import GRACE_S, Absences, Presence, Turn
 from roslings.experiment.simulated import (
     IgnoresTheClock,
@@ -98,6 +98,7 @@ class Scene:
         self._random = random.Random(seed)
         self._ends_within_s = ends_within_s
         arena.on_change = probe.notify
+        probe.seen.patience_s = PATIENCE_S
 
     @property
     def seen(self) -> ExperimentSeen:

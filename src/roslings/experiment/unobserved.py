@@ -7,21 +7,19 @@ student's own check needs no such proof.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
 from roslings.arena import LONGEST_WAIT_S, Arena, Process
-from roslings.course import NodeContract, RateContract, TopicContract
-from roslings.evidence import ExperimentSeen, LogLine
+from roslings.course import NodeContract, TopicContract
+from roslings.evidence import ExperimentSeen
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S, LONGEST_PERIODS
 from roslings.experiment.packets import Tap
 from roslings.experiment.start import PLAIN
+from roslings.log_rates import hz_of, is_often, written_ns
 
-FEWEST_LINES, MOST_LINES = 5, 10
-"""With so few nothing is known of their pace; after so many that are too slow it is."""
-NEARLY = 0.75
-"""The part of the slowest right rate that is enough: lines come less evenly than messages."""
+MOST_LINES = 10
+"""After so many that are too slow their pace is known."""
 INTERRUPT_SLACK_S = 1.0
 
 
@@ -73,27 +71,3 @@ class Unobserved:
             self.seen.sent_ns[contract.topic] = self._tap.sent_ns(contract.topic)
             if (lost := self._tap.lost()) and not settled():
                 self.seen.machine_fault = f"{lost} packets of your nodes could not be read in time"
-
-
-def is_often(hz: float | None, rate: RateContract) -> bool:
-    """Whether it is nearly as often as the card asks."""
-    return hz is not None and hz >= NEARLY * rate.low_hz
-
-
-def hz_of(at_ns: Sequence[int]) -> float | None:
-    """How often it was; None where it was too seldom to tell."""
-    if len(at_ns) < FEWEST_LINES or at_ns[-1] == at_ns[0]:
-        return None
-    return (len(at_ns) - 1) * 1e9 / (at_ns[-1] - at_ns[0])
-
-
-def written_hz(lines: Sequence[LogLine], node: NodeContract) -> float | None:
-    """How often a node writes its line of the card; None where it wrote too few."""
-    return hz_of(written_ns(lines, node))
-
-
-def written_ns(lines: Sequence[LogLine], node: NodeContract) -> list[int]:
-    """When a node wrote its line of the card, each time."""
-    before, _, after = (node.log or "").partition("{text}")
-    pattern = re.compile(re.escape(before) + ".*" + re.escape(after))
-    return [line.arrival_ns for line in lines if pattern.search(line.text)]

@@ -49,14 +49,17 @@ def require_processors(executable: str, ending: Ending, limit_s: float) -> None:
         )
 
 
-def require_its_time(seen: ExperimentSeen, part: str | None, late_s: float, what: str) -> None:
+def require_its_time(
+    seen: ExperimentSeen, part: str | None, late_s: float | None, what: str
+) -> None:
     """Before something late is held against the student: this computer did not make it so late.
 
-    `part` is the timed stretch; None: the worst of all. Raises Inconclusive.
+    `part` is the timed stretch; None: the worst of all. `late_s` is None for what did not come
+    while whoever measured had patience. Raises Inconclusive.
     """
     stretches = [held for name, held in seen.held_up.items() if part in (name, None)]
     held_s = max((held.longest_s for held in stretches), default=0.0)
-    if late_s <= held_s:
+    if (seen.patience_s if late_s is None else late_s) <= held_s:
         raise faults.Inconclusive(
             f"{what} came late, but this computer held your node or the check up for {held_s:.2f} s"
             " meanwhile; close other programs and check again"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from roslings.course import NodeContract, TopicContract
-from roslings.experiment.unobserved import hz_of, is_often, written_hz
 from roslings.judge.demands import (
     be_there,
     carry_its_type,
@@ -15,6 +14,7 @@ from roslings.judge.demands import (
 from roslings.judge.faults import Fault, NothingToJudge
 from roslings.judge.faults.unobserved import SpeaksOnlyWhenObserved, WritesWhatWasNotSent
 from roslings.judge.views import Demand, ExperimentView
+from roslings.log_rates import hz_of, is_often, written_hz
 
 
 def speak_unobserved(

@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
-from roslings.devices.rover.body import Body, Pose
 from roslings.devices.rover.moving_map import moving_map
 from roslings.devices.rover.rover import Moment
 from roslings.devices.rover.world import default_world
+from roslings.models.differential_drive import Body, Pose
 from roslings.notebook.picture import Picture, show
 from roslings.notebook.trouble import Trouble
 

@@ -9,7 +9,6 @@ import pytest
 from seen_with import seen_with
 
 from roslings.capabilities.actions import faults
-from roslings.capabilities.actions.act import cancelled_after_s, stopped_after_s
 from roslings.capabilities.actions.demands import (
     accept,
     accept_again,
@@ -23,7 +22,12 @@ from roslings.capabilities.actions.demands import (
     succeed,
     tell_the_truth,
 )
-from roslings.capabilities.actions.record import ActionEnd, GoalSeen
+from roslings.capabilities.actions.record import (
+    ActionEnd,
+    GoalSeen,
+    cancelled_after_s,
+    stopped_after_s,
+)
 from roslings.capabilities.robot.record import CommandSeen, DriveSeen, PoseSeen
 from roslings.course import ActionContract, NodeContract, RateContract
 from roslings.evidence import (

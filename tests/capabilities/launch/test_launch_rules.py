@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from roslings.capabilities.launch.act import LABEL
 from roslings.capabilities.launch.demands import start_all
 from roslings.capabilities.launch.faults import LaunchFailed, LaunchMissesNode
+from roslings.capabilities.launch.record import LABEL
 from roslings.evidence import ExperimentSeen, GraphSeen, LogLine, ProcessSeen
 from roslings.exits import NOT_READ_HERE
 from roslings.judge import ExperimentView, Inconclusive

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 from seen_with import seen_with
 
@@ -110,9 +112,11 @@ def test_a_wrong_answer_names_field_and_value() -> None:
     assert fault.value.measured == "success: false"
 
 
-def unanswered(**more: object) -> ExperimentView:
+def unanswered(**more: Any) -> ExperimentView:
     """A server that did not answer, and what else was seen of it."""
-    view = seen(call(None, part="/light"), ended=bool(more.pop("ended", False)))
+    ended, clients = bool(more.pop("ended", False)), more.pop("clients", [])
+    view = seen(call(None, part="/light"), ended=ended)
+    view.seen.part(ServicesSeen).ends.extend(clients)
     return ExperimentView(view.seen.model_copy(update=more))
 
 
@@ -125,8 +129,8 @@ CLIENT = ServiceEnd(kind="client", node="/lamp", service="/dimmer", type=LAMP.ty
         (unanswered(), faults.NoAnswer),
         (unanswered(ended=True), faults.EndedInsteadOfAnswering),
         (unanswered(stuck=["/lamp"]), faults.StuckInCallback),
-        (unanswered(stuck=["/lamp"], services=[CLIENT]), faults.Deadlock),
-        (unanswered(services=[CLIENT]), faults.NoAnswer),
+        (unanswered(stuck=["/lamp"], clients=[CLIENT]), faults.Deadlock),
+        (unanswered(clients=[CLIENT]), faults.NoAnswer),
     ],
     ids=["turns", "ended", "stuck", "stuck, and a client itself", "turns, and a client itself"],
 )

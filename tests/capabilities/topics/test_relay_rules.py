@@ -7,8 +7,9 @@ from typing import Any
 
 import pytest
 
-from roslings.capabilities.topics.act import TOLD, nested
+from roslings.capabilities.topics.act import nested
 from roslings.capabilities.topics.faults.relay import MoreThanAsked, WrongAtFirst
+from roslings.capabilities.topics.record import TOLD
 from roslings.capabilities.topics.relay import (
     Shown,
     answer_each_once,

@@ -11,10 +11,19 @@ from dataclasses import dataclass, field
 from typing import Any, Literal
 
 from roslings.arena import Process
+from roslings.capabilities.actions.contract import RESTLESS
 from roslings.capabilities.actions.goals import Goal, GoalGiver, GoalTaker, read_actions
-from roslings.capabilities.actions.record import ActionEnd, ActionsSeen, GoalSeen
+from roslings.capabilities.actions.record import (
+    HEARS,
+    ActionEnd,
+    ActionsSeen,
+    GoalLimits,
+    answer_to,
+    cancelled_after_s,
+    stopped_after_s,
+)
 from roslings.capabilities.robot.act import STANDS_WITHIN_S, Robot
-from roslings.capabilities.robot.record import DriveSeen, RobotSeen
+from roslings.capabilities.robot.record import RobotSeen
 from roslings.capabilities.services.act import TURNS_WITHIN_S, await_end
 from roslings.course import ActionContract, NodeContract, RateContract
 from roslings.experiment.on_the_wall import (
@@ -59,17 +68,11 @@ SHOWS_WITHIN_S, SHOWS_MORE_WITHIN_S = 3.0, 1.0
 """For a feedback, and for the next ones when one was not shown."""
 
 
-def answer_to(part: str) -> str:
-    """The timed stretch in which the goal of a part is to be answered."""
-    return f"the answer to the goal {part!r}"
-
-
-HEARS = "whether the node hears"
 CALM_S = 0.7
 """So long a robot is watched after it stands: it must not be told to drive on."""
 
-RESTLESS, RESTLESS_AFTER_S = 5.0, 1.0
-"""Feedback that is so many times too frequent comes from a loop without a pause."""
+RESTLESS_AFTER_S = 1.0
+"""So soon it can be seen."""
 
 
 @dataclass
@@ -90,6 +93,12 @@ class Director:
 
         A goal that comes before is rightly refused: on a busy computer, it may.
         """
+        self.scene.seen.recording(ActionsSeen).limits = GoalLimits(
+            answer_within_s=ANSWER_WITHIN_S,
+            hears_within_s=HEARS_WITHIN_S,
+            idle_s=IDLE_S,
+            cancels_within_s=CANCELS_WITHIN_S,
+        )
         await_action(self.scene)
         self._turned()
 
@@ -333,30 +342,6 @@ def _note_trouble(scene: Scene, limit: RateContract) -> None:
         scene.probe.note_longest_watch(topic)
         rate = own_rate(measure_rate(scene.probe.messages(topic)), seen)
         seen.machine_fault = seen.machine_fault or trouble(seen, rate, limit)
-
-
-def cancelled_after_s(goal: GoalSeen) -> float | None:
-    """From the request to cancel to the goal's end; None where there was none of the two."""
-    if goal.cancel_sent_ns is None or goal.ended_ns is None:
-        return None
-    return (goal.ended_ns - goal.cancel_sent_ns) / 1e9
-
-
-def stopped_after_s(goal: GoalSeen, drive: DriveSeen) -> float | None:
-    """From the request to cancel to the command after which the robot was never told to move.
-
-    None where the last command tells it to move.
-    """
-    begin_ns, end_ns = goal.cancel_sent_ns or 0, goal.watched_until_ns or math.inf
-    stopped_ns: int | None = begin_ns
-    for command in drive.commands:
-        if command.arrival_ns > end_ns:
-            break
-        if command.forward_m_s or command.turn_rad_s:
-            stopped_ns = None
-        elif stopped_ns is None:
-            stopped_ns = max(command.arrival_ns, begin_ns)
-    return None if stopped_ns is None else (stopped_ns - begin_ns) / 1e9
 
 
 # --- the other side ----------------------------------------------------------------------------

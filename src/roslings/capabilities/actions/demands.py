@@ -9,18 +9,17 @@ from dataclasses import dataclass
 from typing import Any
 
 from roslings.capabilities.actions import faults
-from roslings.capabilities.actions.act import (
-    ANSWER_WITHIN_S,
-    CANCELS_WITHIN_S,
+from roslings.capabilities.actions.contract import RESTLESS
+from roslings.capabilities.actions.record import (
     HEARS,
-    HEARS_WITHIN_S,
-    IDLE_S,
-    RESTLESS,
+    ActionEnd,
+    ActionsSeen,
+    GoalLimits,
+    GoalSeen,
     answer_to,
     cancelled_after_s,
     stopped_after_s,
 )
-from roslings.capabilities.actions.record import ActionEnd, ActionsSeen, GoalSeen
 from roslings.capabilities.robot.record import DriveSeen, PoseSeen, RobotSeen
 from roslings.capabilities.services import demands as services
 from roslings.capabilities.services.demands import end_by_itself, require_code, require_no_crash
@@ -28,7 +27,6 @@ from roslings.capabilities.topics.faults.messages import NoMessages
 from roslings.capabilities.topics.faults.rhythm import rate_fault
 from roslings.course import ActionContract, NodeContract, OutcomeContract, RateContract
 from roslings.evidence import ExperimentSeen, MessageSeen, TopicSeen
-from roslings.experiment.own_time import PATIENCE_S
 from roslings.judge.demands import (
     insist_on_at_most,
     most_similar,
@@ -195,23 +193,26 @@ def require_answer(experiment: ExperimentView, given: Trip) -> None:
     """Raises the fault that tells why a goal was not answered."""
     if given.goal.answered_ns is not None:
         return
-    process = given.node
+    process, waited_s = given.node, _limits(experiment).answer_within_s
     if process.seen.ended_by_itself:
-        raise faults.EndedInsteadOfPerforming(
-            given.words, ANSWER_WITHIN_S, log=process.last_lines()
-        )
+        raise faults.EndedInsteadOfPerforming(given.words, waited_s, log=process.last_lines())
     require_steady(experiment.seen.stall_s)
     part = answer_to(given.goal.part)
-    require_its_time(experiment.seen, part, ANSWER_WITHIN_S, "the answer to a goal")
-    raise faults.GoalUnanswered(given.words, ANSWER_WITHIN_S)
+    require_its_time(experiment.seen, part, waited_s, "the answer to a goal")
+    raise faults.GoalUnanswered(given.words, waited_s)
+
+
+def _limits(experiment: ExperimentView) -> GoalLimits:
+    """How long whoever measured waited."""
+    return experiment.seen.part(ActionsSeen).limits
 
 
 def hear_meanwhile(experiment: ExperimentView) -> None:
     """While a goal is under way, the node's other callbacks run."""
     if experiment.seen.stuck:
         require_steady(experiment.seen.stall_s)
-        require_its_time(experiment.seen, HEARS, PATIENCE_S, "an answer of the node")
-        raise faults.BlocksTheNode(HEARS_WITHIN_S)
+        require_its_time(experiment.seen, HEARS, None, "an answer of the node")
+        raise faults.BlocksTheNode(_limits(experiment).hears_within_s)
 
 
 def refuse_each(node: NodeContract, impossible: Mapping[str, str]) -> Demand[ExperimentView]:
@@ -359,7 +360,8 @@ def _raise_no_end(experiment: ExperimentView, given: Trip) -> None:
     distances = [given.distance_m(pose) for pose in way]
     nearest_m = min(distances, default=math.inf)
     require_steady(experiment.seen.stall_s)
-    require_its_time(experiment.seen, given.goal.part, IDLE_S, "the end of a goal")
+    idle_s = _limits(experiment).idle_s
+    require_its_time(experiment.seen, given.goal.part, idle_s, "the end of a goal")
     moved = bool(distances) and max(distances) - nearest_m > PLACE_M
     raise faults.NeverArrives(given.words, nearest_m, distances[0] if distances else 0.0, moved)
 
@@ -459,21 +461,21 @@ def cancel_in_time(
 def _require_cancelled(experiment: ExperimentView, given: Trip) -> None:
     goal = given.goal
     _require_no_error(given)
-    process = given.node
+    process, waited_s = given.node, _limits(experiment).cancels_within_s
     if process.seen.ended_by_itself:
         raise faults.EndedInsteadOfPerforming(given.words, 0.0, log=process.last_lines())
     if goal.cancel_answered_ns is None:
         require_steady(experiment.seen.stall_s)
-        require_its_time(experiment.seen, goal.part, CANCELS_WITHIN_S, "the answer to a cancel")
-        raise faults.CancelUnanswered(waited_s=CANCELS_WITHIN_S)
+        require_its_time(experiment.seen, goal.part, waited_s, "the answer to a cancel")
+        raise faults.CancelUnanswered(waited_s=waited_s)
     if not goal.cancel_accepted and (goal.ended_ns or math.inf) > goal.cancel_answered_ns:
         raise faults.CancelRefused
     if not goal.cancel_accepted:
         raise NothingToJudge("the goal ended before it could be cancelled")
     if goal.ended_ns is None or _went_on_to_the_goal(given):
         require_steady(experiment.seen.stall_s)
-        require_its_time(experiment.seen, goal.part, CANCELS_WITHIN_S, "the end of a goal")
-        raise faults.GoesOnAfterCancel(cancelled_after_s(goal) or CANCELS_WITHIN_S)
+        require_its_time(experiment.seen, goal.part, waited_s, "the end of a goal")
+        raise faults.GoesOnAfterCancel(cancelled_after_s(goal) or waited_s)
     _require_state(given, "canceled", "after a cancel")
 
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, Literal
 
 from pydantic import Field
 
+from roslings.capabilities.robot.record import DriveSeen
 from roslings.record import PartSeen, Record
 
 
@@ -50,12 +52,58 @@ class GoalSeen(Record):
         return f"{self.action}/_action/feedback"
 
 
+def answer_to(part: str) -> str:
+    """The timed stretch in which the goal of a part is to be answered."""
+    return f"the answer to the goal {part!r}"
+
+
+HEARS = "whether the node hears"
+
+
+class GoalLimits(Record):
+    """How long whoever measured waited."""
+
+    answer_within_s: float = Field(default=5.0, description="For the answer to a goal")
+    hears_within_s: float = Field(
+        default=6.0, description="A node that answers nothing for so long is blocked"
+    )
+    idle_s: float = Field(
+        default=4.0, description="A robot that is told nothing for so long will not get there"
+    )
+    cancels_within_s: float = Field(default=5.0, description="For the end after a cancel")
+
+
+def cancelled_after_s(goal: GoalSeen) -> float | None:
+    """From the request to cancel to the goal's end; None where there was none of the two."""
+    if goal.cancel_sent_ns is None or goal.ended_ns is None:
+        return None
+    return (goal.ended_ns - goal.cancel_sent_ns) / 1e9
+
+
+def stopped_after_s(goal: GoalSeen, drive: DriveSeen) -> float | None:
+    """From the request to cancel to the command after which the robot was never told to move.
+
+    None where the last command tells it to move.
+    """
+    begin_ns, end_ns = goal.cancel_sent_ns or 0, goal.watched_until_ns or math.inf
+    stopped_ns: int | None = begin_ns
+    for command in drive.commands:
+        if command.arrival_ns > end_ns:
+            break
+        if command.forward_m_s or command.turn_rad_s:
+            stopped_ns = None
+        elif stopped_ns is None:
+            stopped_ns = max(command.arrival_ns, begin_ns)
+    return None if stopped_ns is None else (stopped_ns - begin_ns) / 1e9
+
+
 class ActionsSeen(PartSeen):
     """All that was seen of actions in an experiment."""
 
     NAME = "actions"
     REQUESTS = ("orders",)
 
+    limits: GoalLimits = Field(default_factory=GoalLimits)
     ends: list[ActionEnd] = Field(default_factory=list)
     goals: list[GoalSeen] = Field(default_factory=list, description="Given by the grader")
     orders: list[GoalSeen] = Field(default_factory=list, description="Given to the grader")

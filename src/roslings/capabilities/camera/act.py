@@ -10,6 +10,7 @@ from contextlib import contextmanager
 
 from roslings.arena import Process
 from roslings.capabilities.camera.pixels import IMAGE, FilmLooker
+from roslings.capabilities.camera.record import CAMERA
 from roslings.capabilities.parameters.calling import set_parameter
 from roslings.course import NodeContract, TopicContract
 from roslings.devices.camera import Frame, Light, SocketCamera, SyntheticCamera
@@ -23,7 +24,6 @@ from roslings.matching import nearest, nearest_endpoint
 PICTURES = 16
 """In a film that begins again; each is told from all others."""
 
-CAMERA = "camera"
 """The last part of the path at which the node finds it."""
 
 GRAIN = 6.0

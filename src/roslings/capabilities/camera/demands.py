@@ -8,13 +8,11 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import chain, pairwise
 
-from roslings.capabilities.camera.act import CAMERA
 from roslings.capabilities.camera.faults import images as faults
-from roslings.capabilities.camera.record import PixelsSeen
+from roslings.capabilities.camera.record import CAMERA, PixelsSeen
 from roslings.capabilities.parameters.record import ParameterSet, ParametersSeen
 from roslings.course import NodeContract, ParameterContract, TopicContract
 from roslings.evidence import LogLine, MessageSeen, StageMark
-from roslings.experiment.own_time import PATIENCE_S
 from roslings.judge.demands import most_similar, require_its_time, require_steady, written
 from roslings.judge.faults import Fault, NothingToJudge
 from roslings.judge.views import Demand, EndpointView, ExperimentView, TopicView
@@ -276,7 +274,7 @@ def tell_of_trouble(
         if process.seen.ended_by_itself:
             raise faults.EndedWithoutCamera(*words, None, log=process.last_lines())
         require_steady(experiment.seen.stall_s)
-        require_its_time(experiment.seen, part, PATIENCE_S, "a line about the camera")
+        require_its_time(experiment.seen, part, None, "a line about the camera")
         raise faults.SilentAboutCamera(*words, most_similar(before + reasons[0], lines))
 
     return demand
@@ -294,7 +292,7 @@ def come_after(
         first_ns = min((at for at in sent if begin_ns < at < end_ns), default=None)
         if first_ns is None:
             require_steady(experiment.seen.stall_s)
-            require_its_time(experiment.seen, part, PATIENCE_S, "a picture")
+            require_its_time(experiment.seen, part, None, "a picture")
             raise faults.NoPictureAfter(when, topic.topic)
         if (took_s := (first_ns - begin_ns) / 1e9) > within_s:
             require_steady(experiment.seen.stall_s)

@@ -14,7 +14,6 @@ from roslings.capabilities.parameters.record import ParametersSeen
 from roslings.capabilities.topics.relay import as_number, field_of
 from roslings.course import NodeContract, TopicContract
 from roslings.evidence import LogLine, MessageSeen
-from roslings.experiment.own_time import PATIENCE_S
 from roslings.judge.demands import most_similar, require_its_time, require_steady, written
 from roslings.judge.faults import Fault, Inconclusive, NothingToJudge
 from roslings.judge.faults.writing import LoggedAgain
@@ -133,7 +132,7 @@ def _missing(experiment: ExperimentView, screen: Screen, look: Look) -> Fault:
     if look.drawings:
         return faults.NotFound(*words)
     require_steady(experiment.seen.stall_s)
-    require_its_time(experiment.seen, shown.part, PATIENCE_S, "the answer to a picture")
+    require_its_time(experiment.seen, shown.part, None, "the answer to a picture")
     if not shown.turned:
         return faults.TooSlowForPictures(*words)
     if shown.bytes > SURELY_COMES_BYTES:
@@ -364,7 +363,7 @@ def _surely_came(experiment: ExperimentView, look: Look) -> bool:
     if not look.shown.turned or look.shown.bytes > SURELY_COMES_BYTES:
         return False
     require_steady(experiment.seen.stall_s)
-    require_its_time(experiment.seen, look.shown.part, PATIENCE_S, "the answer to a picture")
+    require_its_time(experiment.seen, look.shown.part, None, "the answer to a picture")
     return True
 
 

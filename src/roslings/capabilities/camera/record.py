@@ -76,6 +76,10 @@ class PictureKept(Record):
     height: int
 
 
+CAMERA = "camera"
+"""The name of the device that a node is given."""
+
+
 class CameraSeen(PartSeen):
     """All that was seen of pictures in an experiment; what a message holds is a `PixelsSeen`."""
 

@@ -8,12 +8,12 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from roslings.arena import Process
+from roslings.capabilities.launch.record import LABEL
 from roslings.course import LaunchContract
 from roslings.experiment.scene import COMES_UP_WITHIN_S, Scene
 
 ENGINE = Path(__file__).parents[2]
 ROS2 = ENGINE / "ros2" / "start.py"
-LABEL = "ros2 launch"
 NEXT_NODE_S = 4.0
 """A launch starts its nodes at once; so much later than the one before, none comes any more."""
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from roslings.capabilities.launch.act import LABEL
 from roslings.capabilities.launch.faults import LaunchFailed, LaunchMissesNode
+from roslings.capabilities.launch.record import LABEL
 from roslings.exits import NOT_READ_HERE
 from roslings.judge.faults import Inconclusive, NothingToJudge
 from roslings.judge.views import Demand, ExperimentView, ProcessView

@@ -12,6 +12,7 @@ from roslings.capabilities.robot.record import RobotSeen, WaySeen
 from roslings.capabilities.serial.record import (
     BoardMark,
     BoardSeen,
+    CableLimits,
     CableLine,
     MotorsSeen,
     SerialSeen,
@@ -113,7 +114,8 @@ class Cable:
         self._way = WaySeen(name="where the rover really was", points_m=[])
         self._never_heard = 0
         """Lines that the board told before the node was there."""
-        scene.seen.recording(SerialSeen).board = self.seen
+        seen = scene.seen.recording(SerialSeen)
+        seen.board, seen.limits = self.seen, CableLimits(stands_within_s=STANDS_WITHIN_S)
 
     def start(self, settings: Mapping[str, bool | int | float | str] | None = None) -> Start:
         """How the node is started: with the name of this port, and with other settings."""

@@ -8,17 +8,15 @@ from dataclasses import dataclass
 from typing import Any
 
 from roslings.capabilities.serial import faults as cable_faults
-from roslings.capabilities.serial.act import STANDS_WITHIN_S
 from roslings.capabilities.serial.record import BoardMark, BoardSeen, CableLine, SerialSeen
 from roslings.capabilities.topics.faults.messages import NoMessages
 from roslings.course import TopicContract
-from roslings.devices.board import BadLine, Drive, Speeds, unframed
-from roslings.devices.rover import Body, Motion, Wheels
 from roslings.evidence import MessageSeen, TopicSeen
-from roslings.experiment.own_time import PATIENCE_S
 from roslings.judge import faults
 from roslings.judge.demands import require_its_time, require_steady
 from roslings.judge.views import Demand, ExperimentView, TopicView
+from roslings.models.board_lines import BadLine, Drive, Speeds, unframed
+from roslings.models.differential_drive import Body, Motion, Wheels
 
 MOST_LINES_LOST = 0.15
 """Part of the board's lines that may be without a message: those that a busy node still works on
@@ -121,7 +119,7 @@ def come_back(part: str, after: str, topic: TopicContract) -> Demand[ExperimentV
     def demand(experiment: ExperimentView) -> None:
         if not any(mark.part == part for mark in _board(experiment).marks):
             require_steady(experiment.seen.stall_s)
-            require_its_time(experiment.seen, part, PATIENCE_S, "the first message")
+            require_its_time(experiment.seen, part, None, "the first message")
             raise cable_faults.SilentAfter(after, topic.topic)
 
     return demand
@@ -359,7 +357,8 @@ def stop_by_itself(after: str) -> Demand[ExperimentView]:
         stop_s = next(stops, None)
         if stop_s is None or stop_s - begun_s > STOPS_WITHIN_S:
             require_steady(experiment.seen.stall_s)
-            late_s = (stop_s - begun_s if stop_s else STANDS_WITHIN_S) - STOPS_WITHIN_S
+            waited_s = experiment.seen.part(SerialSeen).limits.stands_within_s
+            late_s = (stop_s - begun_s if stop_s else waited_s) - STOPS_WITHIN_S
             require_its_time(experiment.seen, None, late_s, "the stop")
             raise cable_faults.DoesNotStop(STOPS_WITHIN_S, stop_s and stop_s - begun_s)
 

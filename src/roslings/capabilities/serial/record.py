@@ -50,10 +50,17 @@ class BoardSeen(Record):
     )
 
 
+class CableLimits(Record):
+    """How long whoever measured waited."""
+
+    stands_within_s: float = Field(default=5.0, description="For the wheels to stand")
+
+
 class SerialSeen(PartSeen):
     """All that was seen of a serial cable in an experiment."""
 
     NAME = "serial"
     REQUESTS = ("board",)
 
+    limits: CableLimits = Field(default_factory=CableLimits)
     board: BoardSeen | None = Field(default=None, description="The board, where there was one")

@@ -8,8 +8,9 @@ from contextlib import ExitStack, contextmanager
 
 from roslings.arena import Process
 from roslings.capabilities.services.calling import Call, Caller, Server
+from roslings.capabilities.services.contract import MOST_LATE
 from roslings.capabilities.services.graph import read_services
-from roslings.capabilities.services.record import ServiceEnd, ServicesSeen
+from roslings.capabilities.services.record import CLIENT_ENDS, CallLimits, ServiceEnd, ServicesSeen
 from roslings.course import AnswerContract, NodeContract, ServiceContract, TopicContract
 from roslings.evidence import StageMark
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
@@ -28,12 +29,6 @@ STATE_WITHIN_S = 3.0
 STATE_MESSAGES = 2
 """The first message after an answer may have been under way before it."""
 
-CLIENT_ENDS = "a client's end"
-"""The timed stretch in which a client is to end by itself."""
-
-MOST_LATE = 0.05
-"""The part of the answers that may be late: a computer does other things, too."""
-
 
 class Asker:
     """Asks the services of one running node, as clients do."""
@@ -42,6 +37,7 @@ class Asker:
         """Looks for the node's services, and waits until they are all there."""
         self._scene, self._process, self._node = scene, process, node
         self._silent = False
+        scene.seen.recording(ServicesSeen).limits = CallLimits(answer_within_s=ANSWER_WITHIN_S)
         scene.appears(self._all_there, "all services")
 
     def ask_each(

@@ -9,8 +9,8 @@ from dataclasses import replace
 from typing import Any
 
 from roslings.capabilities.services import faults
-from roslings.capabilities.services.act import ANSWER_WITHIN_S, CLIENT_ENDS, MOST_LATE
-from roslings.capabilities.services.record import CallSeen, ServiceEnd, ServicesSeen
+from roslings.capabilities.services.contract import MOST_LATE
+from roslings.capabilities.services.record import CLIENT_ENDS, CallSeen, ServiceEnd, ServicesSeen
 from roslings.course import (
     AnswerContract,
     GiveUpContract,
@@ -19,7 +19,6 @@ from roslings.course import (
     TopicContract,
 )
 from roslings.evidence import ExperimentSeen, ProcessSeen
-from roslings.experiment.own_time import PATIENCE_S
 from roslings.judge.demands import (
     insist_on_at_most,
     most_similar,
@@ -174,7 +173,8 @@ def _require_answer(
     if call.response is not None:
         return
     process = experiment.process(node)
-    asked, waited_s = _case(call, answer), ANSWER_WITHIN_S
+    asked = _case(call, answer)
+    waited_s = experiment.seen.part(ServicesSeen).limits.answer_within_s
     if process.seen.ended_by_itself:
         raise faults.EndedInsteadOfAnswering(
             call.service, asked, waited_s, log=process.last_lines()
@@ -386,7 +386,7 @@ def end_by_itself(
         process = experiment.process(node)
         if not process.seen.ended_by_itself:
             require_steady(experiment.seen.stall_s)
-            require_its_time(experiment.seen, CLIENT_ENDS, PATIENCE_S, "the client's end")
+            require_its_time(experiment.seen, CLIENT_ENDS, None, "the client's end")
             if experiment.seen.stuck:
                 told = answered(experiment.seen)
                 raise faults.ClientDeadlock(node.executable, process.ran_s, told, when=when)

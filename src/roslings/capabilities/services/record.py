@@ -35,12 +35,23 @@ class CallSeen(Record):
     )
 
 
+CLIENT_ENDS = "a client's end"
+"""The timed stretch in which a client is to end by itself."""
+
+
+class CallLimits(Record):
+    """How long whoever measured waited."""
+
+    answer_within_s: float = Field(default=5.0, description="No answer for so long is none")
+
+
 class ServicesSeen(PartSeen):
     """All that was seen of services in an experiment."""
 
     NAME = "services"
     REQUESTS = ("served",)
 
+    limits: CallLimits = Field(default_factory=CallLimits)
     ends: list[ServiceEnd] = Field(default_factory=list)
     calls: list[CallSeen] = Field(default_factory=list, description="Made by the grader")
     served: list[CallSeen] = Field(default_factory=list, description="Answered by the grader")

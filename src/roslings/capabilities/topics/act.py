@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from roslings.arena import Process
+from roslings.capabilities.topics.record import TOLD
 from roslings.course import TopicContract
 from roslings.evidence import Endpoint, Spoken, StageMark
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
@@ -20,10 +21,6 @@ SILENT_TIMES, SILENT_WITHIN_S = 2, 0.3
 
 BY_A_TIMER = 3
 """Messages to wait for: the first one may have been under way before the value was heard."""
-
-
-TOLD = "told"
-"""The stage of an experiment in which the node is told values: before it, it knows none."""
 
 
 class Teller:

@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from roslings.capabilities.topics.act import TOLD
 from roslings.capabilities.topics.faults import relay as faults
+from roslings.capabilities.topics.record import TOLD
 from roslings.course import NodeContract, TopicContract
 from roslings.evidence import MessageSeen, Spoken
 from roslings.judge.demands import insist_on_at_most, most_similar, written

@@ -6,10 +6,17 @@ pseudo-terminal, in real time or step by step, and can spoil the line between it
 """
 
 from roslings.devices.board.chip import Applied, Chip, Counts, Truth
-from roslings.devices.board.lines import BadLine, Drive, LineReader, Speeds, framed, unframed
 from roslings.devices.board.mega import Mega
 from roslings.devices.board.on_pty import Board, Chunk
 from roslings.devices.board.spoil import Spoiler
+from roslings.models.board_lines import (
+    BadLine,
+    Drive,
+    LineReader,
+    Speeds,
+    framed,
+    unframed,
+)
 
 __all__ = [
     "Applied",

@@ -15,10 +15,10 @@ from types import TracebackType
 import serial
 
 from roslings.devices.board.chip import BAUD, LINE_EVERY_MS, STOPS_AFTER_MS, Applied, Counts, Truth
-from roslings.devices.board.lines import BadLine, Drive, LineReader, Speeds
 from roslings.devices.errors import DeviceTrouble
 from roslings.devices.rover import Body, Pose, Wheels
-from roslings.devices.rover.body import moved
+from roslings.models.board_lines import BadLine, Drive, LineReader, Speeds
+from roslings.models.differential_drive import moved
 
 SPEAKS_WITHIN_S = 8.0
 """A Mega starts anew when its port is opened, and waits up to 2 s for a new sketch."""

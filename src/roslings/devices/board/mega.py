@@ -13,8 +13,15 @@ from roslings.devices.board.chip import (
     Counts,
     Truth,
 )
-from roslings.devices.board.lines import LARGEST_PWM, BadLine, Drive, LineReader, Speeds, framed
 from roslings.devices.rover import Rover, Wheels
+from roslings.models.board_lines import (
+    LARGEST_PWM,
+    BadLine,
+    Drive,
+    LineReader,
+    Speeds,
+    framed,
+)
 
 US_PER_S = 1_000_000
 US_PER_MS = 1000

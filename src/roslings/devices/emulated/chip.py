@@ -11,7 +11,7 @@ from roslings.devices.board.chip import TICKS_PER_TURN, Applied, Truth
 from roslings.devices.emulated.build import Built
 from roslings.devices.errors import DeviceTrouble
 from roslings.devices.rover import Body, Pose, Wheels
-from roslings.devices.rover.body import moved
+from roslings.models.differential_drive import moved
 
 US_PER_S = 1_000_000
 STATE = struct.Struct("<QddddhhII")

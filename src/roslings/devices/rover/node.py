@@ -12,8 +12,8 @@ from dataclasses import dataclass, field
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
-from roslings.devices.rover.body import Motion
 from roslings.devices.rover.rover import Rover
+from roslings.models.differential_drive import Motion
 
 if TYPE_CHECKING:
     from roslings.devices.camera import Frame

@@ -11,10 +11,10 @@ from __future__ import annotations
 import os
 import threading
 
-from roslings.devices.rover.body import Pose
 from roslings.devices.rover.moving_map import moving_map
 from roslings.devices.rover.node import RoverNode
 from roslings.devices.rover.rover import Moment, Rover
+from roslings.models.differential_drive import Pose
 
 
 class LiveRover:

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
 
-from roslings.devices.rover.body import Pose
 from roslings.devices.rover.rover import Rover
 from roslings.devices.rover.world import Ball, World
+from roslings.models.differential_drive import Pose
 
 Kind = Literal["floor", "wall", "path", "ball", "rover"]
 LETTER_HEIGHT = 2.0
