@@ -8,6 +8,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable
 from dataclasses import dataclass
+from importlib import import_module
 
 from roslings.doctor.finding import Finding
 from roslings.doctor.machine import Machine
@@ -81,7 +82,7 @@ def _place(lesson: str) -> str:
 
 def all_checks() -> tuple[Check, ...]:
     """Return every check, causes before consequences."""
-    import roslings.doctor.checks  # noqa: F401  the import registers them
+    import_module("roslings.doctor.checks")  # which registers them
 
     return tuple(_checks.values())
 

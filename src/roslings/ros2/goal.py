@@ -8,10 +8,10 @@ from typing import Any
 
 from roslings.ros2 import stopping
 from roslings.ros2.calling import answer_of
-from roslings.ros2.commands.action import actions
 from roslings.ros2.discovery import Eye
 from roslings.ros2.interfaces import class_of, full_name
 from roslings.ros2.names import checked_topic
+from roslings.ros2.node_parts import actions
 from roslings.ros2.problem import Problem, did_you_mean
 from roslings.ros2.shared_options import values_in
 from roslings.ros2.words import OK

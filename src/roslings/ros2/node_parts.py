@@ -1,4 +1,4 @@
-"""What one node has: subscriptions, publishers, services, actions."""
+"""What one node has: subscriptions, publishers, services, actions; and which actions there are."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ from typing import Any
 from roslings.ros2.names import is_hidden
 
 TypesByName = dict[str, list[str]]
+Party = tuple[str, list[str]]
+"""A node, and the types that it has for one name."""
 SEND_GOAL, FEEDBACK = "/_action/send_goal", "/_action/feedback"
 GOAL_SUFFIX, FEEDBACK_SUFFIX = "_SendGoal", "_FeedbackMessage"
 
@@ -35,3 +37,21 @@ def actions_in(services: TypesByName) -> TypesByName:
         for name, types in services.items()
         if name.endswith(SEND_GOAL)
     }
+
+
+def actions(eye: Any) -> dict[str, list[str]]:
+    """Every action in the graph, with its types: of servers and of clients."""
+    found: dict[str, list[str]] = {}
+    for name, parties in (*by_action(eye, "service"), *by_action(eye, "client")):
+        types = found.setdefault(name, [])
+        types += [kind for _, kinds in parties for kind in kinds if kind not in types]
+    return dict(sorted(found.items()))
+
+
+def by_action(eye: Any, role: str) -> list[tuple[str, list[Party]]]:
+    """Each action with the nodes that serve it (role `service`) or use it (`client`)."""
+    found: dict[str, list[Party]] = {}
+    for node in eye.nodes(hidden=True):
+        for name, types in actions_in(eye.of_node(role, node)).items():
+            found.setdefault(name, []).append((node, types))
+    return sorted(found.items())

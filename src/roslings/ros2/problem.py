@@ -17,3 +17,13 @@ def did_you_mean(wanted: str, names: Iterable[str]) -> str:
 
     near = nearest(wanted, names)
     return f" Did you mean {near.found}?" if near and near.how != "other" else ""
+
+
+class ServiceNotThere(Problem):
+    """No node offers the service."""
+
+    def __init__(self, service: str, there: Iterable[str]) -> None:
+        super().__init__(
+            f"Unknown service '{service}'.{did_you_mean(service, there)}\n"
+            "To see what there is: ros2 service list"
+        )

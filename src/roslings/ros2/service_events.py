@@ -6,11 +6,11 @@ import argparse
 from typing import Any
 
 from roslings.ros2 import qos
-from roslings.ros2.commands.service import ServiceNotThere
 from roslings.ros2.discovery import Eye
 from roslings.ros2.echoing import shape_in
 from roslings.ros2.interfaces import class_of
 from roslings.ros2.names import checked_topic
+from roslings.ros2.problem import ServiceNotThere
 from roslings.ros2.words import OK
 from roslings.ros2.yaml_out import Shape, as_csv, dumped, plain_of
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from roslings.ros2.habits import full_topic
 from roslings.ros2.names import absolute
+from roslings.ros2.node_parts import actions, by_action
 from roslings.ros2.shared_options import (
     complete_type_of,
     complete_values,
@@ -19,8 +20,6 @@ from roslings.ros2.words import FAILED, OK, Verbs, add
 
 if TYPE_CHECKING:
     from roslings.ros2.discovery import Eye
-
-Party = tuple[str, list[str]]
 
 
 def declare(command: argparse.ArgumentParser) -> None:
@@ -70,26 +69,6 @@ def complete_actions(**_: Any) -> list[str]:
 
     with Eye() as eye:
         return list(actions(eye.settle()))
-
-
-def actions(eye: Eye) -> dict[str, list[str]]:
-    """Every action in the graph, with its types: of servers and of clients."""
-    found: dict[str, list[str]] = {}
-    for name, parties in (*by_action(eye, "service"), *by_action(eye, "client")):
-        types = found.setdefault(name, [])
-        types += [kind for _, kinds in parties for kind in kinds if kind not in types]
-    return dict(sorted(found.items()))
-
-
-def by_action(eye: Eye, role: str) -> list[tuple[str, list[Party]]]:
-    """Each action with the nodes that serve it (role `service`) or use it (`client`)."""
-    from roslings.ros2.node_parts import actions_in
-
-    found: dict[str, list[Party]] = {}
-    for node in eye.nodes(hidden=True):
-        for name, types in actions_in(eye.of_node(role, node)).items():
-            found.setdefault(name, []).append((node, types))
-    return sorted(found.items())
 
 
 def list_actions(options: argparse.Namespace) -> int:

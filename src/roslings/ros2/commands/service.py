@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from roslings.ros2.habits import full_topic, full_type
-from roslings.ros2.problem import Problem, did_you_mean
+from roslings.ros2.problem import Problem, ServiceNotThere, did_you_mean
 from roslings.ros2.qos import add_qos_options
 from roslings.ros2.shared_options import (
     also_hidden,
@@ -30,16 +30,6 @@ if TYPE_CHECKING:
     from roslings.ros2.discovery import Eye
 
 MATCHED_WITHIN_S = 1.0
-
-
-class ServiceNotThere(Problem):
-    """No node offers the service."""
-
-    def __init__(self, service: str, there: Iterable[str]) -> None:
-        super().__init__(
-            f"Unknown service '{service}'.{did_you_mean(service, there)}\n"
-            "To see what there is: ros2 service list"
-        )
 
 
 class OtherType(Problem):
