@@ -11,8 +11,8 @@ import pytest
 
 from roslings.devices.rover.moving_map import LONGEST_S, MOST_FRAMES, moving_map, shown_s
 from roslings.devices.rover.rover import Moment, Rover
-from roslings.devices.rover.world import default_world
 from roslings.models.differential_drive import Body, Motion, Pose
+from roslings.models.world import default_world
 
 RADIUS_M = Body().radius_m
 

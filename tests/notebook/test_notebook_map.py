@@ -6,8 +6,8 @@ from typing import Any
 
 from roslings.devices.rover.moving_map import moving_map
 from roslings.devices.rover.rover import Moment
-from roslings.devices.rover.world import default_world
 from roslings.models.differential_drive import Body, Pose
+from roslings.models.world import default_world
 from roslings.notebook.picture import Picture
 
 ALIKE = 10

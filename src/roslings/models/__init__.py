@@ -1,4 +1,4 @@
-"""What stand-ins and checks both reckon with: the words of a cable, and how wheels drive.
+"""What stand-ins and checks both reckon with: a cable's words, how wheels drive, a camera sees.
 
 Nothing here runs or measures anything.
 """

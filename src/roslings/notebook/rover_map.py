@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 from roslings.devices.rover.moving_map import moving_map
 from roslings.devices.rover.rover import Moment
-from roslings.devices.rover.world import default_world
 from roslings.models.differential_drive import Body, Pose
+from roslings.models.world import default_world
 from roslings.notebook.picture import Picture, show
 from roslings.notebook.trouble import Trouble
 

@@ -5,10 +5,10 @@ and `roslings.devices.emulated`, which runs the real sketch. `Board` puts either
 pseudo-terminal, in real time or step by step, and can spoil the line between it and the host.
 """
 
-from roslings.devices.board.chip import Applied, Chip, Counts, Truth
 from roslings.devices.board.mega import Mega
 from roslings.devices.board.on_pty import Board, Chunk
 from roslings.devices.board.spoil import Spoiler
+from roslings.devices.chip import Applied, Chip, Counts, Truth
 from roslings.models.board_lines import (
     BadLine,
     Drive,

@@ -14,7 +14,14 @@ from types import TracebackType
 
 import serial
 
-from roslings.devices.board.chip import BAUD, LINE_EVERY_MS, STOPS_AFTER_MS, Applied, Counts, Truth
+from roslings.devices.chip import (
+    BAUD,
+    LINE_EVERY_MS,
+    STOPS_AFTER_MS,
+    Applied,
+    Counts,
+    Truth,
+)
 from roslings.devices.errors import DeviceTrouble
 from roslings.devices.rover import Body, Pose, Wheels
 from roslings.models.board_lines import BadLine, Drive, LineReader, Speeds

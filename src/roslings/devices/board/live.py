@@ -11,10 +11,10 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from roslings.devices.asked import listening
-from roslings.devices.board.chip import BAUD, Chip
 from roslings.devices.board.mega import Mega
 from roslings.devices.board.on_pty import Board
 from roslings.devices.board.wire import Wire
+from roslings.devices.chip import BAUD, Chip
 from roslings.devices.errors import DeviceTrouble
 from roslings.devices.rover import Rover
 

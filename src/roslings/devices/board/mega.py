@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from roslings.devices.board.chip import (
+from roslings.devices.chip import (
     LINE_EVERY_MS,
     REPORT_EVERY_MS,
     STOPS_AFTER_MS,

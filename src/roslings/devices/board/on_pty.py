@@ -11,10 +11,10 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from roslings.devices.board.chip import Chip
 from roslings.devices.board.port import Port
 from roslings.devices.board.spoil import Spoiler
 from roslings.devices.board.wire import Wire
+from roslings.devices.chip import Chip
 from roslings.devices.errors import DeviceTrouble
 
 TURN_EVERY_S = 0.004

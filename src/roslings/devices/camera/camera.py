@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
 
 from roslings.devices.camera.frame import Encoding, Frame, Pixels, frame_of
 from roslings.devices.camera.scene import HUES, draw
-from roslings.devices.rover import Disc, Eye, Rover
+from roslings.models.differential_drive import Pose
+from roslings.models.pinhole import Disc, Eye
+from roslings.models.world import World
 
 NEUTRAL_BRIGHTNESS = 50
 LEVELS_A_POINT = 2.55
@@ -38,6 +41,20 @@ class Light:
             raise ValueError(f"noise is 0 or more, not {self.noise}")
 
 
+class Standing(Protocol):
+    """What a camera can be mounted on: a rover."""
+
+    @property
+    def world(self) -> World:
+        """What stands around it."""
+        ...
+
+    @property
+    def pose(self) -> Pose:
+        """Where it is."""
+        ...
+
+
 class SyntheticCamera:
     """Draws frames; the same seed draws the same noise. `light` may change between frames."""
 
@@ -55,7 +72,7 @@ class SyntheticCamera:
         self._bank = self._chance.standard_normal(NOISE_BANK).astype(np.float32)
         self._grain: tuple[float, npt.NDArray[np.int16]] | None = None
 
-    def look(self, rover: Rover) -> Frame:
+    def look(self, rover: Standing) -> Frame:
         """What the rover sees now."""
         return self.frame(self.eye.see(rover.world, rover.pose))
 

@@ -13,7 +13,7 @@ from roslings.devices.camera.camera import Light, SyntheticCamera
 from roslings.devices.camera.frame import Frame
 from roslings.devices.camera.on_socket import SocketCamera
 from roslings.devices.errors import DeviceTrouble
-from roslings.devices.rover import Disc, Eye
+from roslings.models.pinhole import Disc, Eye
 
 TELL_EVERY_S = 1.0
 ROUND_PICTURES = 300

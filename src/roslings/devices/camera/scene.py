@@ -10,7 +10,7 @@ from functools import lru_cache
 import numpy as np
 
 from roslings.devices.camera.frame import Pixels
-from roslings.devices.rover import Disc
+from roslings.models.pinhole import Disc
 
 WALL_RGB = (176, 180, 184)
 NEAR_FLOOR_RGB, FAR_FLOOR_RGB = (112, 108, 102), (150, 146, 140)

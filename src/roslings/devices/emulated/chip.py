@@ -7,7 +7,7 @@ import subprocess
 from types import TracebackType
 from typing import IO
 
-from roslings.devices.board.chip import TICKS_PER_TURN, Applied, Truth
+from roslings.devices.chip import TICKS_PER_TURN, Applied, Truth
 from roslings.devices.emulated.build import Built
 from roslings.devices.errors import DeviceTrouble
 from roslings.devices.rover import Body, Pose, Wheels

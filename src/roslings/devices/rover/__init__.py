@@ -7,9 +7,9 @@ forward (or east), y left (or north), angles grow counter-clockwise (REP 103).
 
 from roslings.devices.rover.rover import Rover
 from roslings.devices.rover.sensors import RangeSensor, Reading, Scanner
-from roslings.devices.rover.view import Disc, Eye
-from roslings.devices.rover.world import Ball, Box, Circle, World, default_world
 from roslings.models.differential_drive import Body, Motion, Pose, Wheels
+from roslings.models.pinhole import Disc, Eye
+from roslings.models.world import Ball, Box, Circle, World, default_world
 
 __all__ = [
     "Ball",

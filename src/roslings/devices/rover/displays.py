@@ -21,7 +21,7 @@ from roslings.devices.rover.words import (
     position,
     said,
 )
-from roslings.devices.rover.world import colour_of
+from roslings.models.world import colour_of
 
 View = Literal["auto", "window", "terminal", "lines"]
 SIDE_COLUMNS = 34

@@ -15,7 +15,7 @@ from itertools import accumulate, pairwise
 
 from roslings.devices.rover.picture import OBSTACLE, PATH, ROVER, WALL
 from roslings.devices.rover.rover import Moment
-from roslings.devices.rover.world import Ball, Box, Circle, World
+from roslings.models.world import Ball, Box, Circle, World
 
 PX_PER_M = 50.0
 MARGIN_M = 0.3

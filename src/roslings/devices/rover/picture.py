@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from roslings.devices.rover.rover import Rover
-from roslings.devices.rover.world import Ball, Box, Circle, World
+from roslings.models.world import Ball, Box, Circle, World
 
 WALL, OBSTACLE, PATH, ROVER = "#444444", "#b8b8b8", "#1f77b4", "#0b2f6b"
 DOTS_PER_INCH = 100

@@ -7,9 +7,9 @@ import random
 from dataclasses import dataclass, replace
 
 from roslings.devices.rover.sensors import RangeSensor, Reading, Scanner
-from roslings.devices.rover.view import Disc, Eye
-from roslings.devices.rover.world import Ball, World, default_world
 from roslings.models.differential_drive import Body, Motion, Pose, Wheels, moved
+from roslings.models.pinhole import Disc, Eye
+from roslings.models.world import Ball, World, default_world
 
 LONGEST_STEP_S = 0.005
 """A longer step is cut up: the motors' lag and the arc are then exact enough to compare."""

@@ -6,8 +6,8 @@ import math
 import random
 from dataclasses import dataclass
 
-from roslings.devices.rover.world import World
 from roslings.models.differential_drive import Pose
+from roslings.models.world import World
 
 
 @dataclass(frozen=True)

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 from roslings.devices.rover.rover import Rover
-from roslings.devices.rover.world import Ball, World
 from roslings.models.differential_drive import Pose
+from roslings.models.world import Ball, World
 
 Kind = Literal["floor", "wall", "path", "ball", "rover"]
 LETTER_HEIGHT = 2.0

@@ -9,8 +9,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from roslings.devices.rover.world import Ball, World
 from roslings.models.differential_drive import Pose
+from roslings.models.world import Ball, World
 
 
 @dataclass(frozen=True)
