@@ -30,6 +30,32 @@ Place = str
 """Where a function is, `module:name`: who reads evidence imports nothing that draws or runs."""
 
 
+Row = tuple[str, ...]
+"""What a line of a table in task.md has: its name, and what the card says."""
+Rows = Callable[[Any], Iterable[Row]]
+
+
+def no_rows(contract: Any) -> Iterable[Row]:
+    """For a capability of which a table says nothing."""
+    return ()
+
+
+@dataclass(frozen=True)
+class Words:
+    """What a card may say of a capability, and how task.md says it to the student."""
+
+    node: type[Any] | None = None
+    """Words of a node: a `Contract` whose fields the nodes of every card get."""
+    card: type[Any] | None = None
+    """Words of the package, for every card."""
+    interface: Rows = no_rows
+    """From a node: what goes in and out of it."""
+    settings: Rows = no_rows
+    """From a node: what is set."""
+    package: Rows = no_rows
+    """From a card."""
+
+
 @dataclass(frozen=True)
 class Capability(Generic[R]):
     """One kind of thing that a robot program does, and all that the engine asks of it."""
@@ -42,6 +68,8 @@ class Capability(Generic[R]):
     """Version n of the record to the step to n + 1."""
     in_schema_1: Mapping[str, str] = field(default_factory=dict)
     """Fields that evidence of schema 1 had for it, to the fields of the record today."""
+    words: Place | None = None
+    """Its `Words`; None where a card says nothing of it."""
     sections: Place | None = None
     """evidence -> sections of a report's page (Markup); none where it saw nothing."""
     companions: Place | None = None
@@ -52,6 +80,11 @@ class Capability(Generic[R]):
     def version(self) -> int:
         """The version of the record."""
         return 1 if self.seen is None else int(self.seen.model_fields["v"].default)
+
+    @property
+    def words_here(self) -> Words | None:
+        """What a card may say of it."""
+        return at(self.words) if self.words else None
 
     def sections_of(self, evidence: Any) -> Iterable[Any]:
         """What a page shows of evidence that this capability saw."""

@@ -5,7 +5,9 @@ from __future__ import annotations
 import shutil
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any, get_args
 
 import pytest
 import yaml
@@ -15,8 +17,9 @@ from roslings.authoring.contract.coverage import Reworded, _proof
 from roslings.authoring.contract.words import Word, words_of
 from roslings.authoring.prove import Proof
 from roslings.batch.result import Result
-from roslings.course import Lab, all_labs, card, lab
-from roslings.course.card import Card, Contract
+from roslings.course import Lab, all_labs, lab
+from roslings.course.card import Card
+from roslings.course.contract import Contract
 from roslings.course.files import read_tree
 from roslings.course.kinds import kind_of
 from roslings.course.labs import example_root
@@ -26,11 +29,20 @@ EXAMPLE = lab("example")
 FILE = EXAMPLE.folder / "card.yaml"
 WORDS = {word.name: word for word in words_of(FILE)}
 HZ, WITHIN = (WORDS[f"nodes.beacon.publishes./alive.rate.{key}"] for key in ("hz", "within"))
-CONTRACTS = [
-    each for each in vars(card).values()
-    if isinstance(each, type) and issubclass(each, Contract) and each is not Contract
-    and each is not card.Hint
-]  # fmt: skip
+
+
+def held_by(annotation: Any) -> Iterator[type[Contract]]:
+    """The contracts that a field holds, one below the other."""
+    if isinstance(annotation, type) and issubclass(annotation, Contract):
+        yield annotation
+        for field in annotation.model_fields.values():
+            yield from held_by(field.annotation)
+    for inner in get_args(annotation):
+        yield from held_by(inner)
+
+
+CONTRACTS = list(dict.fromkeys(held_by(Card)))
+"""Also those of capabilities."""
 
 
 @pytest.mark.parametrize("contract", CONTRACTS, ids=lambda each: each.__name__)

@@ -8,6 +8,7 @@ import pytest
 from seen_with import seen_with
 
 from roslings.capabilities.actions import faults as action_faults
+from roslings.capabilities.actions.contract import ActionContract
 from roslings.capabilities.actions.demands import accept, hear_meanwhile
 from roslings.capabilities.actions.record import HEARS, GoalSeen, answer_to
 from roslings.capabilities.camera.demands import MISSING, tell_of_trouble
@@ -19,9 +20,10 @@ from roslings.capabilities.serial import faults as cable_faults
 from roslings.capabilities.serial.demands import drive_as_told, stop_by_itself
 from roslings.capabilities.serial.record import BoardMark, BoardSeen, CableLine
 from roslings.capabilities.services import faults
+from roslings.capabilities.services.contract import ServiceContract
 from roslings.capabilities.services.demands import answer_in_time, give_up
 from roslings.capabilities.services.record import CLIENT_ENDS, CallSeen
-from roslings.course import ActionContract, NodeContract, ServiceContract, TopicContract
+from roslings.course import NodeContract, TopicContract
 from roslings.devices.board import Drive
 from roslings.evidence import HeldUp, ProcessSeen, StageMark
 from roslings.experiment.own_time import PATIENCE_S

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from roslings.arena.lease import leased_domain
-from roslings.course.card import RateContract
+from roslings.course.contract import RateContract
 from roslings.evidence import CanarySeen, ExperimentSeen, MessageSeen
 from roslings.experiment.on_the_wall import trouble
 from roslings.probe import Probe, budget

@@ -14,7 +14,7 @@ import yaml
 from pydantic import Field, model_validator
 
 from roslings.course import Edit, lab
-from roslings.course.card import Contract
+from roslings.course.contract import Contract
 
 LAB = lab("topics")
 HERE = Path(__file__).parent

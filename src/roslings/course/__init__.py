@@ -14,27 +14,20 @@ from roslings.course.labs import Lab, all_labs, lab, root
 
 if TYPE_CHECKING:
     from roslings.course.card import (
-        ActionContract,
-        AnswerContract,
         Card,
         ConstantContract,
         GiveUpContract,
         Hint,
-        LaunchContract,
         NodeContract,
         OutcomeContract,
-        ParameterContract,
         PictureContract,
         QosContract,
-        RateContract,
-        ServiceContract,
         TopicContract,
     )
+    from roslings.course.contract import RateContract
     from roslings.course.mutants import Edit, Mutant
 
 __all__ = [
-    "ActionContract",
-    "AnswerContract",
     "Card",
     "ConstantContract",
     "CourseError",
@@ -42,17 +35,14 @@ __all__ = [
     "GiveUpContract",
     "Hint",
     "Lab",
-    "LaunchContract",
     "Mutant",
     "NoSolution",
     "NoSuchLab",
     "NodeContract",
     "OutcomeContract",
-    "ParameterContract",
     "PictureContract",
     "QosContract",
     "RateContract",
-    "ServiceContract",
     "TopicContract",
     "all_labs",
     "lab",

@@ -7,10 +7,21 @@ and the lesson read it from here.
 from __future__ import annotations
 
 import string
-from typing import Annotated, Literal
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, RootModel, field_validator, model_validator
+from pydantic import Field, RootModel, create_model, field_validator, model_validator
 
+from roslings.capability import capabilities
+from roslings.course.contract import (
+    Contract,
+    Expected,
+    Plain,
+    Promise,
+    Prose,
+    RateContract,
+    Stimulus,
+)
 from roslings.course.kinds import Kind
 from roslings.course.outline import DAY, PACKAGE
 
@@ -18,37 +29,7 @@ DEFAULT_WITHIN = 0.1
 """The part of a rate that it may be off, where the card says nothing."""
 
 
-Plain = bool | int | float | str
-Expected = Kind.EXPECTED
-Stimulus = Kind.STIMULUS
-Promise = Kind.PROMISE
-Prose = Kind.PROSE
 GroupName = Annotated[str, Field(pattern=r"^[a-z][a-z0-9-]*$")]
-
-
-class Contract(BaseModel):
-    """A part of the card; an unknown word in it is a mistake, not a comment."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
-
-class RateContract(Contract):
-    """How often messages come, and how far from it still counts."""
-
-    hz: Annotated[float, Expected] = Field(gt=0)
-    within: Annotated[float, Kind.TOLERANCE] = Field(
-        gt=0, lt=1, description="Part of the rate, e.g. 0.05 for 5 %"
-    )
-
-    @property
-    def low_hz(self) -> float:
-        """The slowest rate that counts."""
-        return self.hz * (1 - self.within)
-
-    @property
-    def high_hz(self) -> float:
-        """The fastest rate that counts."""
-        return self.hz * (1 + self.within)
 
 
 class QosContract(Contract):
@@ -84,93 +65,12 @@ class TopicContract(Contract):
         return self.model_copy(update={"rate": RateContract(hz=hz, within=within)})
 
 
-class ParameterContract(Contract):
-    """A setting of a node that is chosen when it starts; a live one also while it runs."""
-
-    name: Annotated[str, Kind.KEY] = Field(pattern=r"^[a-z][a-z0-9_]*$")
-    type: Annotated[Literal["bool", "integer", "double", "string"], Expected]
-    about: Annotated[str, Promise] = Field(
-        description="What it sets, with its unit, e.g. `seconds between messages`"
-    )
-    default: Annotated[Plain, Expected]
-    tried: Annotated[Plain, Stimulus] = Field(description="The other value that the check gives it")
-    least: Annotated[float | None, Kind.EDGE] = Field(
-        default=None, description="What is below is refused"
-    )
-    most: Annotated[float | None, Kind.EDGE] = Field(
-        default=None, description="What is above is refused"
-    )
-    live: Annotated[bool, Expected] = Field(
-        default=False, description="A change acts at once, while the node runs"
-    )
-
-    @property
-    def ends(self) -> tuple[int, int]:
-        """The smallest and the largest whole number that it takes. Raises ValueError."""
-        if self.least is None or self.most is None:
-            raise ValueError(f"the parameter {self.name} has no limits: give it least and most")
-        return int(self.least), int(self.most)
-
-    @property
-    def beyond(self) -> tuple[int, int]:
-        """The nearest whole numbers that it refuses, below and above. Raises ValueError."""
-        least, most = self.ends
-        return least - 1, most + 1
-
-
 class ConstantContract(Contract):
     """A number that the node reckons with."""
 
     name: Annotated[str, Prose]
     value: Annotated[float, Expected]
     about: Annotated[str, Promise] = Field(description="Its unit, and what it is for")
-
-
-class AnswerContract(Contract):
-    """What a server answers to one request, and what is to be seen of it afterwards."""
-
-    when: Annotated[str, Prose] = Field(
-        description="In what state it is asked, e.g. `the limit is on`"
-    )
-    request: Annotated[dict[str, Plain], Stimulus] = Field(default_factory=dict)
-    response: Annotated[dict[str, Plain], Expected]
-    state: Annotated[Plain | None, Expected] = Field(
-        default=None, description="What the node's first topic carries afterwards, in `data`"
-    )
-
-
-class ServiceContract(Contract):
-    """One service that a node offers, or that it calls."""
-
-    service: Annotated[str, Expected] = Field(pattern=r"^/[A-Za-z_][A-Za-z0-9_/]*$")
-    type: Annotated[str, Expected] = Field(pattern=r"^[a-z][a-z0-9_]*/srv/[A-Z][A-Za-z0-9]*$")
-    within_s: Annotated[float | None, Kind.MOST] = Field(
-        default=None, gt=0, description="The answer comes in this time"
-    )
-    answers: tuple[AnswerContract, ...] = ()
-
-    @property
-    def whatever_it_answers(self) -> ServiceContract:
-        """The same, with one answer that is not compared: for who asks only how soon it comes."""
-        any_answer = self.answers[0].model_copy(update={"response": {}})
-        return self.model_copy(update={"answers": (any_answer,)})
-
-
-class ActionContract(Contract):
-    """One action that a node performs, or that it gives goals to."""
-
-    action: Annotated[str, Expected] = Field(pattern=r"^/[A-Za-z_][A-Za-z0-9_/]*$")
-    type: Annotated[str, Expected] = Field(pattern=r"^[a-z][a-z0-9_]*/action/[A-Z][A-Za-z0-9]*$")
-    goal: Annotated[dict[str, float], Prose] = Field(
-        default_factory=dict, description="One goal, as an example"
-    )
-    feedback: RateContract | None = None
-    cancels_within_s: Annotated[float | None, Kind.MOST] = Field(
-        default=None, gt=0, description="From the request to cancel until all stands still"
-    )
-    rules: Annotated[dict[str, str], Promise] = Field(
-        default_factory=dict, description="What happens when: two columns of the task's table"
-    )
 
 
 class OutcomeContract(Contract):
@@ -192,19 +92,19 @@ class GiveUpContract(Contract):
     exit_code: Annotated[int, Expected]
 
 
-class NodeContract(Contract):
+class OwnNodeWords(Contract):
     """One node: its full name, the executable that starts it, and its topics."""
+
+    if TYPE_CHECKING:
+
+        def __getattr__(self, word: str) -> Any:
+            """A word of a capability: which there are is known when a card is read."""
 
     node: Annotated[str, Expected] = Field(pattern=r"^/[A-Za-z_][A-Za-z0-9_/]*$")
     executable: Annotated[str, Kind.KEY]
     publishes: tuple[TopicContract, ...] = ()
     subscribes: tuple[TopicContract, ...] = ()
-    parameters: tuple[ParameterContract, ...] = ()
     constants: tuple[ConstantContract, ...] = ()
-    serves: tuple[ServiceContract, ...] = ()
-    calls: tuple[ServiceContract, ...] = ()
-    performs: tuple[ActionContract, ...] = ()
-    orders: tuple[ActionContract, ...] = ()
     outcomes: dict[str, OutcomeContract] = Field(
         default_factory=dict, description="By a word for the grader, e.g. `refused`"
     )
@@ -231,21 +131,20 @@ class NodeContract(Contract):
         """A number of the card. Raises KeyError where there is none of this name."""
         return {each.name: each.value for each in self.constants}[name]
 
-    def parameter(self, name: str) -> ParameterContract:
-        """A parameter of the card. Raises KeyError where there is none of this name."""
-        return {each.name: each for each in self.parameters}[name]
+
+def _with_words(name: str, own: type[Contract], others: Iterable[type[Contract] | None]) -> Any:
+    """The words that the engine knows, and those of each capability that is here."""
+    bases = [own, *(each for each in others if each)]
+    bases.reverse()  # pydantic takes the fields of the last one first
+    return create_model(name, __base__=tuple(bases), __module__=__name__, __doc__=own.__doc__)
 
 
-class LaunchContract(Contract):
-    """A launch file of the package, and the executables that it starts."""
+_WORDS = tuple(words for each in capabilities() if (words := each.words_here))
 
-    file: Annotated[str, Expected] = Field(pattern=r"^launch/[a-z0-9_]+\.launch\.(xml|yaml|py)$")
-    starts: Annotated[tuple[str, ...], Expected]
-
-    @property
-    def name(self) -> str:
-        """What stands behind `ros2 launch PACKAGE`."""
-        return self.file.rpartition("/")[2]
+if TYPE_CHECKING:
+    NodeContract = OwnNodeWords
+else:
+    NodeContract = _with_words("NodeContract", OwnNodeWords, (each.node for each in _WORDS))
 
 
 class PictureContract(Contract):
@@ -270,8 +169,13 @@ class Hints(RootModel[dict[str, Hint]]):
     """The file `hints.yaml`: check's name to its hint."""
 
 
-class Card(Contract):
+class OwnCardWords(Contract):
     """All that a lab asks for. Points of all checks add up to 100."""
+
+    if TYPE_CHECKING:
+
+        def __getattr__(self, word: str) -> Any:
+            """A word of a capability: which there are is known when a card is read."""
 
     id: Annotated[str, Prose] = Field(pattern=r"^[a-z][a-z0-9-]*$")
     title: Annotated[str, Prose]
@@ -285,7 +189,6 @@ class Card(Contract):
         default=(), description="Dependency groups that its check needs besides the usual ones"
     )
     nodes: tuple[NodeContract, ...]
-    launch: LaunchContract | None = None
     builds_within_s: Annotated[float, Kind.MOST] = Field(
         default=180.0, gt=0, description="The most that colcon may take"
     )
@@ -296,9 +199,6 @@ class Card(Contract):
         default=30.0, ge=0, le=600, description="So long the nodes run where results count; 0: not"
     )
     pictures: tuple[PictureContract, ...] = ()
-    board: Annotated[bool, Prose] = Field(
-        default=False, description="A node talks to a board on a serial port"
-    )
     points: Annotated[dict[str, float], Prose] = Field(description="Check's name to its points")
     not_judged: Annotated[tuple[str, ...], Prose] = Field(
         default=(), description="What the student is free in"
@@ -312,7 +212,7 @@ class Card(Contract):
         return points
 
     @model_validator(mode="after")
-    def _texts_have_known_fields(self) -> Card:
+    def _texts_have_known_fields(self) -> OwnCardWords:
         for node in self.nodes:
             for log in (node.log, *(outcome.log for outcome in node.outcomes.values())):
                 _allow_fields(log, {"text"})
@@ -332,3 +232,9 @@ def _allow_fields(template: str | None, allowed: set[str]) -> None:
     fields = {field for _, field, _, _ in string.Formatter().parse(template or "") if field}
     if fields - allowed:
         raise ValueError(f"{template!r} has unknown fields {sorted(fields - allowed)}")
+
+
+if TYPE_CHECKING:
+    Card = OwnCardWords
+else:
+    Card = _with_words("Card", OwnCardWords, (each.card for each in _WORDS))

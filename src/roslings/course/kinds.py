@@ -1,6 +1,7 @@
 """What kind of word a card says, and so what proves that it is judged.
 
-The kind stands where the word is defined, in `card.py`: `hz: Annotated[float, EXPECTED]`.
+The kind stands where the word is defined, in `card.py` or in the `contract.py` of a capability:
+`hz: Annotated[float, EXPECTED]`.
 """
 
 from __future__ import annotations

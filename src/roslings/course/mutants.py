@@ -7,7 +7,7 @@ from pathlib import Path
 
 from pydantic import Field
 
-from roslings.course.card import Contract
+from roslings.course.contract import Contract
 from roslings.course.files import CourseError
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from pydantic import Field, model_validator
 
-from roslings.course.card import Contract
+from roslings.course.contract import Contract
 from roslings.course.files import read_yaml
 
 NAME = "promises.yaml"

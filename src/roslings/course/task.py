@@ -8,22 +8,19 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable
 
+from roslings.capability import Words, capabilities
 from roslings.course.card import (
-    ActionContract,
-    AnswerContract,
     Card,
     GiveUpContract,
     NodeContract,
     OutcomeContract,
-    ParameterContract,
     PictureContract,
-    Plain,
     QosContract,
-    ServiceContract,
     TopicContract,
 )
+from roslings.course.contract import as_typed
 from roslings.course.files import BadCourseFile
 from roslings.course.labs import Lab, all_labs, lab
 
@@ -84,13 +81,9 @@ def _package_rows(card: Card) -> Iterable[tuple[str, ...]]:
     yield "build type", f"`{card.build_type}`"
     for picture in card.pictures:
         yield "picture", _picture(picture)
-    if card.launch:
-        yield "launch file", f"`{card.launch.file}`, starts {_all_of(card.launch.starts)}"
+    for words in _words():
+        yield from words.package(card)
     yield "Ctrl-C", f"ends each node within {card.ends_within_s:g} s"
-
-
-def _all_of(names: Sequence[str]) -> str:
-    return " and ".join(f"`{name}`" for name in names)
 
 
 def _picture(picture: PictureContract) -> str:
@@ -103,8 +96,8 @@ def _node_rows(node: NodeContract) -> Iterable[tuple[str, ...]]:
     yield from _speaking_rows(node)
     for constant in node.constants:
         yield constant.name.replace("_", " "), f"{constant.value:g} {constant.about}"
-    for parameter in node.parameters:
-        yield "parameter", _parameter(parameter)
+    for words in _words():
+        yield from words.settings(node)
     if node.other_names:
         yield "also runs as", ", ".join(f"`{name}`" for name in node.other_names)
     if node.log:
@@ -116,29 +109,18 @@ def _node_rows(node: NodeContract) -> Iterable[tuple[str, ...]]:
 
 
 def _speaking_rows(node: NodeContract) -> Iterable[tuple[str, ...]]:
-    """What goes in and out: topics, then services, then actions."""
+    """What goes in and out: topics, then what capabilities know of."""
     topics = {"publishes on": node.publishes, "subscribes to": node.subscribes}
     for verb, topic in ((verb, topic) for verb, each in topics.items() for topic in each):
         yield verb, f"`{topic.topic}`"
         yield from _topic_rows(topic)
-    services = {"serves": node.serves, "calls": node.calls}
-    for verb, service in ((verb, service) for verb, each in services.items() for service in each):
-        yield verb, f"`{service.service}`"
-        yield from _service_rows(service)
-    actions = {"performs": node.performs, "sends goals to": node.orders}
-    for verb, action in ((verb, action) for verb, each in actions.items() for action in each):
-        yield verb, f"`{action.action}`"
-        yield from _action_rows(action)
+    for words in _words():
+        yield from words.interface(node)
 
 
-def _action_rows(action: ActionContract) -> Iterable[tuple[str, ...]]:
-    yield "action type", f"`{action.type}`"
-    if rate := action.feedback:
-        span = f"{rate.low_hz:.4g} Hz to {rate.high_hz:.4g} Hz is right"
-        yield "feedback", f"{rate.hz:g} Hz while it works; {span}"
-    yield from action.rules.items()
-    if action.cancels_within_s:
-        yield "time to cancel", f"{action.cancels_within_s:g} s at most, until all stands still"
+def _words() -> Iterable[Words]:
+    """What the cards of each capability say."""
+    return (words for each in capabilities() if (words := each.words_here))
 
 
 def _outcome(outcome: OutcomeContract) -> str:
@@ -147,48 +129,11 @@ def _outcome(outcome: OutcomeContract) -> str:
     return f"logs `{text}`{about}; ends by itself with exit code {outcome.exit_code}"
 
 
-def _service_rows(service: ServiceContract) -> Iterable[tuple[str, ...]]:
-    yield "service type", f"`{service.type}`"
-    for answer in service.answers:
-        yield answer.when, _answer(answer)
-    if service.within_s:
-        yield "time to answer", f"{service.within_s:g} s at most"
-
-
-def _answer(answer: AnswerContract) -> str:
-    asked = f"`{_fields(answer.request)}`" if answer.request else ""
-    if not answer.response:
-        return asked
-    asked = f"asked {asked}: " if asked else ""
-    then = "" if answer.state is None else f"; the topic then says `{answer.state}`"
-    return f"{asked}{_fields(answer.response, '`')}{then}"
-
-
-def _fields(fields: Mapping[str, Plain], quote: str = "") -> str:
-    return ", ".join(f"{name}: {quote}{_plain(value)}{quote}" for name, value in fields.items())
-
-
-def _plain(value: Plain) -> str:
-    """A value as ROS's command line shows it."""
-    return str(value).lower() if isinstance(value, bool) else str(value)
-
-
 def _giving_up(contract: GiveUpContract) -> str:
     return (
         f"logs `{contract.log}` and ends by itself within {contract.within_s:g} s,"
         f" with exit code {contract.exit_code}"
     )
-
-
-def _parameter(parameter: ParameterContract) -> str:
-    default = f"`{parameter.default}` when nobody sets it"
-    limits = "" if parameter.most is None else f"; {_span(parameter)}, all else is refused"
-    live = "; a change acts at once" if parameter.live else ""
-    return f"`{parameter.name}`, {parameter.about}; type {parameter.type}; {default}{limits}{live}"
-
-
-def _span(parameter: ParameterContract) -> str:
-    return f"{parameter.least:g} to {parameter.most:g}"
 
 
 def _topic_rows(topic: TopicContract) -> Iterable[tuple[str, ...]]:
@@ -202,7 +147,7 @@ def _topic_rows(topic: TopicContract) -> Iterable[tuple[str, ...]]:
     if topic.text:
         yield "text", _text(topic.text)
     for name, value in topic.fields.items():
-        yield f"field `{name}`", f"`{_plain(value)}`"
+        yield f"field `{name}`", f"`{as_typed(value)}`"
 
 
 def _qos(qos: QosContract) -> str:

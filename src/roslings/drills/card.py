@@ -6,7 +6,8 @@ from typing import Any, Literal
 
 from pydantic import Field, field_validator, model_validator
 
-from roslings.course.card import Contract, GroupName, NodeContract, Plain
+from roslings.course.card import GroupName, NodeContract
+from roslings.course.contract import Contract, Plain
 
 PROGRAM = "your program"
 """What the student's one file is called where a lab's card has the name of an executable."""

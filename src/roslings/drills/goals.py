@@ -9,6 +9,7 @@ from typing import Any
 from roslings.arena import Process
 from roslings.capabilities.actions import faults
 from roslings.capabilities.actions.act import await_action
+from roslings.capabilities.actions.contract import ActionContract
 from roslings.capabilities.actions.demands import (
     NO_RESPONSE,
     NO_STATE,
@@ -19,7 +20,6 @@ from roslings.capabilities.actions.demands import (
 )
 from roslings.capabilities.actions.goals import Goal, GoalGiver, GoalTaker, read_actions
 from roslings.capabilities.actions.record import ActionsSeen, GoalSeen
-from roslings.course import ActionContract
 from roslings.drills.card import PROGRAM, DrillCard, Give, Take
 from roslings.drills.faults import CancelUnheard, WrongGoal
 from roslings.drills.same import same

@@ -9,6 +9,7 @@ import pytest
 from seen_with import seen_with
 
 from roslings.capabilities.actions import faults
+from roslings.capabilities.actions.contract import ActionContract
 from roslings.capabilities.actions.demands import (
     accept,
     accept_again,
@@ -29,7 +30,7 @@ from roslings.capabilities.actions.record import (
     stopped_after_s,
 )
 from roslings.capabilities.robot.record import CommandSeen, DriveSeen, PoseSeen
-from roslings.course import ActionContract, NodeContract, RateContract
+from roslings.course import NodeContract, RateContract
 from roslings.evidence import (
     LogLine,
     MessageSeen,

@@ -32,9 +32,9 @@ from roslings.capabilities.camera.detection import (
 from roslings.capabilities.camera.faults import detection as faults
 from roslings.capabilities.camera.faults import images as camera_faults
 from roslings.capabilities.camera.record import CameraSeen, DiscShown, PictureShown, PixelsSeen
+from roslings.capabilities.parameters.contract import ParameterContract
 from roslings.capabilities.parameters.record import ParameterSet
 from roslings.course import NodeContract, TopicContract
-from roslings.course.card import ParameterContract
 from roslings.evidence import (
     Endpoint,
     GraphSeen,

@@ -5,11 +5,11 @@ from __future__ import annotations
 import pytest
 from seen_with import seen_with
 
+from roslings.capabilities.parameters.contract import ParameterContract
 from roslings.capabilities.parameters.demands import carried, declare_its_parameters
 from roslings.capabilities.parameters.faults import WrongDefault
 from roslings.capabilities.parameters.record import ParameterDeclared
 from roslings.course import NodeContract
-from roslings.course.card import ParameterContract
 from roslings.evidence import GraphSeen, ProcessSeen
 from roslings.experiment.start import PLAIN, Start
 from roslings.judge import ExperimentView

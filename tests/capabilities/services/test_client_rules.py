@@ -6,9 +6,10 @@ import pytest
 from seen_with import seen_with
 
 from roslings.capabilities.services import faults
+from roslings.capabilities.services.contract import ServiceContract
 from roslings.capabilities.services.demands import ask, give_up
 from roslings.capabilities.services.record import ServiceEnd
-from roslings.course import GiveUpContract, NodeContract, ServiceContract
+from roslings.course import GiveUpContract, NodeContract
 from roslings.evidence import LogLine, ProcessSeen
 from roslings.judge import ExperimentView, during, stay_up
 from roslings.judge.faults import EndedWithError, NotLogged, StoppedByItself

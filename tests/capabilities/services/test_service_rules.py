@@ -8,6 +8,7 @@ import pytest
 from seen_with import seen_with
 
 from roslings.capabilities.services import faults
+from roslings.capabilities.services.contract import ServiceContract
 from roslings.capabilities.services.demands import (
     answer_each,
     answer_in_time,
@@ -16,7 +17,7 @@ from roslings.capabilities.services.demands import (
     serve,
 )
 from roslings.capabilities.services.record import CallSeen, ServiceEnd, ServicesSeen
-from roslings.course import NodeContract, ServiceContract, TopicContract
+from roslings.course import NodeContract, TopicContract
 from roslings.evidence import (
     MessageSeen,
     ProcessSeen,

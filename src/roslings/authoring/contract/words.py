@@ -9,7 +9,8 @@ from typing import Any, Literal, get_args, get_origin
 
 from pydantic.fields import FieldInfo
 
-from roslings.course.card import Card, Contract
+from roslings.course.card import Card
+from roslings.course.contract import Contract
 from roslings.course.files import Location, line_in, read_tree
 from roslings.course.kinds import Kind, kind_of
 

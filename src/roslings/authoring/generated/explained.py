@@ -18,7 +18,7 @@ from pydantic import Field, RootModel, model_validator
 
 from roslings.authoring.generated.choice import Generated
 from roslings.course import Lab
-from roslings.course.card import Contract
+from roslings.course.contract import Contract
 from roslings.course.files import BadCourseFile, read_yaml
 
 FILE = "generated.yaml"

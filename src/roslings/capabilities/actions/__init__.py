@@ -4,5 +4,8 @@ from roslings.capabilities.actions.record import ActionsSeen
 from roslings.capability import Capability
 
 CAPABILITY = Capability(
-    "actions", ActionsSeen, in_schema_1={"actions": "ends", "goals": "goals", "orders": "orders"}
+    "actions",
+    ActionsSeen,
+    in_schema_1={"actions": "ends", "goals": "goals", "orders": "orders"},
+    words="roslings.capabilities.actions.contract:WORDS",
 )

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from typing import Any, Literal
 
 from roslings.arena import Process
-from roslings.capabilities.actions.contract import RESTLESS
+from roslings.capabilities.actions.contract import RESTLESS, ActionContract
 from roslings.capabilities.actions.goals import Goal, GoalGiver, GoalTaker, read_actions
 from roslings.capabilities.actions.record import (
     HEARS,
@@ -25,7 +25,7 @@ from roslings.capabilities.actions.record import (
 from roslings.capabilities.robot.act import STANDS_WITHIN_S, Robot
 from roslings.capabilities.robot.record import RobotSeen
 from roslings.capabilities.services.act import TURNS_WITHIN_S, await_end
-from roslings.course import ActionContract, NodeContract, RateContract
+from roslings.course import NodeContract, RateContract
 from roslings.experiment.on_the_wall import (
     CANARY_WITHIN_S,
     FIRST_MESSAGE_WITHIN_S,

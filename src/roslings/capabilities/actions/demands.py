@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from roslings.capabilities.actions import faults
-from roslings.capabilities.actions.contract import RESTLESS
+from roslings.capabilities.actions.contract import RESTLESS, ActionContract
 from roslings.capabilities.actions.record import (
     HEARS,
     ActionEnd,
@@ -25,7 +25,7 @@ from roslings.capabilities.services import demands as services
 from roslings.capabilities.services.demands import end_by_itself, require_code, require_no_crash
 from roslings.capabilities.topics.faults.messages import NoMessages
 from roslings.capabilities.topics.faults.rhythm import rate_fault
-from roslings.course import ActionContract, NodeContract, OutcomeContract, RateContract
+from roslings.course import NodeContract, OutcomeContract, RateContract
 from roslings.evidence import ExperimentSeen, MessageSeen, TopicSeen
 from roslings.judge.demands import (
     insist_on_at_most,

@@ -10,8 +10,9 @@ from itertools import chain, pairwise
 
 from roslings.capabilities.camera.faults import images as faults
 from roslings.capabilities.camera.record import CAMERA, PixelsSeen
+from roslings.capabilities.parameters.contract import ParameterContract
 from roslings.capabilities.parameters.record import ParameterSet, ParametersSeen
-from roslings.course import NodeContract, ParameterContract, TopicContract
+from roslings.course import NodeContract, TopicContract
 from roslings.evidence import LogLine, MessageSeen, StageMark
 from roslings.judge.demands import most_similar, require_its_time, require_steady, written
 from roslings.judge.faults import Fault, NothingToJudge

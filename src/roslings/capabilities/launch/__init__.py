@@ -3,4 +3,7 @@
 from roslings.capability import Capability
 from roslings.record import PartSeen
 
-CAPABILITY: Capability[PartSeen] = Capability("launch")
+CAPABILITY: Capability[PartSeen] = Capability(
+    "launch",
+    words="roslings.capabilities.launch.contract:WORDS",
+)

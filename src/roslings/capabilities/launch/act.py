@@ -8,8 +8,8 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from roslings.arena import Process
+from roslings.capabilities.launch.contract import LaunchContract
 from roslings.capabilities.launch.record import LABEL
-from roslings.course import LaunchContract
 from roslings.experiment.scene import COMES_UP_WITHIN_S, Scene
 
 ENGINE = Path(__file__).parents[2]

@@ -7,4 +7,5 @@ CAPABILITY = Capability(
     "parameters",
     ParametersSeen,
     in_schema_1={"parameters": "names", "declared": "declared", "parameter_sets": "sets"},
+    words="roslings.capabilities.parameters.contract:WORDS",
 )

@@ -6,6 +6,7 @@ import difflib
 import math
 from collections.abc import Sequence
 
+from roslings.capabilities.parameters.contract import ParameterContract
 from roslings.capabilities.parameters.faults import (
     NameStays,
     NoParameter,
@@ -17,7 +18,7 @@ from roslings.capabilities.parameters.faults import (
 )
 from roslings.capabilities.parameters.record import ParameterDeclared, ParametersSeen
 from roslings.capabilities.topics.demands import have_rate
-from roslings.course import NodeContract, ParameterContract, RateContract, TopicContract
+from roslings.course import NodeContract, RateContract, TopicContract
 from roslings.judge.demands import require_believable, require_steady, written
 from roslings.judge.faults import NothingToJudge
 from roslings.judge.views import Demand, ExperimentView, TopicView

@@ -7,5 +7,6 @@ CAPABILITY = Capability(
     "serial",
     SerialSeen,
     in_schema_1={"board": "board"},
+    words="roslings.capabilities.serial.contract:WORDS",
     companions="roslings.capabilities.serial.companions:board_for",
 )

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
+from roslings.capabilities.parameters.contract import ParameterContract
 from roslings.capabilities.robot.record import RobotSeen, WaySeen
 from roslings.capabilities.serial.record import (
     BoardMark,
@@ -17,7 +18,7 @@ from roslings.capabilities.serial.record import (
     MotorsSeen,
     SerialSeen,
 )
-from roslings.course import ParameterContract, TopicContract
+from roslings.course import TopicContract
 from roslings.devices.board import Board, Chunk, Mega
 from roslings.devices.board.attached import AttachedBoard
 from roslings.devices.board.wire import LATENCY_S, Wire

@@ -8,10 +8,10 @@ from contextlib import ExitStack, contextmanager
 
 from roslings.arena import Process
 from roslings.capabilities.services.calling import Call, Caller, Server
-from roslings.capabilities.services.contract import MOST_LATE
+from roslings.capabilities.services.contract import MOST_LATE, AnswerContract, ServiceContract
 from roslings.capabilities.services.graph import read_services
 from roslings.capabilities.services.record import CLIENT_ENDS, CallLimits, ServiceEnd, ServicesSeen
-from roslings.course import AnswerContract, NodeContract, ServiceContract, TopicContract
+from roslings.course import NodeContract, TopicContract
 from roslings.evidence import StageMark
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
 from roslings.experiment.scene import Scene

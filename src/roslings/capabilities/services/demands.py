@@ -9,15 +9,9 @@ from dataclasses import replace
 from typing import Any
 
 from roslings.capabilities.services import faults
-from roslings.capabilities.services.contract import MOST_LATE
+from roslings.capabilities.services.contract import MOST_LATE, AnswerContract, ServiceContract
 from roslings.capabilities.services.record import CLIENT_ENDS, CallSeen, ServiceEnd, ServicesSeen
-from roslings.course import (
-    AnswerContract,
-    GiveUpContract,
-    NodeContract,
-    ServiceContract,
-    TopicContract,
-)
+from roslings.course import GiveUpContract, NodeContract, TopicContract
 from roslings.evidence import ExperimentSeen, ProcessSeen
 from roslings.judge.demands import (
     insist_on_at_most,

@@ -1,0 +1,78 @@
+"""What a card says about parameters, and its rows in task.md."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from pydantic import Field
+
+from roslings.capability import Row, Words
+from roslings.course.contract import Contract, Expected, Plain, Promise, Stimulus
+from roslings.course.kinds import Kind
+
+if TYPE_CHECKING:
+    from roslings.course import NodeContract
+
+
+class ParameterContract(Contract):
+    """A setting of a node that is chosen when it starts; a live one also while it runs."""
+
+    name: Annotated[str, Kind.KEY] = Field(pattern=r"^[a-z][a-z0-9_]*$")
+    type: Annotated[Literal["bool", "integer", "double", "string"], Expected]
+    about: Annotated[str, Promise] = Field(
+        description="What it sets, with its unit, e.g. `seconds between messages`"
+    )
+    default: Annotated[Plain, Expected]
+    tried: Annotated[Plain, Stimulus] = Field(description="The other value that the check gives it")
+    least: Annotated[float | None, Kind.EDGE] = Field(
+        default=None, description="What is below is refused"
+    )
+    most: Annotated[float | None, Kind.EDGE] = Field(
+        default=None, description="What is above is refused"
+    )
+    live: Annotated[bool, Expected] = Field(
+        default=False, description="A change acts at once, while the node runs"
+    )
+
+    @property
+    def ends(self) -> tuple[int, int]:
+        """The smallest and the largest whole number that it takes. Raises ValueError."""
+        if self.least is None or self.most is None:
+            raise ValueError(f"the parameter {self.name} has no limits: give it least and most")
+        return int(self.least), int(self.most)
+
+    @property
+    def beyond(self) -> tuple[int, int]:
+        """The nearest whole numbers that it refuses, below and above. Raises ValueError."""
+        least, most = self.ends
+        return least - 1, most + 1
+
+
+class ParameterWords(Contract):
+    """What a card may say of a node."""
+
+    parameters: tuple[ParameterContract, ...] = ()
+
+    def parameter(self, name: str) -> ParameterContract:
+        """A parameter of the card. Raises KeyError where there is none of this name."""
+        return {each.name: each for each in self.parameters}[name]
+
+
+def rows(node: NodeContract) -> Iterable[Row]:
+    """Each parameter with its type, its default and its limits."""
+    return (("parameter", _row_of(parameter)) for parameter in node.parameters)
+
+
+def _row_of(parameter: ParameterContract) -> str:
+    default = f"`{parameter.default}` when nobody sets it"
+    limits = "" if parameter.most is None else f"; {_span(parameter)}, all else is refused"
+    live = "; a change acts at once" if parameter.live else ""
+    return f"`{parameter.name}`, {parameter.about}; type {parameter.type}; {default}{limits}{live}"
+
+
+def _span(parameter: ParameterContract) -> str:
+    return f"{parameter.least:g} to {parameter.most:g}"
+
+
+WORDS = Words(node=ParameterWords, settings=rows)
