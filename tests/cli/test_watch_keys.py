@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import shutil
+import signal
 from pathlib import Path
 
 import pytest
@@ -59,6 +60,16 @@ def test_without_a_name_todays_drill_is_opened_and_then_the_next(tmp_path: Path)
         watch.shows(rf"(?s)it does all that is asked.*Drill 2 of .*{second.name} .*Save a")
         assert (file.parent / second.file_name).is_file()
         watch.press("q")
+
+
+@pytest.mark.parametrize("name", [all_drills()[0].name, "nodes"])
+def test_plain_is_lines_only(name: str, tmp_path: Path) -> None:
+    """On a terminal, too: no colours, no keys, nothing that moves; Ctrl-C ends it well."""
+    with watching(tmp_path, name, "--plain") as watch:
+        said = watch.shows("Watching. Save a file to check again; Ctrl-C ends it.")
+        assert not watch.moves and "h hint" not in said
+        assert not set(said) & set("╭╮╰╯│─")
+        watch.process.send_signal(signal.SIGINT)
 
 
 def test_a_labs_starter_is_put_there(tmp_path: Path) -> None:

@@ -43,6 +43,11 @@ class Watched:
                 self._said += os.read(self.screen, 65536)
         return self.said()
 
+    @property
+    def moves(self) -> bool:
+        """It has sent colours, or movements of the cursor."""
+        return b"\x1b" in self._said
+
     def said(self) -> str:
         """Without colours and movements of the cursor."""
         return ESCAPES.sub("", self._said.decode("utf-8", "replace")).replace("\r", "")
