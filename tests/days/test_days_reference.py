@@ -17,6 +17,7 @@ ANSWERS = [
     ("faq", "Letters look broken, or Python speaks of ASCII", "locale-gen"),
     ("faq", "How much memory does a camera need?", "MB"),
     ("faq", "Where can I ask?", "https://robotics.stackexchange.com/"),
+    ("faq", "A list shows nodes that have ended", "ros2 daemon stop"),
     ("distributions", "Why Jazzy, when Lyrical is out?", "May 2029"),
     ("other-packages", "Cloned and built", "rosdep install --from-paths src --ignore-src -y"),
     ("other-packages", "Cloned and built", "colcon build --packages-up-to"),
