@@ -65,7 +65,8 @@ def test_status_has_straight_columns(tmp_path: Path) -> None:
     lines = roslings(tmp_path, "status").stdout.splitlines()
     labs = [line for line in lines if line.endswith("not begun")]
     assert len(labs) == len(course.all_labs())
-    assert lines[0].startswith("01-install ")
+    assert re.match(r"01-install +0 of 10 drills; first: first-15-minutes\.md$", lines[0])
+    assert max(map(len, lines)) <= 80
     assert " 0 of 7 " in lines[-1] and lines[-1].endswith(f" 0 of {len(all_drills())}")
     assert len({line.index("not begun") for line in labs}) == 1
 

@@ -2,89 +2,36 @@
 
 from __future__ import annotations
 
-import os
-import pty
 import re
-import select
 import shutil
-import subprocess
-import sys
-import time
-from collections.abc import Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass, field
+import signal
 from pathlib import Path
 
 import pytest
+from watching import watching
 
 from roslings.commands.editing import Place, editor_for, first_to_do
 from roslings.course import lab, root
 from roslings.drills import all_drills
 
-PATIENCE_S = 120.0
-"""Only a test that fails waits so long."""
-ESCAPES = re.compile(r"\x1b(\[[0-9;?]*[a-zA-Z]|[=>]|\][^\x07]*\x07)")
 EDITOR = """#!/bin/sh
 echo "# edited" >> "$1"
 """
 
 
-@dataclass
-class Watched:
-    """The command on a terminal of 80 columns."""
-
-    process: subprocess.Popen[bytes]
-    screen: int
-    _said: bytearray = field(default_factory=bytearray)
-
-    def press(self, key: str) -> None:
-        """Press a key; what stood there before no longer counts."""
-        self._said.clear()
-        os.write(self.screen, key.encode())
-
-    def shows(self, pattern: str) -> str:
-        """Wait until the screen has shown it; all that it has shown since the last key."""
-        end_s = time.monotonic() + PATIENCE_S
-        while not re.search(pattern, self.said()):
-            assert time.monotonic() < end_s, f"{pattern!r} does not come:\n{self.said()}"
-            if select.select([self.screen], [], [], 0.1)[0]:
-                self._said += os.read(self.screen, 65536)
-        return self.said()
-
-    def said(self) -> str:
-        """Without colours and movements of the cursor."""
-        return ESCAPES.sub("", self._said.decode("utf-8", "replace")).replace("\r", "")
+TIME = re.compile(r"\b\d+\.\d s\b")
 
 
-@contextmanager
-def watching(home: Path, *words: str) -> Iterator[Watched]:
-    """`./roslings watch WORDS` of a student with an empty home; it ends well, by itself."""
-    screen, other_end = pty.openpty()
-    own = {
-        "HOME": str(home), "ROSLINGS_WS": str(home / "roslings_ws"), "TERM": "xterm",
-        "COLUMNS": "80", "LINES": "24", "EDITOR": str(home / "editor"), "VISUAL": "",
-    }  # fmt: skip
-    process = subprocess.Popen(
-        [sys.executable, "-m", "roslings", "watch", *words], cwd=root(),
-        env={**os.environ, **own}, stdin=other_end, stdout=other_end, stderr=other_end,
-        start_new_session=True,
-    )  # fmt: skip
-    os.close(other_end)
-    try:
-        yield Watched(process, screen)
-        assert process.wait(PATIENCE_S) == 0
-    finally:
-        if process.poll() is None:
-            process.kill()
-            process.wait()
-        os.close(screen)
-
-
-def in_the_readme() -> list[str]:
-    """The lines that the README shows; `...` stands for what it leaves out."""
+def in_the_readme(first: str) -> list[str]:
+    """The lines of the block that begins so; `...` stands for what it leaves out."""
     readme = (root() / "README.md").read_text("utf-8")
-    (block,) = re.findall(r"^```text\n(Day 02-.*?)^```$", readme, re.M | re.S)
+    (block,) = re.findall(rf"^```text\n({first}.*?)^```$", readme, re.M | re.S)
     return [line for line in block.splitlines() if line not in ("", "...")]
+
+
+def without_times(lines: list[str]) -> list[str]:
+    """How long something took is another story each time."""
+    return [TIME.sub("... s", line).rstrip() for line in lines if line.strip()]
 
 
 def with_editor(home: Path) -> Path:
@@ -99,18 +46,30 @@ def test_without_a_name_todays_drill_is_opened_and_then_the_next(tmp_path: Path)
     """The program that is mended makes place for the next one, by itself."""
     first, second = all_drills()[:2]
     with watching(with_editor(tmp_path)) as watch:
-        watch.shows(rf"(?s)Drill 1 of .*drill {first.name}.*Save a file")
+        wrong = re.escape(first.card.starter.names)
+        said = watch.shows(rf"(?s)Drill 1 of .*{first.name} .*{wrong}.*q quit\n")
+        assert without_times(said.splitlines()) == without_times(in_the_readme("Labs "))
         watch.press("h")
         watch.shows(f"Hint 1 of 3 for {first.name}")
         watch.press("r")
-        watch.shows(rf"(?s){re.escape(first.card.starter.names)}.*Save a file")
+        watch.shows(rf"(?s){wrong}.*Save a file")
         watch.press("n")
         watch.shows("is not done yet")
         file = tmp_path / "roslings_ws" / "drills" / first.day / first.file_name
         shutil.copyfile(first.solution, file)
-        watch.shows(rf"(?s)it does all that is asked.*Drill 2 of .*drill {second.name}.*Save a")
+        watch.shows(rf"(?s)it does all that is asked.*Drill 2 of .*{second.name} .*Save a")
         assert (file.parent / second.file_name).is_file()
         watch.press("q")
+
+
+@pytest.mark.parametrize("name", [all_drills()[0].name, "nodes"])
+def test_plain_is_lines_only(name: str, tmp_path: Path) -> None:
+    """On a terminal, too: no colours, no keys, nothing that moves; Ctrl-C ends it well."""
+    with watching(tmp_path, name, "--plain") as watch:
+        said = watch.shows("Watching. Save a file to check again; Ctrl-C ends it.")
+        assert not watch.moves and "h hint" not in said
+        assert not set(said) & set("╭╮╰╯│─")
+        watch.process.send_signal(signal.SIGINT)
 
 
 def test_a_labs_starter_is_put_there(tmp_path: Path) -> None:
@@ -118,7 +77,8 @@ def test_a_labs_starter_is_put_there(tmp_path: Path) -> None:
     with watching(with_editor(tmp_path), "nodes") as watch:
         said = watch.shows("h hint .* q quit")
         assert "The starter of 'nodes' is in" in said
-        assert [line for line in in_the_readme() if line not in said.splitlines()] == []
+        shown = in_the_readme("Day 02-")
+        assert [line for line in shown if line not in said.splitlines()] == []
         watch.press("h")
         watch.shows("Hint 1 of 3")
         watch.press("h")

@@ -1,6 +1,7 @@
-"""Day 2's lab as its lesson tells it: every command typed, in the terminal that is named.
+"""Day 2 as its lesson tells it: every command typed, in the terminal that is named.
 
-What the student writes between them is taken from the solution, TODO by TODO.
+Its cells are executed by `test_days_running.py`; what the student writes between the commands is
+taken from the solutions, TODO by TODO and drill by drill.
 """
 
 from __future__ import annotations
@@ -10,92 +11,62 @@ import shutil
 import sys
 from collections.abc import Iterator
 from contextlib import ExitStack
-from dataclasses import dataclass, field
 from pathlib import Path
 
 import pytest
-from lesson_runs import lessons
-from terminals import Terminal, opened
+from student import BLOCK, Student, lesson_of, placed, save_as, text_of
+from terminals import Terminal
 
 from roslings.arena.lease import leased_domain
 from roslings.course import lab, root
+from roslings.drills import Drill, all_drills
+from roslings.drills.course import of_day
 
 sys.path.append(str(root() / "tests" / "labs"))
 from half_done import states
 
 LAB = lab("nodes")
+LESSON = lesson_of(2)
 SECTIONS = ("The lab", "The check")
-BLOCK = re.compile(r"Terminal (\d), in [^:\n]+:\n\n```bash\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+ELSEWHERE = ("Remapping",)
+"""Sections with commands that are no steps of the lab."""
+BY_HAND = """
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import Bool
 
+{lamp}
+def main(args=None):
+    rclpy.init(args=args)
+    rclpy.spin(Lamp())
 
-def blocks() -> list[tuple[int, list[str]]]:
-    """Each block of commands of the lab, and the number of its terminal."""
-    (day,) = (lesson for lesson in lessons() if lesson.day.number == 2)
-    cells = [cell for title in SECTIONS for cell in day.sections[title] if not cell.is_code]
-    text = "\n".join(cell.text + "\n" for cell in cells)
-    return [(int(number), typed.splitlines()) for number, typed in BLOCK.findall(text)]
-
-
-@dataclass
-class Student:
-    """Somebody who has read until the lab: a home, some terminals, an editor."""
-
-    home: Path
-    domain: int
-    stack: ExitStack
-    left: list[tuple[int, list[str]]] = field(default_factory=blocks)
-    done: list[tuple[int, list[str]]] = field(default_factory=list)
-    terminals: dict[int, Terminal] = field(default_factory=dict)
-
-    def terminal(self, number: int) -> Terminal:
-        """It is opened when it is first needed."""
-        if number not in self.terminals:
-            self.terminals[number] = self.stack.enter_context(opened(self.home, self.domain))
-            self.terminals[number].is_free()
-        return self.terminals[number]
-
-    def types(self) -> tuple[Terminal, str]:
-        """The next block; its last command may go on. What the ones before have said, too."""
-        self.done.append(self.left.pop(0))
-        return self.types_again(-1)
-
-    def types_again(self, number: int) -> tuple[Terminal, str]:
-        """A block of before, as the text says now and then."""
-        at, lines = self.done[number]
-        terminal, said = self.terminal(at), ""
-        for line in lines[:-1]:
-            terminal.type(line)
-            terminal.is_free()
-            said += terminal.heard()
-        terminal.type(lines[-1])
-        return terminal, said
-
-    def writes(self, todo: int) -> None:
-        """The TODOs up to this one, as the solution does them."""
-        (state,) = (each for each in states(LAB) if each.done == todo)
-        self._has(state.make(self.home / "typed" / str(todo) / LAB.card.package))
-
-    def writes_all(self) -> None:
-        """Every TODO: the solution."""
-        self._has(LAB.solution)
-
-    def _has(self, package: Path) -> None:
-        """Saved now: setuptools takes no file that is older than the one of its last build."""
-        own = self.home / "roslings_ws" / "src" / LAB.card.package
-        shutil.copytree(package, own, dirs_exist_ok=True, copy_function=shutil.copy)
-
-    def ends(self, number: int) -> str:
-        """Ctrl-C in a terminal; what it showed."""
-        self.terminals[number].press_ctrl_c()
-        self.terminals[number].is_free()
-        return self.terminals[number].heard()
+main()
+"""
 
 
 @pytest.fixture
 def student(tmp_path: Path) -> Iterator[Student]:
     """With an empty home, in the course's folder."""
     with leased_domain() as domain, ExitStack() as stack:
-        yield Student(tmp_path, domain, stack)
+        yield Student(tmp_path, domain, stack, text_of(LESSON, SECTIONS))
+
+
+def writes(student: Student, todo: int | None) -> None:
+    """The TODOs up to this one, as the solution does them; or all."""
+    own = student.home / "roslings_ws" / "src" / LAB.card.package
+    if todo is None:
+        save_as(LAB.solution, own)
+        return
+    (state,) = (each for each in states(LAB) if each.done == todo)
+    save_as(state.make(student.home / "typed" / str(todo) / LAB.card.package), own)
+
+
+def test_each_command_of_the_lesson_is_typed_by_a_test() -> None:
+    """None stands in another section, and each step of the lab names its terminal."""
+    lab_text, others = text_of(LESSON, SECTIONS), text_of(LESSON, ELSEWHERE)
+    every = text_of(LESSON, [*LESSON.sections])
+    assert len(BLOCK.findall(lab_text)) == len(placed(lab_text))
+    assert len(BLOCK.findall(every)) == len(BLOCK.findall(lab_text + others))
 
 
 @pytest.mark.slow
@@ -103,37 +74,96 @@ def test_the_lab_of_day_2_goes_as_its_lesson_tells(student: Student) -> None:
     """No command that fails, and each success looks as it is described."""
     _, started = student.types()
     assert re.search(r"roslings_ws/src/rover_status \(6 files\)", started)
+    student.promised("names a folder in `~/roslings_ws/src`, with 6 files")
     student.terminal(1).is_free()
-    student.writes(10)
-    student.types()[0].shows("1 package finished")  # step 3
+    built = student.promised("1 package finished")
+    writes(student, 10)
+    student.types()[0].shows(built)  # step 3
     student.types()[0].shows("Publishing: ")  # step 4
     echo, listed = student.types()
     assert "/minimal_publisher" in listed.split()
     echo.shows(r"(?s)data: \D+\d+.*data: \D+\d+")
     student.ends(3)
+    student.promised("It says about 1.")
     student.types()[0].shows(r"average rate: (0\.9|1\.0)")
+    student.ends(3)
+    student.promised("Your text appears on the map, over the rover")
+    student.types()[0].shows(r'"Robot status count: \d+"')
+    student.ends(1)
     student.ends(2)
-    student.writes(11)
+    writes(student, 11)
     student.terminal(1).is_free()
-    student.types_again(1)[0].shows("1 package finished")  # step 5
+    student.types_again(1)[0].shows(built)  # step 5
     student.types()[0].shows("Publishing: ")
-    student.terminals[3].shows(r"average rate: (1\.9|2\.0)")
+    student.promised("Success: it says about 2.")
+    student.types()[0].shows(r"average rate: (1\.[89]|2\.[01])")
+    student.ends(3)
     student.ends(2)
     student.types()[0].shows("Publishing: ")  # step 6
     student.terminal(1).is_free()
     student.types()[0].shows("Publishing: ")
-    student.ends(3)
     picture, _ = student.types()
     for name in ("/left/first", "/right/second", "/left/robot_status", "/right/robot_status"):
         picture.shows(name)
     picture.is_free()
     assert "KeyboardInterrupt" in student.ends(1) and "KeyboardInterrupt" in student.ends(2)
-    student.writes_all()
-    del student.terminals[1]  # step 7: a new one
-    _, built = student.types()
-    assert "1 package finished" in built
+    writes(student, None)
+    student.closes(1)  # step 7: a new one
+    _, said = student.types()
+    assert re.search(built, said)
     student.terminal(1).is_free()
     student.types_again(2)[0].shows("Publishing: ")
     assert "Traceback" not in student.ends(2)
-    student.types()[0].shows("100 of 100")
+    student.types()[0].shows(student.promised("100 of 100"))
     assert student.left == []
+
+
+@pytest.mark.slow
+def test_the_drills_of_days_1_and_2_come_one_after_the_other(student: Student) -> None:
+    """`watch` as the lesson says: mended and saved, the next one comes; then the lab; q ends it."""
+    watch = student.types_of_the_text(1, "./roslings watch")
+    mended = [*of_day(all_drills(), "1"), *of_day(all_drills(), "2")]
+    student.promised("`h` is a hint, `q` ends it")
+    for number, drill in enumerate(mended, 1):
+        head = f"Drill {number} of {len(all_drills())}, day {int(drill.day[:2])}: "
+        watch.shows(rf"(?s){head}.*\n\S+ {drill.name} .*q quit")
+        if number in (1, len(mended)):
+            watch.press("h")
+            watch.shows(rf"Hint 1 of 3 for {drill.name}")
+        mends(student, watch, drill)
+    watch.shows(r"The starter of 'nodes' is in ~/roslings_ws/src/rover_status")
+    watch.shows(r"(?s)Day 02-nodes: .*q quit")
+    watch.press("q")
+    watch.is_free()
+
+
+def mends(student: Student, watch: Terminal, drill: Drill) -> None:
+    """In the file that the screen names; it is saved once, whole, as an editor does."""
+    named = rf"~/(roslings_ws/drills/{drill.day}/{re.escape(drill.file_name)})"
+    (place, *_) = re.findall(named, watch.heard()) or [""]
+    assert place, f"the screen names no file of {drill.name}:\n{watch}"
+    file, part = student.home / place, student.home / "typed"
+    assert file.read_bytes() == drill.starter.read_bytes()
+    shutil.copyfile(drill.solution, part)
+    part.replace(file)
+    watch.shows(rf"{drill.name} +it does all that is asked")
+
+
+@pytest.mark.slow
+def test_the_other_commands_of_day_2_work_as_they_stand(student: Student) -> None:
+    """A lamp in a file of its own is started under another name."""
+    (start,) = BLOCK.findall(text_of(LESSON, ELSEWHERE))
+    (lamp,) = (
+        cell.text.partition("\nwith session")[0] for cell in LESSON.sections["Remapping"]
+        if cell.is_code and "change" not in cell.tags
+    )  # fmt: skip
+    (student.home / "lamp.py").write_text(BY_HAND.format(lamp=lamp), "utf-8")
+    for number in (1, 2):
+        student.terminal(number).type("source setup.bash")
+        student.terminal(number).is_free()
+    student.terminal(1).type(f"cd; {start.strip()}")
+    looks = student.terminal(2)
+    for line in ("until ros2 node list | grep -x /left/lamp; do :; done", "ros2 topic list"):
+        looks.type(line)
+        looks.is_free()
+    assert "/left/light" in looks.heard().split()

@@ -9,6 +9,7 @@ import pytest
 from lesson_runs import days, lessons, walked
 
 from roslings.course import all_labs, root
+from roslings.drills import all_drills
 from roslings.lessons import read_glossary
 from roslings.lessons.rules import Lesson, broken_rules
 from roslings.lessons.rules.prose import slug
@@ -30,6 +31,33 @@ def test_a_lesson_breaks_no_rule(lesson: Lesson) -> None:
     """The rules that a machine can check."""
     broken = broken_rules(lesson, read_glossary(root()))
     assert not broken, "\n".join(map(str, broken))
+
+
+def section_of(lesson: Lesson, anchor: str) -> str:
+    """The H2 that an anchor lies in."""
+    section = ""
+    for _, heading in lesson.headings:
+        section = heading.text if heading.level == 2 else section
+        if heading.slug == anchor:
+            return section
+    raise AssertionError(f"{lesson.day.id} has no #{anchor}")
+
+
+@each_lesson
+def test_each_drill_is_named_in_the_section_of_its_idea(lesson: Lesson) -> None:
+    """The reader meets it there; the rest comes before the lab."""
+    wanted: dict[str, list[str]] = {}
+    for drill in (each for each in all_drills() if each.day == lesson.day.id):
+        anchor = drill.card.lesson.partition("#")[2]
+        wanted.setdefault(section_of(lesson, anchor), []).append(drill.name)
+    named = {
+        title: sorted(re.findall(r"`(\w+)`", line))
+        for title, cells in lesson.sections.items()
+        for cell in cells
+        for line in cell.text.splitlines()
+        if line.startswith(("**Drill:**", "**Drills:**"))
+    }
+    assert named == {title: sorted(names) for title, names in wanted.items()}
 
 
 @pytest.mark.slow

@@ -122,6 +122,11 @@ def rover_options(word: argparse.ArgumentParser) -> None:
     word.add_argument(
         "--keys", action="store_true", help="drive it by the keys of this terminal: i, j, k, l"
     )
+    word.add_argument(
+        "--listen", action="store_true",
+        help="show the sentences that your nodes say, and keep the limit of /motor_state; it"
+        " is one more subscription on each of these topics",
+    )  # fmt: skip
     word.add_argument("--save", metavar="FILE.png", type=Path, help="save the map at the end")
     word.add_argument("--seed", metavar="N", type=int, default=0, help="for the sensors' noise")
 

@@ -85,11 +85,10 @@ def _has_begun(labs: list[LabStatus]) -> bool:
 def bar(labs: list[LabStatus]) -> str:
     """How much is done: `Labs  ####....  2 of 7   Drills  #...  9 of 70   3 days in a row`."""
     kept = progress.read_progress(workspace_root())
-    names = [name for _, name in drills_there()]
-    done = sum(name in kept.drills and kept.drills[name].passed_at is not None for name in names)
+    done, of = _drills_done()
     parts = [_one_bar("Labs", sum(each.progress.done for each in labs), len(labs))]
-    if names:
-        parts.append(_one_bar("Drills", done, len(names)))
+    if of:
+        parts.append(_one_bar("Drills", done, of))
     if (row := kept.days_in_a_row(datetime.now().astimezone().date())) > 1:
         parts.append(f"{row} days in a row")
     return "   ".join(parts)
@@ -98,6 +97,13 @@ def bar(labs: list[LabStatus]) -> str:
 def _one_bar(name: str, done: int, of: int) -> str:
     full = BAR_COLUMNS * done // of
     return f"{name + ' ':6}{FULL * full + EMPTY * (BAR_COLUMNS - full)}  {done} of {of}"
+
+
+def _drills_done(day: str = "") -> tuple[int, int]:
+    """How many are mended, and how many there are: of one day, or of all."""
+    kept = progress.read_progress(workspace_root()).drills
+    names = [name for of, name in drills_there() if day in ("", of)]
+    return sum(name in kept and kept[name].passed_at is not None for name in names), len(names)
 
 
 def drills_there() -> list[tuple[str, str]]:
@@ -120,10 +126,11 @@ def drill_before(lab: Lab) -> str | None:
 
 
 def _how_far_is_the_first_day(labs: list[LabStatus]) -> str:
-    """Who has had a package checked has an installation that works."""
+    """It has no lab; who has had a package checked has an installation that works."""
+    done, of = _drills_done(FIRST_DAY)
     if any(each.progress.checks for each in labs):
-        return "done: your installation builds and runs nodes"
-    return f"no lab; begin with {from_here(_first_page())}"
+        return f"your installation works; {done} of {of} drills"
+    return f"{done} of {of} drills; first: {FIRST_PAGE}"
 
 
 def _how_far(each: LabStatus) -> str:

@@ -60,7 +60,7 @@ def _put_task(page: Page, status: DrillStatus, asked: Asked) -> None:
     names = [each.name for each in all_drills()]
     file, _ = start(status.drill)
     place = (names.index(status.drill.name) + 1, len(names))
-    telling.put_task(page, status.drill, file, place, asked.program)
+    telling.put_task(page, status.drill, file, place, telling.Way(asked.program))
 
 
 def _check(page: Page, one: Drill, asked: Asked) -> DrillVerdict | None:
@@ -71,7 +71,7 @@ def _check(page: Page, one: Drill, asked: Asked) -> DrillVerdict | None:
         return None
     began_s = process_began_ns() / NS_PER_S
     verdict = checked(one, file, began_s, kept=not asked.solution)
-    telling.put_verdict(page, one, verdict, file, asked.program)
+    telling.put_verdict(page, one, verdict, file, telling.Way(asked.program))
     if verdict.outcome == "pass" and not asked.solution:
         page.command("Next", "The next drill:", f"{asked.program} drill")
     return verdict

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from rich.console import Console
@@ -21,12 +22,32 @@ BAR = 24
 STEPS = ("where to look", "which idea", "the same idea in other code")
 
 
+@dataclass(frozen=True)
+class Way:
+    """How the student goes on: by a command, or by a save where the file is watched."""
+
+    program: str
+    watched: bool = False
+
+    def put_next(self, to: Page, mend: str, drill: Drill) -> None:
+        """What to do now."""
+        if self.watched:
+            to.labelled("Next", f"{mend}, and save it.")
+        else:
+            to.command("Next", f"{mend}, then check it:", f"{self.program} drill {drill.name}")
+
+    def put_help(self, to: Page, drill: Drill) -> None:
+        """Where the hints are; who watches has a key for them."""
+        if not self.watched:
+            to.command("Stuck", "Ask for a hint:", f"{self.program} drill {drill.name} --hint")
+
+
 def page(console: Console | None = None) -> Page:
     """An empty page for this terminal."""
     return Page(console or Console(), Typed(""))
 
 
-def put_task(to: Page, drill: Drill, file: Path, place: tuple[int, int], program: str) -> None:
+def put_task(to: Page, drill: Drill, file: Path, place: tuple[int, int], way: Way) -> None:
     """What is to be done, and what to type next. `place` is which of how many."""
     card = drill.card
     to.line(f"Drill {place[0]} of {place[1]}, day {int(drill.day[:2])}: {card.title}", "bold")
@@ -35,10 +56,10 @@ def put_task(to: Page, drill: Drill, file: Path, place: tuple[int, int], program
         to.labelled("Question", card.answer.question)
     to.command("File", "", shown(file))
     to.labelled("Read", card.lesson)
-    to.command("Next", "Open the file, mend it, then check it:", f"{program} drill {drill.name}")
+    way.put_next(to, "Open the file, mend it", drill)
 
 
-def put_verdict(to: Page, drill: Drill, verdict: DrillVerdict, file: Path, program: str) -> None:
+def put_verdict(to: Page, drill: Drill, verdict: DrillVerdict, file: Path, way: Way) -> None:
     """The first thing that is wrong, and its next step; or that all is well."""
     mark = {"pass": "pass", "fail": "fail", "inconclusive": "inconclusive"}[verdict.outcome]
     style = {"pass": "green", "fail": "bold red", "inconclusive": "bold magenta"}[mark]
@@ -51,9 +72,9 @@ def put_verdict(to: Page, drill: Drill, verdict: DrillVerdict, file: Path, progr
         return
     _put_details(to, verdict, file)
     to.labelled("read", drill.card.lesson, indent=2)
-    to.command("Next", f"Mend {shown(file)}, then:", f"{program} drill {drill.name}")
+    way.put_next(to, f"Mend {shown(file)}", drill)
     if verdict.outcome == "fail":
-        to.command("Stuck", "Ask for a hint:", f"{program} drill {drill.name} --hint")
+        way.put_help(to, drill)
 
 
 def _put_details(to: Page, verdict: DrillVerdict, file: Path) -> None:

@@ -96,9 +96,16 @@ class Page:
             self._parts.append(Text.assemble(start, (line, text_style)))
 
     def boxed(self, title: str, lines: Iterable[str], *, indent: int = 0) -> None:
-        """Lines that are somebody else's, e.g. a node's log, in a box of their own."""
+        """Lines that are somebody else's, e.g. a node's log, in a box of their own.
+
+        A terminal that only has lines, as a screen reader's, gets no box: it would be read out.
+        """
         room = self.width - indent - 4
         shown = [part for line in lines for part in self._bounded(line, room, LONGEST_LOG_LINES)]
+        if self._console.is_dumb_terminal:
+            self.text(f"{title}:", indent=indent)
+            self._beside(" " * (indent + 2), shown, "")
+            return
         panel = Panel(
             Text("\n".join(shown), no_wrap=True, overflow="ignore"),
             title=Text(cut_to(self.plain(title), room - 2, cell_len, self._ellipsis)),

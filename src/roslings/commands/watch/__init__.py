@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 from contextlib import suppress
 
 from roslings import course
@@ -15,6 +16,8 @@ from roslings.workspace import progress
 
 def watch(options: argparse.Namespace) -> int:
     """Check now, and again at every save, until Ctrl-C or `q`."""
+    if options.plain:
+        os.environ["TERM"] = "dumb"  # to who draws: lines only, no colours, nothing that moves
     name = options.lab or next_name()
     with suppress(KeyboardInterrupt), keyboard(options.plain) as keys:
         while name and _session(name, options, keys).run():

@@ -32,14 +32,14 @@ class DrillSession(Session):
     verdict: DrillVerdict | None = field(default=None, init=False)
 
     def run(self) -> bool:
-        """The task first; then a verdict at each save of this file."""
+        """The task and the first thing that is wrong; then a verdict at each save of this file."""
         from roslings.drills.running import load
 
         load(self.drill)
         for number, saved in enumerate(self.turns()):
             if number == 0:
                 self._show_task()
-            if number == 0 or (saved and self.file.resolve() not in saved):
+            if saved and self.file.resolve() not in saved:
                 self.say_that_it_waits()
                 continue
             self._check()
@@ -52,14 +52,16 @@ class DrillSession(Session):
         names = [each.name for each in all_drills()]
         page = telling.page()
         place = (names.index(self.drill.name) + 1, len(names))
-        telling.put_task(page, self.drill, self.file, place, program())
+        telling.put_task(page, self.drill, self.file, place, telling.Way(program(), watched=True))
         page.print()
+        print(flush=True)
 
     def _check(self) -> None:
         page = telling.page()
         try:
             self.verdict = checked(self.drill, self.file, time.monotonic())
-            telling.put_verdict(page, self.drill, self.verdict, self.file, program())
+            way = telling.Way(program(), watched=True)
+            telling.put_verdict(page, self.drill, self.verdict, self.file, way)
             page.print()
         except Exception as error:
             explain(error)

@@ -18,6 +18,7 @@ from roslings.devices.rover.words import (
     KEYS_TELL,
     below,
     beside,
+    heard,
     position,
     said,
 )
@@ -27,7 +28,13 @@ View = Literal["auto", "window", "terminal", "lines"]
 SIDE_COLUMNS = 34
 LEAST_LINES = 18
 LEAST_COLUMNS = 60
-STYLES = {"floor": "", "wall": "bright_black", "path": "cyan", "rover": "bold yellow"}
+STYLES = {
+    "floor": "",
+    "wall": "bright_black",
+    "path": "cyan",
+    "rover": "bold yellow",
+    "said": "bold magenta",
+}
 
 
 class Display(Protocol):
@@ -125,7 +132,7 @@ class Window:
 
     def show(self, node: RoverNode) -> None:
         """Move the rover and its path; a picture that would be the same is not drawn again."""
-        now = (node.rover.pose, node.notice, position(node))
+        now = (node.rover.pose, node.notice, position(node), heard(node))
         if now != self._shown:
             self._shown = now
             self._draw(node)
@@ -138,13 +145,24 @@ class Window:
             part.remove()
         path = [*node.rover.path, node.rover.pose]
         self._path.set_data([p.x_m for p in path], [p.y_m for p in path])
-        self._parts = draw_rover(node.rover, self._axes)
+        self._parts = [*draw_rover(node.rover, self._axes), self._words(node)]
         self._axes.set_title(node.notice or position(node), fontsize=10)
         self._figure.canvas.draw_idle()
+
+    def _words(self, node: RoverNode) -> Any:
+        """What it hears, over the rover."""
+        return self._axes.annotate(
+            heard(node), (node.rover.pose.x_m, node.rover.pose.y_m), xytext=(0, 18),
+            textcoords="offset points", ha="center", parse_math=False,
+        )  # fmt: skip
 
     def _title(self, text: str) -> None:
         if self._figure.canvas.manager is not None:
             self._figure.canvas.manager.set_window_title(text)
+
+
+def _heard_where(node: RoverNode) -> str:
+    return f"{heard(node)} ({node.sentence.topic})" if node.sentence else ""
 
 
 def _how_to_drive(node: RoverNode) -> str:
@@ -181,7 +199,7 @@ class Terminal:
 
         columns, lines = self._console.size
         wide = max(columns - SIDE_COLUMNS, 20)
-        drawn = cells(node.rover, wide, lines - 3, self._letters)
+        drawn = cells(node.rover, wide, lines - 3, self._letters, heard(node))
         text = Text(no_wrap=True, overflow="crop")
         for row, words in zip(drawn, _filled(beside(node), len(drawn)), strict=True):
             _append_row(text, row)
@@ -207,8 +225,10 @@ class Lines:
     closed = False
 
     def __init__(self, node: RoverNode, out: TextIO) -> None:
-        self._out, self._last = out, ""
+        self._out, self._last = out, list[str]()
         self._say("The rover is ready. It hears /cmd_vel and says " + ", ".join(said(node)) + ".")
+        if node.listens:
+            self._say("It also hears sentences (std_msgs/msg/String), and /motor_state.")
         if not node.publishes_tf:
             self._say("/tf is left out: tf2_msgs is not installed here.")
         if node.by_keys:
@@ -219,10 +239,11 @@ class Lines:
 
     def show(self, node: RoverNode) -> None:
         """Say where it is, if that is news."""
-        for line in (node.notice, position(node)):
+        now = [node.notice, _heard_where(node), position(node)]
+        for line in now:
             if line and line not in self._last:
                 self._say(line)
-        self._last = f"{node.notice}\n{position(node)}"
+        self._last = now
 
     def _say(self, line: str) -> None:
         print(line, file=self._out, flush=True)

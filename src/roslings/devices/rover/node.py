@@ -8,10 +8,12 @@ from __future__ import annotations
 import array
 import math
 import time
+from contextlib import ExitStack
 from dataclasses import dataclass, field
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
+from roslings.devices.rover.ears import Ears, Sentence, hearing
 from roslings.devices.rover.rover import Rover
 from roslings.models.differential_drive import Motion
 
@@ -49,7 +51,11 @@ class RoverNode:
     publishes_tf: bool = False
     by_keys: bool = False
     """The keys of this terminal drive it."""
+    listens: bool = False
+    """It hears what others say, too."""
     _told_s: float = field(default=-math.inf, repr=False)
+    _ears: Ears | None = field(default=None, repr=False)
+    _parts: ExitStack = field(default_factory=ExitStack, repr=False)
 
     def __enter__(self) -> RoverNode:
         import rclpy
@@ -65,6 +71,9 @@ class RoverNode:
         self._executor.add_node(self._node)
         self._open_topics()
         self._open_timers()
+        if self.listens:
+            ears = hearing(self._context, self._executor, self.rover)
+            self._ears = self._parts.enter_context(ears)
         self._stepped_s = time.monotonic()
         return self
 
@@ -74,9 +83,15 @@ class RoverNode:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
+        self._parts.close()
         self._executor.shutdown()
         self._node.destroy_node()
         self._context.try_shutdown()
+
+    @property
+    def sentence(self) -> Sentence | None:
+        """What it hears somebody say; None where nobody says something, or it does not listen."""
+        return self._ears.sentence if self._ears else None
 
     def turn(self, within_s: float = 0.02) -> None:
         """Do the next thing that is due, or wait for it as long as this."""

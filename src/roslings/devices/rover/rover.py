@@ -49,6 +49,9 @@ class Rover:
         """How far each wheel has turned since the start, left and right."""
         self.time_s = 0.0
         self.way_m = 0.0
+        self.most_m_s = math.inf
+        """A speed limit that somebody has set, ahead and backwards."""
+        self._told = Motion()
         self.touches = False
         """Its rim is against something, and it was told to go on."""
         self.path: list[Pose] = [pose]
@@ -62,10 +65,24 @@ class Rover:
         """Move so from now on. Raises ValueError for a speed that is not a number."""
         if not (math.isfinite(motion.forward_m_s) and math.isfinite(motion.turn_rad_s)):
             raise ValueError("a speed of the rover must be a finite number")
-        self.turn_wheels(self.body.wheels_for(motion))
+        self._told = motion
+        self.turn_wheels(self.body.wheels_for(self._limited(motion)))
+
+    def limit(self, most_m_s: float) -> None:
+        """Drive no faster than this from now on, by motions; infinity takes the limit away."""
+        if most_m_s != self.most_m_s:
+            self.most_m_s = most_m_s
+            self.drive(self._told)
+
+    def _limited(self, motion: Motion) -> Motion:
+        """Ahead and turn slowed alike: it stays on its curve."""
+        if abs(motion.forward_m_s) <= self.most_m_s:
+            return motion
+        slower = self.most_m_s / abs(motion.forward_m_s)
+        return Motion(motion.forward_m_s * slower, motion.turn_rad_s * slower)
 
     def turn_wheels(self, wheels: Wheels) -> None:
-        """Drive each motor towards a speed of its own."""
+        """Drive each motor towards a speed of its own; no limit holds for it."""
         self.wanted = wheels
 
     @property

@@ -24,15 +24,20 @@ class CannotSave(DeviceTrouble):
 
 
 def run(
-    view: View = "auto", picture: Path | None = None, seed: int = 0, keys: bool = False
+    view: View = "auto",
+    picture: Path | None = None,
+    seed: int = 0,
+    keys: bool = False,
+    listens: bool = False,
 ) -> Rover:
     """Run the rover until Ctrl-C; returns it as it then is. With `keys`, this terminal drives it.
 
-    Raises NoWindow, CannotSave, NoTerminal.
+    One that `listens` shows what others say. Raises NoWindow, CannotSave, NoTerminal.
     """
     if picture:
         _require_place_for(picture)
-    with driving(keys) as look, RoverNode(Rover(seed=seed)) as node, listening() as asked:
+    rover = RoverNode(Rover(seed=seed), listens=listens)
+    with driving(keys) as look, rover as node, listening() as asked:
         node.by_keys = keys
         with opened(view, node) as display:
             _go_on(node, display, asked, look)

@@ -11,7 +11,7 @@ from roslings.devices.rover.rover import Rover
 from roslings.models.differential_drive import Pose
 from roslings.models.world import Ball, World
 
-Kind = Literal["floor", "wall", "path", "ball", "rover"]
+Kind = Literal["floor", "wall", "path", "ball", "rover", "said"]
 LETTER_HEIGHT = 2.0
 """A letter in a terminal is about twice as high as it is wide."""
 
@@ -64,13 +64,16 @@ def text_map(rover: Rover, columns: int, lines: int, letters: Letters = UNICODE)
     return ["".join(cell.letter for cell in row) for row in cells(rover, columns, lines, letters)]
 
 
-def cells(rover: Rover, columns: int, lines: int, letters: Letters) -> list[list[Cell]]:
-    """The map, letter by letter."""
+def cells(
+    rover: Rover, columns: int, lines: int, letters: Letters, said: str = ""
+) -> list[list[Cell]]:
+    """The map, letter by letter; what is `said` stands over the rover."""
     sheet = Sheet(rover.world, *size_for(rover.world, columns, lines), letters)
     sheet.put_obstacles()
     sheet.put_path(rover.path)
     for ball in rover.world.balls:
         sheet.put_ball(ball)
+    sheet.put_words(rover.pose, said)
     sheet.put_rover(rover.pose)
     return list(sheet.rows())
 
@@ -121,6 +124,15 @@ class Sheet:
         arrows = self._letters.arrows
         turn = round(pose.heading_rad / (2 * math.pi) * len(arrows)) % len(arrows)
         self._set(*self._position(pose.x_m, pose.y_m), Cell(arrows[turn], "rover"))
+
+    def put_words(self, pose: Pose, words: str) -> None:
+        """In the line above the rover, below it where there is none; moved to where it fits."""
+        column, line = self._position(pose.x_m, pose.y_m)
+        shown = words[: self._wide]
+        left = min(max(int(column) - len(shown) // 2, 0), self._wide - len(shown))
+        row = int(line) - 1 if int(line) else int(line) + 1
+        for place, letter in enumerate(shown, left):
+            self._set(place, row, Cell(letter, "said"))
 
     def _wall(self, text: str) -> list[Cell]:
         return [Cell(letter, "wall") for letter in text]

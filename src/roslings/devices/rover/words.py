@@ -21,17 +21,28 @@ def beside(node: RoverNode) -> list[str]:
         f"x        {pose.x_m:6.2f} m",
         f"y        {pose.y_m:6.2f} m",
         f"heading  {math.degrees(pose.heading_rad):6.0f} degrees",
-        f"speed    {motion.forward_m_s + 0.0:6.2f} m/s",
+        f"speed    {motion.forward_m_s + 0.0:6.2f} m/s{_limit(node)}",
         f"turn     {motion.turn_rad_s + 0.0:6.2f} rad/s",
         f"way      {node.rover.way_m:6.2f} m",
         "",
         "hears /cmd_vel",
+        *(("      sentences, /motor_state",) if node.listens else ()),
         f"says  {', '.join(said(node))}",
         "      /camera/image_raw",
         *(() if node.publishes_tf else ("(no /tf: tf2_msgs is", " not installed here)")),
         "",
         "Ctrl-C ends it",
     ]
+
+
+def _limit(node: RoverNode) -> str:
+    most_m_s = node.rover.most_m_s
+    return "" if math.isinf(most_m_s) else f"  max {most_m_s:.2f}"
+
+
+def heard(node: RoverNode) -> str:
+    """The sentence that it hears now, as it is shown; empty where there is none."""
+    return f'"{node.sentence.text}"' if node.sentence else ""
 
 
 def said(node: RoverNode) -> list[str]:

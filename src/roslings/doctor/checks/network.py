@@ -329,7 +329,7 @@ def _domain_of(command: list[str], env: dict[str, str]) -> str:
     "daemon",
     "The ros2 daemon has the same settings as this terminal",
     looks_at="the running daemon of your domain, and the variables it was started with",
-    lesson="02-nodes#daemon",
+    lesson="reference/faq#a-list-shows-nodes-that-have-ended",
     rows=(20, 21),
 )
 def daemon(machine: Machine) -> Finding:
