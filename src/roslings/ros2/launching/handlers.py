@@ -50,8 +50,12 @@ class EventHandler:
         if not callable(answer):
             return list(answer)
         with students_code(self.place):
-            made = answer(event, context)
+            made = answer(event, *self.more_for_answers(context))
             return checked(made or (), f"what a function for {type(self).__name__} returns,")
+
+    def more_for_answers(self, context: LaunchContext) -> list[LaunchContext]:
+        """What a function gets beside the event."""
+        return [context]
 
     def inner(self) -> list[Entity]:
         """The actions that are known beforehand."""
@@ -143,6 +147,10 @@ class OnProcessIO(OnAction):
         super().handle(event, context)
         from_stdout = isinstance(event, ProcessIO) and event.from_stdout
         return self.answered(self.on_stdout if from_stdout else self.on_stderr, event, context)
+
+    def more_for_answers(self, context: LaunchContext) -> list[LaunchContext]:
+        """Nothing: in Jazzy, too, these functions get the event alone."""
+        return []
 
     def inner(self) -> list[Entity]:
         """The actions that are known beforehand."""
