@@ -7,12 +7,12 @@ from __future__ import annotations
 
 import json
 import re
-import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import pytest
+from launch_shop import package
 from terminal import HERE, Ran, Shell
 
 FILES = HERE / "launch_files"
@@ -152,14 +152,7 @@ CASES = {
 @pytest.fixture
 def mine(empty: Shell, tmp_path: Path) -> Shell:
     """A terminal with the package `mine`, which has the executable `teller`."""
-    marker = tmp_path / "share" / "ament_index" / "resource_index" / "packages" / "mine"
-    marker.parent.mkdir(parents=True)
-    marker.touch()
-    program = tmp_path / "lib" / "mine" / "teller"
-    program.parent.mkdir(parents=True)
-    program.write_text(f"#!{sys.executable}\n{(HERE / 'nodes' / 'teller.py').read_text('utf-8')}")
-    program.chmod(0o755)
-    return Shell(empty.environment | {"AMENT_PREFIX_PATH": str(tmp_path)}, tmp_path)
+    return package(empty, tmp_path)
 
 
 def tellings(ran: Ran) -> list[Told]:

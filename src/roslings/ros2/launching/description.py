@@ -29,8 +29,9 @@ class UnknownKeyword(TypeError):
     def __init__(self, cls: type, name: str) -> None:
         known = keywords_of(cls)
         meant = NAMES_ELSEWHERE.get(name)
-        near = f" It is called {meant}." if meant in known else did_you_mean(name, known)
-        super().__init__(f"{cls.__name__} has no '{name}'.{near} It has: {', '.join(known)}")
+        near = f" It is called {meant}" if meant in known else did_you_mean(name, known)
+        step = near or f" It has: {', '.join(known)}"
+        super().__init__(f"{cls.__name__} has no '{name}'.{step}")
 
 
 def keywords_of(cls: type) -> list[str]:
@@ -52,8 +53,10 @@ class WrongEntity(TypeError):
         if isinstance(value, type) and issubclass(value, Entity):
             step = f" Add brackets: {value.__name__}(...)"
         elif value is None:
-            step = " A function that makes an action must return it."
-        super().__init__(f"{where} takes actions, such as Node(...), and not {value!r}.{step}")
+            step = " A function that makes an action must return it"
+        elif isinstance(value, list | tuple):
+            value, step = "a list inside the list", " Put a star before the inner one: *actions"
+        super().__init__(f"{where} takes actions, such as Node(...), and not {value}.{step}")
 
 
 class Entity(ABC):

@@ -34,7 +34,8 @@ class Node(ExecuteProcess):
     """Start a node of a package."""
 
     def __init__(
-        self, *, executable: SomeSubstitutionsType, package: SomeSubstitutionsType | None = None,
+        self, *, executable: SomeSubstitutionsType | None = None,
+        package: SomeSubstitutionsType | None = None,
         name: SomeSubstitutionsType | None = None, namespace: SomeSubstitutionsType | None = None,
         exec_name: SomeSubstitutionsType | None = None, parameters: Iterable[Any] | None = None,
         remappings: Iterable[tuple[Any, Any]] | None = None,
@@ -42,6 +43,8 @@ class Node(ExecuteProcess):
         ros_arguments: Iterable[SomeSubstitutionsType] | None = None, **others: Any,
     ) -> None:  # fmt: skip
         super().__init__(cmd=(), name=exec_name, **others)
+        if executable is None:  # asked for here, so that a misspelt keyword is told first
+            raise TypeError("Node needs more: executable")
         self.executable = parts_of(executable, "executable")
         self.package = parts_or_none(package, "package")
         self.node_name_parts = parts_or_none(name, "name")

@@ -36,10 +36,10 @@ class NotReadHere(BadLaunchFile):
     exit_code = NOT_READ_HERE
 
     def __init__(self, place: Place | str, what: str, instead: str = "") -> None:
-        use = f" Use instead: {instead}." if instead else ""
+        use = f" Use instead: {instead}" if instead else ""
         super().__init__(
-            place, f"{what} is not known here.{use} It needs the full ros2 on Ubuntu 24.04:"
-            " sudo apt install ros-jazzy-ros-base",
+            place, f"{what} is not known here: it needs the full ros2 on Ubuntu 24.04"
+            f" (sudo apt install ros-jazzy-ros-base).{use}",
         )  # fmt: skip
 
 

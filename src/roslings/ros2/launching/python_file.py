@@ -20,6 +20,7 @@ from roslings.ros2.problem import Problem, did_you_mean
 
 FUNCTION = "generate_launch_description"
 _running: list[Place] = []
+MISSING = re.compile(r"(\w+)\.__init__\(\) missing \d+ required .*arguments?: (.*)")
 NOT_IMPORTED = re.compile(r"cannot import name '(\w+)' from '([\w.]+)'")
 
 
@@ -98,7 +99,8 @@ def _place_of_syntax(fault: SyntaxError, place: Place) -> Place:
 
 def _syntax(fault: SyntaxError) -> str:
     line = (fault.text or "").rstrip("\n")
-    return f"no valid Python: {fault.msg}. Look at this line, and at the one before it:\n{line}"
+    mistake = fault.msg.removesuffix("?")
+    return f"no valid Python: {mistake}. Look at this line, and at the one before it:\n{line}"
 
 
 def _where(trace: TracebackType | None, place: Place) -> Place:
@@ -148,11 +150,22 @@ def _package_error(fault: Any) -> str:
     return str(PackageNotFound(found[1])) if found else ""
 
 
+def _type_error(fault: Any) -> str:
+    """Python's own words, except for those that a beginner cannot read."""
+    text = str(fault)
+    if found := MISSING.match(text):
+        names = found[2].replace("'", "").replace(" and ", ", ").replace(",,", ",")
+        return f"{found[1]} needs more: {names}"
+    if text.startswith("LaunchDescription.__init__() takes"):
+        return "LaunchDescription takes one list. Put [ and ] around the actions:"
+    return text if text.endswith(("?", ".", ":")) else f"{text}."
+
+
 WORDS: tuple[tuple[type[Exception], Callable[[Any], str]], ...] = (
     (NameError, _name_error),
     (ImportError, _import_error),
     (KeyError, _package_error),
-    (TypeError, lambda fault: f"{fault}."),
+    (TypeError, _type_error),
 )
 """Kind of a fault to how it is told; the first that has words for it tells."""
 
