@@ -42,9 +42,9 @@ def main() -> None:
     rclpy.init(args=sys.argv)
     node = Node("teller", automatically_declare_parameters_from_overrides=True)
     words = remove_ros_args(sys.argv)[1:]
-    print("told " + json.dumps(told(node, words)), file=sys.stderr, flush=True)
-    print("printed", flush=True)
     with suppress(KeyboardInterrupt, ExternalShutdownException):
+        print("told " + json.dumps(told(node, words)), file=sys.stderr, flush=True)
+        print("printed", flush=True)
         if "stay" in words:
             rclpy.spin(node)
     rclpy.try_shutdown()
