@@ -82,7 +82,7 @@ class Board:
             self.chip.receive(self.to_board(heard))
             told = self.chip.step(dt_s)
             self._note(self.told, told)
-            outgoing = self._wire(self.to_host(told), dt_s)
+            outgoing = self._wire(self.to_host(told), dt_s, self.port.is_read)
             written = self.port.write(outgoing)
             self.sent_bytes += written
             self.lost_bytes += len(outgoing) - written

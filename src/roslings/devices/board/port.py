@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import fcntl
 import os
 import select
 import termios
@@ -18,6 +19,7 @@ SPEEDS = {
     if name.startswith("B") and name[1:].isdigit()
 }
 """The kernel's number for a speed to bits a second."""
+SIZE_OF_INT = 4
 OUTPUT_SPEED = 5
 """Where `tcgetattr` tells it."""
 
@@ -51,6 +53,14 @@ class Port:
         """
         speed = self._speed() if self.plugged_in else self._unset
         return None if speed == self._unset else SPEEDS.get(speed)
+
+    @property
+    def is_read(self) -> bool:
+        """The host has read all that was sent so far."""
+        if not self.plugged_in:
+            return True
+        waiting = fcntl.ioctl(self._theirs, termios.FIONREAD, bytes(SIZE_OF_INT))
+        return not any(waiting)
 
     def _speed(self) -> int:
         speed: int = termios.tcgetattr(self._theirs)[OUTPUT_SPEED]
