@@ -145,7 +145,7 @@ def test_what_only_the_full_ros_reads_has_a_code_of_its_own(
         ("$(var space)", "$(var spcae)", "line 6: launch configuration 'spcae' does not exist"),
         ("$(dirname)", "$(dirnam)", "line 4: there is no $(dirnam ...). Did you mean dirname?"),
         ("</group>", "", "line 13: no valid XML: mismatched tag"),
-        (' default="news"', "", "Required launch argument 'topic' (description: 'where to talk')"),
+        (' default="news"', "", "line 2: Required launch argument 'topic' (description: 'where"),
         ("demo_nodes_py", "demo_node_py", "Package 'demo_node_py' not found. Did you mean demo"),
     ],
 )

@@ -44,6 +44,11 @@ FAULTS = [
     (", executable='teller'", "", "line 10: Node needs more: executable"),
     ("'teller'", "'teler'", "line 10: No executable found: package 'mine' has no 'teler'. Did you"),
     ("'mine'", "'mien'", "line 10: Package 'mien' not found. Did you mean mine?"),
+    (
+        "default_value='left', ",
+        "",
+        "line 8: Required launch argument 'side' (description: 'Where.'",
+    ),
     ("'left', desc", "2, desc", "line 8: default_value of 'side' must be a text or a substitution"),
     ("['left']", "['right']", 'line 8: Argument "side" provided value "left" is not valid. Valid'),
     ("Node(pack", "Node(parameters={'a': 1}, pack", "parameters must be a list of dictionaries"),

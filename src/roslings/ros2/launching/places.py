@@ -6,7 +6,6 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-from roslings.endings import NOT_READ_HERE
 from roslings.ros2.problem import Problem
 
 OURS = str(Path(__file__).parent)
@@ -33,9 +32,10 @@ class BadLaunchFile(Problem):
 class NotReadHere(BadLaunchFile):
     """Right in Jazzy, and only the full ROS carries it out."""
 
-    exit_code = NOT_READ_HERE
-
     def __init__(self, place: Place | str, what: str, instead: str = "") -> None:
+        from roslings.endings import NOT_READ_HERE  # it loads pydantic: most launches need none
+
+        self.exit_code = NOT_READ_HERE
         use = f" Use instead: {instead}" if instead else ""
         super().__init__(
             place, f"{what} is not known here: it needs the full ros2 on Ubuntu 24.04"

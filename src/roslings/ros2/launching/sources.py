@@ -115,11 +115,12 @@ class IncludeLaunchDescription(Action):
             yield description
 
     def _check(self, context: LaunchContext, description: LaunchDescription) -> None:
-        """Raises MissingArgument before anything of the file is carried out."""
+        """Raises BadLaunchFile before anything of the file is carried out."""
         for argument in arguments_of(description):
             known = argument.name in context.launch_configurations
             if argument.default_value is None and argument.condition is None and not known:
-                raise MissingArgument(argument.name, argument.description)
+                missing = MissingArgument(argument.name, argument.description)
+                raise BadLaunchFile(argument.place, str(missing))
 
     def inner(self) -> list[Entity]:
         """The arguments that it sets."""
