@@ -37,12 +37,13 @@ def view_of(folder: Path, text: str) -> ExperimentView:
 
 
 def test_a_python_launch_file_is_carried_out(tmp_path: Path) -> None:
-    """Both nodes are in the graph, and the launch ends them."""
+    """Once, by the launch; both nodes are in the graph, and the launch ends them."""
     view = view_of(tmp_path, PYTHON)
     view.must(BOTH)
     process = view.labelled("ros2 launch")
     assert process.seen.status == 0
     lines = [line.plain for line in process.seen.lines]
+    assert sum(line.startswith("launched by") for line in lines) == 1
     assert sum("process has finished cleanly" in line for line in lines) == 2
 
 

@@ -121,14 +121,14 @@ CASES = {
         node("/left/wheels", **FROM_FILE, speed=0.1),
         node(
             "/right/wheels", topic="/right/right_news", everyone=1, side="right", speed=0.8,
-            label="12",
+            label="12", sizes=[2, 3],
         ),
     ]),
     "twice.launch.xml first:=left second:=left/deep": Expected([
         node("/left/wheels", **FROM_FILE, speed=0.1),
         node(
             "/left/deep/wheels", topic="/left/deep/left/deep_news", everyone=1, speed=0.8,
-            label="12",
+            label="12", sizes=[2, 3],
         ),
     ]),
     "events.launch.xml": Expected(

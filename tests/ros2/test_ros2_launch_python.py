@@ -25,12 +25,17 @@ def generate_launch_description():
         Node(package='mine', executable='teller'),
     ])
 """
+CTRL_C = "[WARNING] [launch]: user interrupted with ctrl-c (SIGINT)"
 
 
 @pytest.fixture
 def mine(empty: Shell, tmp_path: Path) -> Shell:
     """A terminal with the package `mine`, which has the executable `teller`."""
-    return package(empty, tmp_path, nurse="#!/bin/sh\nsleep 600 &\necho child $!\nwait\n")
+    return package(
+        empty, tmp_path,
+        nurse="#!/bin/sh\nsleep 600 &\necho child $!\nwait\n",
+        deaf="#!/bin/sh\ntrap '' INT TERM\necho here\nwhile :; do sleep 0.1; done\n",
+    )  # fmt: skip
 
 
 FAULTS = [
@@ -64,6 +69,12 @@ FAULTS = [
     ("    return Launch", "    Launch", "line 6: generate_launch_description() returns nothing"),
     ("_description()", "_descripton()", "the file has no function generate_launch_description()"),
     ("    return Launch", "    1 / 0\n    return Launch", "line 7: ZeroDivisionError: division"),
+    (
+        "    return LaunchDescription([",
+        "    twice = Node(package='mine', executable='teller')\n"
+        "    return LaunchDescription([twice, twice,",
+        "line 7: this Node is carried out a second time. Write Node(...) once more",
+    ),
     ("    return Launch", "    exit()\n    return Launch", "the launch file ends Python itself"),
 ]
 
@@ -139,6 +150,23 @@ def test_arguments_and_the_tree_are_shown(mine: Shell, tmp_path: Path) -> None:
     ]
 
 
+def test_arguments_of_included_files_are_shown(mine: Shell, tmp_path: Path) -> None:
+    """Those that a condition brings have a star; a file without arguments says so."""
+    written(tmp_path, "a.launch.py", GOOD)
+    written(tmp_path, "b.launch.xml", """<launch>
+  <arg name="deep" default="$(env HOME)"><choice value="a"/></arg>
+  <group if="false"><include file="$(dirname)/a.launch.py"/></group>
+</launch>""")  # fmt: skip
+    assert mine("launch", "b.launch.xml", "--show-args").lines[1:] == [
+        "", "    'deep':", "        One of: ['a']", "        (default: EnvVar('HOME'))",
+        "", "    'side':*",
+        "        Where. Valid choices are: ['left']", "        (default: 'left')",
+        "", "* argument(s) which are only used if specific conditions occur",
+    ]  # fmt: skip
+    written(tmp_path, "c.launch.xml", "<launch/>")
+    assert mine("launch", "c.launch.xml", "-s").lines[1:] == ["", "  No arguments."]
+
+
 def test_an_unknown_argument_is_told(mine: Shell, tmp_path: Path) -> None:
     """It would change nothing."""
     written(tmp_path, "a.launch.py", GOOD)
@@ -189,6 +217,24 @@ def test_what_a_node_has_started_ends_with_it(mine: Shell, tmp_path: Path) -> No
         launch.wait_for(r"^\[ERROR\] \[nurse-1\]: process has died \[pid \d+, exit code -9, cmd")
         assert launch.wait() == 1
         assert is_gone(child)
+
+
+def test_what_hears_no_signal_is_killed(mine: Shell, tmp_path: Path) -> None:
+    """SIGINT, then SIGTERM, then SIGKILL, each after the time that the launch file says."""
+    more = "'deaf', output='screen', sigterm_timeout='0.2', sigkill_timeout=0.3"
+    written(tmp_path, "a.launch.py", GOOD.replace("'teller'", more))
+    with mine.start("launch", "a.launch.py") as launch:
+        launch.wait_for(r"^\[deaf-1\] here$")
+        assert launch.interrupt() == 0
+    told = [line.partition("]: ")[2] for line in launch.lines[launch.lines.index(CTRL_C) + 1 :]]
+    late = "process[deaf-1] failed to terminate"
+    assert told[:4] == [
+        f"{late} '0.2' seconds after receiving 'SIGINT', escalating to 'SIGTERM'",
+        "sending signal 'SIGTERM' to process[deaf-1]",
+        f"{late} '0.5' seconds after receiving 'SIGTERM', escalating to 'SIGKILL'",
+        "sending signal 'SIGKILL' to process[deaf-1]",
+    ]
+    assert "exit code -9" in told[4]
 
 
 def test_a_killed_launch_leaves_no_node(mine: Shell, tmp_path: Path) -> None:

@@ -125,7 +125,7 @@ def _show(options: argparse.Namespace, context: LaunchContext, path: Path) -> in
         if options.print:
             print("\n".join(tree_lines(description)))
         else:
-            print("\n".join(argument_lines(all_arguments(context, description))))
+            print("\n".join(argument_lines(all_arguments(context, description).values())))
     return OK
 
 

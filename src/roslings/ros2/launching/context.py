@@ -51,6 +51,7 @@ class LaunchContext:
         self.planned: deque[Planned] = deque()
         self.alarms: list[Alarm] = []
         self._screen = screen
+        self._environment_at_start = dict(os.environ)
         self._numbers = itertools.count(1)
         self._names = itertools.count(1)
 
@@ -85,13 +86,17 @@ class LaunchContext:
         kept, environment = dict(self.launch_configurations), dict(os.environ)
         if not forwarding:
             self.launch_configurations.clear()
+            self._put_back(self._environment_at_start)
         try:
             yield
         finally:
             self.launch_configurations.clear()
             self.launch_configurations.update(kept)
-            os.environ.clear()
-            os.environ.update(environment)
+            self._put_back(environment)
+
+    def _put_back(self, environment: dict[str, str]) -> None:
+        os.environ.clear()
+        os.environ.update(environment)
 
     @contextmanager
     def reading(self, file: Path) -> Iterator[None]:

@@ -24,6 +24,7 @@ from roslings.ros2.launching.substitution import (
     performed_or_none,
 )
 from roslings.ros2.launching.substitutions import truth
+from roslings.ros2.problem import Problem
 from roslings.ros2.programs import environment_of
 
 if TYPE_CHECKING:
@@ -43,6 +44,16 @@ ESCALATION_S = 5.0
 """So long a process has after SIGINT, and again after SIGTERM, where nothing else is said."""
 
 Targets = Mapping[str, set[str]]
+
+
+class ExecutedTwice(Problem):
+    """One object stands in two places of a launch file, or comes back with an event."""
+
+    def __init__(self, kind: str) -> None:
+        super().__init__(
+            f"this {kind} is carried out a second time. Write {kind}(...) once more for a second"
+            " process; for one that comes back, respawn=True"
+        )
 
 
 @dataclass(frozen=True)
@@ -101,9 +112,13 @@ class ExecuteProcess(Action):
         self.respawn_delay, self.respawn_max_retries = respawn_delay, respawn_max_retries
         self.timeouts = {"sigterm_timeout": sigterm_timeout, "sigkill_timeout": sigkill_timeout}
         self.pid: int | None = None
+        self._executed = False
 
     def execute(self, context: LaunchContext) -> None:
         """Fill everything in, and let it start when this round is over."""
+        if self._executed:
+            raise ExecutedTwice(type(self).__name__)
+        self._executed = True
         if context.is_shutdown:
             return
         if self.on_exit:

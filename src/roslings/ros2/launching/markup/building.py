@@ -335,7 +335,7 @@ def _nested(params: list[Element]) -> dict[str, Any]:
     tree: dict[str, Any] = {}
     for param in params:
         reader = Reader(param)
-        reader.only("name", "value", "type", "sep", "value_sep")
+        reader.only("name", "value", "type", "value_sep")
         reader.text("name")
         inner = param.inside("param")
         tree[str(param.attributes["name"])] = _nested(inner) if inner else _value(reader)
@@ -351,6 +351,9 @@ def _value(reader: Reader) -> Any:
         raise BadLaunchFile(reader.element.place, f"'type' is one of {known}, and not '{kind}'")
     if value is not None and not isinstance(value, str):
         return value
+    if separator := reader.element.attributes.get("value_sep"):
+        pieces = str(value).split(str(separator))
+        return [ParameterValue(Joined(reader.filled(piece.strip()))) for piece in pieces]
     return ParameterValue(Joined(reader.text("value")), value_type=TYPES.get(str(kind)))
 
 
