@@ -107,7 +107,7 @@ CASES = {
     ),
     "substitutions.launch.py": Expected(
         logs=[
-            "SHARE/config/a.yaml", "prefix PREFIX", "3.142", "from a command",
+            "SHARE/config/a.yaml", "at once SHARE", "prefix PREFIX", "3.142", "from a command",
             f"{HERE_TEXT}/substitutions.launch.py", "a note", "yes",
         ]
     ),
@@ -144,7 +144,8 @@ CASES = {
         )
     ]),
     "groups.launch.yaml": Expected(
-        [node("/outer/red", topic="/news", mood="calm", speed=2.5), node("/blue")]
+        [node("/outer/red", topic="/news", mood="calm", speed=2.5), node("/blue")],
+        ["1.0 is 1: true"],
     ),
 }  # fmt: skip
 

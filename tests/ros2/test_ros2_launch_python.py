@@ -94,6 +94,16 @@ def test_a_fault_is_told_with_its_line(
     assert "process started" not in ran.out
 
 
+def test_a_traceback_for_who_wants_it(mine: Shell, tmp_path: Path) -> None:
+    """`--debug` shows it before the line that tells."""
+    written(
+        tmp_path, "a.launch.py", GOOD.replace("    return Launch", "    1 / 0\n    return Launch")
+    )
+    ran = mine("launch", "--debug", "a.launch.py")
+    assert ran.err.startswith("Traceback (most recent call last)")
+    assert "a.launch.py, line 7: ZeroDivisionError" in ran.err
+
+
 @pytest.mark.parametrize(
     ("line", "said"),
     [

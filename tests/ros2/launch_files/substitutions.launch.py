@@ -21,6 +21,7 @@ def generate_launch_description() -> LaunchDescription:
     share = FindPackageShare("mine")
     return LaunchDescription([
         LogInfo(msg=[PathJoinSubstitution([share, "config", "a.yaml"])]),
+        LogInfo(msg=f"at once {share.find('mine')}"),
         LogInfo(msg=["prefix ", FindPackagePrefix(package="mine")]),
         LogInfo(msg=PythonExpression(["round(", TextSubstitution(text="pi"), ", 3)"])),
         LogInfo(msg=Command(["echo ", "from a command"])),

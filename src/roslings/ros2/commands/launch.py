@@ -69,6 +69,10 @@ def declare(command: argparse.ArgumentParser) -> None:
         "-n", "--noninteractive", action="store_true",
         help="Run non-interactively (here it always does)",
     )  # fmt: skip
+    command.add_argument(
+        "-d", "--debug", action="store_true",
+        help="Show the traceback of a fault in a launch file, too.",
+    )  # fmt: skip
     for short, long, about in (
         ("-p", "--print", "Print the launch description to the console without launching it."),
         ("-s", "--show-args", "Show arguments that may be given to the launch file."),
@@ -102,6 +106,7 @@ def _context(options: argparse.Namespace) -> Iterator[tuple[LaunchContext, Scree
     """What a launch needs around it, with what the options say."""
     from roslings.ros2.launching.context import LaunchContext
     from roslings.ros2.launching.processes import OVERRIDE_OUTPUT
+    from roslings.ros2.launching.python_file import show_traces
     from roslings.ros2.launching.screen import Screen
 
     room = tempfile.TemporaryDirectory(prefix="roslings_launch_")
@@ -110,6 +115,8 @@ def _context(options: argparse.Namespace) -> Iterator[tuple[LaunchContext, Scree
         for name in ("launch_prefix", "launch_prefix_filter"):
             if value := getattr(options, name):
                 context.launch_configurations[name.replace("_", "-")] = value
+        if options.debug:
+            show_traces()
         if options.show_all_subprocesses_output:
             context.environment[OVERRIDE_OUTPUT] = "both"
         yield context, screen

@@ -20,6 +20,7 @@ from roslings.ros2.problem import Problem, did_you_mean
 
 FUNCTION = "generate_launch_description"
 _running: list[Place] = []
+_traced: list[bool] = []
 MISSING = re.compile(r"(\w+)\.__init__\(\) missing \d+ required .*arguments?: (.*)")
 NOT_IMPORTED = re.compile(r"cannot import name '(\w+)' from '([\w.]+)'")
 
@@ -75,16 +76,28 @@ def students_code(place: Place) -> Iterator[None]:
     except Problem as problem:
         raise BadLaunchFile(place, str(problem)) from None
     except SyntaxError as fault:
+        _trace()
         raise BadLaunchFile(_place_of_syntax(fault, place), _syntax(fault)) from None
     except SystemExit:
         raise BadLaunchFile(place, "the launch file ends Python itself. Take exit() out") from None
     except ModuleNotFoundError as fault:
         raise _no_module(_where(fault.__traceback__, place), fault) from None
     except Exception as fault:
+        _trace()
         where = _where(fault.__traceback__, place)
         raise BadLaunchFile(where, _told(fault) + _line_of(where)) from None
     finally:
         _running.pop()
+
+
+def show_traces() -> None:
+    """From now on a fault is shown with its traceback, too."""
+    _traced.append(True)
+
+
+def _trace() -> None:
+    if _traced:
+        traceback.print_exc()
 
 
 def in_students_code() -> bool:

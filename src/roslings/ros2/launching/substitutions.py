@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import math
 import os
 import shlex
 import shutil
@@ -198,9 +199,13 @@ class FindPackagePrefix(Substitution):
 
     def perform(self, context: LaunchContext) -> str:
         """The folder. Raises PackageNotFound."""
+        return self.find(performed(context, self.package))
+
+    def find(self, package_name: str) -> str:
+        """The folder of any package, at once: guides use it so. Raises PackageNotFound."""
         from roslings.ros2.packages import prefix_of
 
-        return str(prefix_of(performed(context, self.package)))
+        return str(prefix_of(package_name))
 
     def describe(self) -> str:
         """By the package."""
@@ -210,11 +215,11 @@ class FindPackagePrefix(Substitution):
 class FindPackageShare(FindPackagePrefix):
     """The share folder of a package."""
 
-    def perform(self, context: LaunchContext) -> str:
-        """The folder. Raises PackageNotFound."""
+    def find(self, package_name: str) -> str:
+        """The folder of any package, at once. Raises PackageNotFound."""
         from roslings.ros2.packages import share_of
 
-        return str(share_of(performed(context, self.package)))
+        return str(share_of(package_name))
 
 
 class ExecutableInPackage(_Listed):
@@ -317,7 +322,7 @@ class EqualsSubstitution(_Listed):
     def perform(self, context: LaunchContext) -> str:
         """`true` or `false`. Raises SubstitutionFailure."""
         left, right = self.performed_texts(context)
-        return _word(left == right or _as_truth(left) == _as_truth(right) is not None)
+        return _word(left == right or _same_truth(left, right) or _same_number(left, right))
 
 
 class NotEqualsSubstitution(EqualsSubstitution):
@@ -379,6 +384,13 @@ def _word(value: bool) -> str:
     return "true" if value else "false"
 
 
-def _as_truth(text: str) -> bool | None:
-    word = text.strip().lower()
-    return word in TRUE if word in (*TRUE, *FALSE) else None
+def _same_truth(*texts: str) -> bool:
+    words = {text.strip().lower() for text in texts}
+    return words <= set(TRUE) or words <= set(FALSE)
+
+
+def _same_number(left: str, right: str) -> bool:
+    try:
+        return math.isclose(float(left), float(right))
+    except ValueError:
+        return False
