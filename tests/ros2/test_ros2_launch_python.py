@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+import sys
 from pathlib import Path
 
 import pytest
@@ -25,6 +26,13 @@ def generate_launch_description():
         Node(package='mine', executable='teller'),
     ])
 """
+PARENT = f"""#!{sys.executable}
+import signal, subprocess, time
+signal.signal(signal.SIGINT, signal.SIG_DFL)
+saving = 'trap "sleep 0.5; echo saved; exit" INT; echo ready; while :; do sleep 0.1; done'
+subprocess.Popen(["sh", "-c", saving])
+time.sleep(600)
+"""
 CTRL_C = "[WARNING] [launch]: user interrupted with ctrl-c (SIGINT)"
 
 
@@ -34,6 +42,7 @@ def mine(empty: Shell, tmp_path: Path) -> Shell:
     return package(
         empty, tmp_path,
         nurse="#!/bin/sh\nsleep 600 &\necho child $!\nwait\n",
+        parent=PARENT,
         deaf="#!/bin/sh\ntrap '' INT TERM\necho here\nwhile :; do sleep 0.1; done\n",
     )  # fmt: skip
 
@@ -217,7 +226,7 @@ def test_ctrl_c_ends_a_launch_file_that_hangs(mine: Shell, tmp_path: Path) -> No
 
 def test_what_a_node_has_started_ends_with_it(mine: Shell, tmp_path: Path) -> None:
     """Also where the node itself is ended first."""
-    text = GOOD.replace("'teller'", "'nurse', output='screen'")
+    text = GOOD.replace("'teller'", "'nurse', output='screen', sigterm_timeout='0.3'")
     written(tmp_path, "a.launch.py", text)
     with mine.start("launch", "a.launch.py") as launch:
         launch.wait_for(r"^\[nurse-1\] child \d+$")
@@ -245,6 +254,17 @@ def test_what_hears_no_signal_is_killed(mine: Shell, tmp_path: Path) -> None:
         "sending signal 'SIGKILL' to process[deaf-1]",
     ]
     assert "exit code -9" in told[4]
+
+
+def test_what_a_node_has_started_ends_in_its_own_time(mine: Shell, tmp_path: Path) -> None:
+    """Its parent is gone at Ctrl-C, and what it still has to say is heard."""
+    text = GOOD.replace("'teller'", "'parent', output='screen'")
+    written(tmp_path, "a.launch.py", text)
+    with mine.start("launch", "a.launch.py") as launch:
+        launch.wait_for(r"^\[parent-1\] ready$")
+        assert launch.interrupt() == 0
+    dead = next(n for n, line in enumerate(launch.lines) if "[parent-1]: process has died" in line)
+    assert launch.lines.index("[parent-1] saved") > dead
 
 
 def test_a_killed_launch_leaves_no_node(mine: Shell, tmp_path: Path) -> None:

@@ -6,7 +6,8 @@ import ctypes
 import os
 import signal
 import subprocess
-from collections.abc import Iterator
+import time
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from typing import Any
 
@@ -16,6 +17,8 @@ from roslings.ros2.launching.processes import Planned
 
 _PR_SET_PDEATHSIG = 1
 _libc = ctypes.CDLL(None)
+SIGNALS = ("SIGINT", "SIGTERM", "SIGKILL")
+EARLY_END_S = 5.0
 READ_BYTES = 1 << 16
 LONGEST_LINE_BYTES = 1 << 16
 """A process that writes more without an end of line gets one."""
@@ -103,16 +106,42 @@ class Child:
         with suppress(ProcessLookupError):
             os.killpg(self.pid, signal.Signals[name])
 
+    def has_left_something(self) -> bool:
+        """Whether a process that it has started still runs, once itself is waited for.
+
+        While one does, nobody else gets the number of its group.
+        """
+        try:
+            os.killpg(self.pid, 0)
+        except ProcessLookupError:
+            return False
+        return True
+
     def bury(self) -> None:
-        """Let its number go; what it has left behind in its session ends."""
+        """Let its number go; what it has left behind ends at once."""
         self.signal("SIGKILL")
         self.process.wait()
+        self.close()
 
     def close(self) -> None:
         """Nothing is read any more."""
         for stream in (self.process.stdout, self.process.stderr):
             if stream:
                 stream.close()
+
+
+def end_all(children: Sequence[Child]) -> None:
+    """The hard way, for a launch that is left early; nothing of theirs is read any more."""
+    for name in SIGNALS:
+        for child in children:
+            if not child.has_ended():
+                child.signal(name)
+        end_s = time.monotonic() + EARLY_END_S
+        while time.monotonic() < end_s and not all(child.has_ended() for child in children):
+            time.sleep(0.02)
+    for child in children:
+        if child.has_ended():
+            child.bury()
 
 
 def _command(planned: Planned) -> Any:

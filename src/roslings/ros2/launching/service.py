@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from roslings.ros2.launching.child import Child
+from roslings.ros2.launching.child import SIGNALS, Child, end_all
 from roslings.ros2.launching.context import LaunchContext
 from roslings.ros2.launching.description import Entity
 from roslings.ros2.launching.events import (
@@ -34,6 +34,7 @@ from roslings.ros2.words import FAILED, OK
 GIVES_UP_AFTER_S = 5.0
 """A process that SIGKILL does not end in this time hangs in the kernel."""
 
+LOOKS_EVERY_S = 0.02
 INTERRUPTS = (signal.SIGINT, signal.SIGTERM)
 
 
@@ -151,6 +152,11 @@ class LaunchService:
         if not more:
             self._selector.unregister(child.streams[stream])
 
+    def _stop_reading(self, child: Child) -> None:
+        for number in child.streams.values():
+            if number in self._selector.get_map():
+                self._selector.unregister(number)
+
     def _pass_on(self, child: Child, stream: str, lines: list[bytes]) -> None:
         for line in lines:
             text = line.decode(errors="replace").rstrip()
@@ -165,11 +171,8 @@ class LaunchService:
 
     def _note_end(self, child: Child) -> None:
         del self._alive[child.pid]
-        for stream, number in child.streams.items():
-            if number in self._selector.get_map():
-                self._selector.unregister(number)
+        for stream in child.streams:
             self._pass_on(child, stream, list(child.last_lines(stream)))
-        child.close()
         for alarm in child.alarms:
             alarm.cancelled = True
         code = child.returncode
@@ -197,6 +200,7 @@ class LaunchService:
             self._ended.append(child)
             self._context.emit_event_sync(ExecutionComplete(action=planned.action))
             return
+        self._stop_reading(child)
         child.bury()
         self._tries[id(planned)] = tries + 1
         self._context.after(respawn.delay_s, lambda: self._context.planned.append(planned))
@@ -248,18 +252,27 @@ class LaunchService:
         try:
             yield
         finally:
-            for name, patience_s in (("SIGINT", 5.0), ("SIGTERM", 5.0), ("SIGKILL", 5.0)):
-                self._send_to_all(name, patience_s)
-            for child in self._ended:
-                child.bury()
+            end_all(list(self._alive.values()))
+            self._end_what_is_left()
 
-    def _send_to_all(self, name: str, patience_s: float) -> None:
-        """Only where the loop was left early there is somebody to send it to."""
-        end_s = time.monotonic() + patience_s
-        for child in self._alive.values():
+    def _end_what_is_left(self) -> None:
+        """Of processes that have ended, what they have started may still write its last lines."""
+        for child in self._ended:
+            child.process.wait()
+        for name in SIGNALS:
+            self._await_what_is_left(name)
+        for child in self._ended:
+            child.close()
+
+    def _await_what_is_left(self, name: str) -> None:
+        left = [child for child in self._ended if child.has_left_something()]
+        end_s = time.monotonic() + max([child.planned.sigterm_after_s for child in left], default=0)
+        for child in left:
             child.signal(name)
-        while self._alive and time.monotonic() < end_s:
-            self._wait(0.1)
+        while time.monotonic() < end_s and any(child.has_left_something() for child in left):
+            for key, _ in self._selector.select(LOOKS_EVERY_S):
+                if key.data is not None:
+                    self._read(*key.data)
 
     # waiting
 
