@@ -16,6 +16,9 @@ from pathlib import Path
 
 HERE = Path(__file__).parent
 SOURCE = HERE.parents[1] / "src"
+MORTAL = SOURCE / "roslings" / "notebook" / "launch.py"
+"""Becomes a program that ends when this process does: pytest that is ended tidies nothing up."""
+
 PATIENCE_S = 60.0
 """Only a test that fails waits so long."""
 
@@ -49,8 +52,9 @@ class Running:
 
     def __init__(self, command: list[str], environment: Environment, folder: Path) -> None:
         self.lines: list[str] = []
+        mortal = [sys.executable, "-I", "-S", str(MORTAL), str(os.getpid())]
         self.process = subprocess.Popen(
-            command, env=environment, cwd=folder, text=True, start_new_session=True,
+            [*mortal, *command], env=environment, cwd=folder, text=True, start_new_session=True,
             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
         )  # fmt: skip
         self._changed = threading.Condition()

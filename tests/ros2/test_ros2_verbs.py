@@ -153,6 +153,16 @@ def test_param_load_without_what_is_for_all_nodes(workshop: Shell, tmp_path: Pat
     ]
 
 
+def test_param_load_takes_what_is_for_this_node_last(workshop: Shell, tmp_path: Path) -> None:
+    """Wherever it stands in the file, as the real tool does."""
+    file = tmp_path / "turned.yaml"
+    file.write_text(
+        "/maker:\n  ros__parameters: {pid: {p: 1.0}}\n/**:\n  ros__parameters: {pid: {p: 9.0}}\n"
+    )
+    assert inside.run(workshop, "param", "load", "/maker", str(file)).code == 0
+    assert inside.run(workshop, "param", "get", "/maker", "pid.p", "--hide-type").out == "1.0\n"
+
+
 @shows("param get", "--timeout")
 @shows("param set", "--timeout")
 @shows("param describe", "--timeout")

@@ -15,7 +15,8 @@ from pathlib import Path
 from roslings.arena.lease import SAFE_DOMAINS, NoFreeDomain, domains_in_use, lease
 from roslings.ros2.surroundings import domain_id, prepare
 
-LOGS = {"RCUTILS_LOGGING_USE_STDOUT": "1", "RCUTILS_LOGGING_BUFFERED_STREAM": "0"}
+LOGS_ON_STDOUT = "RCUTILS_LOGGING_USE_STDOUT"
+LOGS = {LOGS_ON_STDOUT: "1", "RCUTILS_LOGGING_BUFFERED_STREAM": "0"}
 """A node's log lines stand among the cell's other output, and not in red as an error does."""
 
 _held: dict[int, socket.socket] = {}

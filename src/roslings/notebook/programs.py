@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from types import TracebackType
 
-from roslings.notebook.place import settle_in
+from roslings.notebook.place import LOGS_ON_STDOUT, settle_in
 from roslings.notebook.trouble import NeverSaid, ProgramEnded
 
 LAUNCH = Path(__file__).with_name("launch.py")
@@ -82,10 +82,19 @@ def begin(command: str) -> subprocess.Popen[str]:
     """Start a line of a terminal, in a process group of its own; output and errors are one."""
     return subprocess.Popen(
         [sys.executable, "-I", "-S", str(LAUNCH), str(os.getpid()), "bash", "-c", command],
-        env={**os.environ, "PYTHONUNBUFFERED": "1"},
+        env=_of_a_terminal(),
         stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
         text=True, errors="replace", start_new_session=True,
     )  # fmt: skip
+
+
+def _of_a_terminal() -> dict[str, str]:
+    """Our environment, and log lines on standard error as in a terminal.
+
+    `ros2 launch` shows that of a node, and standard output only where the launch file says so.
+    """
+    kept = {name: text for name, text in os.environ.items() if name != LOGS_ON_STDOUT}
+    return {**kept, "PYTHONUNBUFFERED": "1"}
 
 
 def read_lines(process: subprocess.Popen[str]) -> Iterator[str]:

@@ -33,7 +33,7 @@ class NothingForNode(Problem):
 
 
 def values_for(path: Path, node: str, wildcards: bool = True) -> dict[str, Any]:
-    """The values in the file that are for `node`, a later entry over an earlier one.
+    """The values in the file that are for `node`: entries for many nodes, then those for it alone.
 
     Without `wildcards` entries such as `/**`, which are for many nodes, are left out.
     Raises BadParameterFile, NothingForNode.
@@ -41,7 +41,7 @@ def values_for(path: Path, node: str, wildcards: bool = True) -> dict[str, Any]:
     tree = _read(path)
     values: dict[str, Any] = {}
     chosen = [n for n in tree if _is_for(str(n), node) and (wildcards or "*" not in str(n))]
-    for name in chosen:
+    for name in sorted(chosen, key=lambda name: "*" not in str(name)):
         values |= flat(_parameters(path, name, tree[name]))
     if not values:
         raise NothingForNode(path, node, [str(name) for name in tree])

@@ -38,8 +38,9 @@ def start_all(names: Sequence[str]) -> Demand[ExperimentView]:
 
 
 def _not_read(log: Sequence[str]) -> str:
-    said = next((line.rpartition("[launch]: ")[2] for line in log if "known here" in line), "")
+    said = [line.rpartition("[launch]: ")[2] for line in log if "known here" in line]
+    why = f" ({said[0]})" if said else ""
     return (
-        f"only the full ROS can read this launch file ({said or 'it is written in Python'});"
+        f"only the full ROS can carry out this launch file{why};"
         " launch it there, or show it to your instructor"
     )

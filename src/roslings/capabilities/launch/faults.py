@@ -51,7 +51,11 @@ class LaunchMissesNode(LaunchFailed):
     @property
     def hint(self) -> str:
         """What to compare."""
+        line = "<node pkg=... exec=.../>"
+        word = "exec"
+        if self.command.endswith(".py"):
+            line, word = "Node(package=..., executable=...)", "executable"
         return (
-            "Each node needs a line <node pkg=... exec=.../> of its own. exec is the executable of"
-            " setup.py. Without name=..., a node keeps the name of its code."
+            f"Each node needs a line {line} of its own. {word} is the executable of setup.py."
+            " Without name=..., a node keeps the name of its code."
         )

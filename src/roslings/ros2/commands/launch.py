@@ -1,4 +1,4 @@
-"""`ros2 launch`: start the nodes that an XML or a YAML launch file names."""
+"""`ros2 launch`: start the nodes that a launch file names."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ import argparse
 import signal
 import sys
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +17,8 @@ from roslings.ros2.shared_options import complete_packages
 from roslings.ros2.words import OK, add
 
 if TYPE_CHECKING:
-    from roslings.ros2.launch.plan import Declared
+    from roslings.ros2.launching.context import LaunchContext
+    from roslings.ros2.launching.screen import Screen
 
 ENDINGS = (".xml", ".yaml", ".yml", ".py")
 ASSIGN = ":="
@@ -53,10 +56,6 @@ class BadArgument(Problem):
 
 def declare(command: argparse.ArgumentParser) -> None:
     """The file and its arguments."""
-    command.add_argument(
-        "-s", "--show-args", "--show-arguments", action="store_true",
-        help="Show arguments that may be given to the launch file.",
-    )  # fmt: skip
     add(
         command, "package_name", complete=complete_packages,
         help="Name of the ROS package which contains the launch file, or a path to a launch file",
@@ -66,27 +65,85 @@ def declare(command: argparse.ArgumentParser) -> None:
         "launch_arguments", nargs="*",
         help="Arguments to the launch file; '<name>:=<value>' (for duplicates, last one wins)",
     )  # fmt: skip
+    command.add_argument(
+        "-n", "--noninteractive", action="store_true",
+        help="Run non-interactively (here it always does)",
+    )  # fmt: skip
+    command.add_argument(
+        "-d", "--debug", action="store_true",
+        help="Show the traceback of a fault in a launch file, too.",
+    )  # fmt: skip
+    for short, long, about in (
+        ("-p", "--print", "Print the launch description to the console without launching it."),
+        ("-s", "--show-args", "Show arguments that may be given to the launch file."),
+    ):
+        names = [short, long] + (["--print-description"] if short == "-p" else ["--show-arguments"])
+        command.add_argument(*names, action="store_true", help=about)
+    command.add_argument(
+        "-a", "--show-all-subprocesses-output", action="store_true",
+        help="Show all launched subprocesses' output by overriding their output configuration.",
+    )  # fmt: skip
+    for name, about in (
+        ("--launch-prefix", "Prefix command, which should go before all executables."),
+        ("--launch-prefix-filter", "Regex pattern for which executables the prefix is for."),
+    ):
+        command.add_argument(name, help=about)
     command.set_defaults(run=launch)
 
 
 def launch(options: argparse.Namespace) -> int:
     """`ros2 launch PACKAGE FILE ...` and `ros2 launch PATH ...`."""
-    from roslings.ros2.launch.crew import Crew
-    from roslings.ros2.launch.plan import declared_in, plan
-
     path, words = chosen_file(options)
-    if options.show_args:
-        print("\n".join(argument_lines(declared_in(path))))
-        return OK
-    given = dict(_argument(word) for word in words)
-    steps, declared = plan(path, given)
-    _warn(given, [arg.name for arg in declared])
     stopping.listen(signal.SIGTERM)
-    rooms = tempfile.TemporaryDirectory(prefix="roslings_launch_")
-    with rooms as folder, Crew(Path(folder)) as crew:
-        crew.say("[INFO] [launch]: Default logging verbosity is set to INFO")
-        crew.carry_out(steps)
-        return crew.run()
+    with _context(options) as (context, screen):
+        if options.show_args or options.print:
+            return _show(options, context, path)
+        return _carry_out(context, screen, path, dict(_argument(word) for word in words))
+
+
+@contextmanager
+def _context(options: argparse.Namespace) -> Iterator[tuple[LaunchContext, Screen]]:
+    """What a launch needs around it, with what the options say."""
+    from roslings.ros2.launching.context import LaunchContext
+    from roslings.ros2.launching.processes import OVERRIDE_OUTPUT
+    from roslings.ros2.launching.python_file import show_traces
+    from roslings.ros2.launching.screen import Screen
+
+    room = tempfile.TemporaryDirectory(prefix="roslings_launch_")
+    with room as folder, Screen() as screen:
+        context = LaunchContext(screen, Path(folder))
+        for name in ("launch_prefix", "launch_prefix_filter"):
+            if value := getattr(options, name):
+                context.launch_configurations[name.replace("_", "-")] = value
+        if options.debug:
+            show_traces()
+        if options.show_all_subprocesses_output:
+            context.environment[OVERRIDE_OUTPUT] = "both"
+        yield context, screen
+
+
+def _show(options: argparse.Namespace, context: LaunchContext, path: Path) -> int:
+    from roslings.ros2.launching.showing import all_arguments, argument_lines, tree_lines
+    from roslings.ros2.launching.sources import description_in
+
+    path = path.absolute()
+    with context.reading(path):
+        description = description_in(path)
+        if options.print:
+            print("\n".join(tree_lines(description)))
+        else:
+            print("\n".join(argument_lines(all_arguments(context, description).values())))
+    return OK
+
+
+def _carry_out(context: LaunchContext, screen: Screen, path: Path, given: dict[str, str]) -> int:
+    from roslings.ros2.launching.service import LaunchService
+    from roslings.ros2.launching.sources import IncludeLaunchDescription
+
+    screen.say(f"[INFO] [launch]: All log files can be found below {screen.folder}")
+    screen.say("[INFO] [launch]: Default logging verbosity is set to INFO")
+    whole = IncludeLaunchDescription(str(path), launch_arguments=given.items())
+    return LaunchService(context, screen).run(whole, lambda: _warn(given, context.declared))
 
 
 def chosen_file(options: argparse.Namespace) -> tuple[Path, list[str]]:
@@ -126,14 +183,3 @@ def _warn(given: dict[str, Any], known: list[str]) -> None:
         if name not in known:
             print(f"[WARNING] [launch]: the launch file has no argument '{name}'."
                   f"{did_you_mean(name, known)}", file=sys.stderr)  # fmt: skip
-
-
-def argument_lines(declared: list[Declared]) -> list[str]:
-    """The arguments of a launch file as the real tool lists them."""
-    if not declared:
-        return ["No arguments."]
-    lines = ["Arguments (pass arguments as '<name>:=<value>'):"]
-    for arg in declared:
-        lines += ["", f"    '{arg.name}':", f"        {arg.description or 'no description given'}"]
-        lines += [f"        (default: '{arg.default}')"] if arg.default is not None else []
-    return lines

@@ -1,1 +1,0 @@
-"""`ros2 launch` for XML and YAML files: read, plan, run."""

@@ -1,0 +1,145 @@
+"""What a launch knows while it is carried out."""
+
+from __future__ import annotations
+
+import heapq
+import itertools
+import os
+import time
+from collections import deque
+from collections.abc import Callable, Iterator, MutableMapping
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any
+
+from roslings.ros2.launching.substitution import Substitution, WrongKind
+
+if TYPE_CHECKING:
+    from roslings.ros2.launching.description import Entity
+    from roslings.ros2.launching.events import Event
+    from roslings.ros2.launching.handlers import EventHandler
+    from roslings.ros2.launching.processes import Planned
+    from roslings.ros2.launching.screen import Screen
+
+
+@dataclass(order=True)
+class Alarm:
+    """Something that is done later."""
+
+    at_s: float
+    number: int
+    act: Callable[[], None] = field(compare=False)
+    cancelled: bool = field(default=False, compare=False)
+    ends_with_shutdown: bool = field(default=True, compare=False)
+
+
+class LaunchContext:
+    """Launch configurations, event handlers, and what is still to be done."""
+
+    def __init__(self, screen: Screen, folder: Path) -> None:
+        """`folder` is for the parameter files of nodes."""
+        self.launch_configurations: dict[str, Any] = {}
+        self.locals = SimpleNamespace()
+        self.is_shutdown = False
+        self.folder = folder
+        self.file: Path | None = None
+        self.declared: list[str] = []
+        self.events: deque[Event] = deque()
+        self.handlers: deque[EventHandler] = deque()
+        self.planned: deque[Planned] = deque()
+        self.alarms: list[Alarm] = []
+        self._screen = screen
+        self._environment_at_start = dict(os.environ)
+        self._numbers = itertools.count(1)
+        self._names = itertools.count(1)
+
+    @property
+    def environment(self) -> MutableMapping[str, str]:
+        """The environment of this process, which nodes inherit."""
+        return os.environ
+
+    @property
+    def log_folder(self) -> Path:
+        """Where the log files are."""
+        return self._screen.folder
+
+    def say(self, line: str) -> None:
+        """One line for the screen and the log file."""
+        self._screen.say(line)
+
+    def perform_substitution(self, substitution: Substitution) -> str:
+        """The text. Raises SubstitutionFailure, WrongKind."""
+        if not isinstance(substitution, Substitution):
+            raise WrongKind("what is filled in", substitution)
+        return substitution.perform(self)
+
+    def visit(self, entity: Entity) -> None:
+        """Carry out `entity` and all that it brings along, in order. Raises BadLaunchFile."""
+        for inner in entity.visit(self):
+            self.visit(inner)
+
+    @contextmanager
+    def scope(self, forwarding: bool = True) -> Iterator[None]:
+        """What is set inside does not leave it; without `forwarding` nothing comes in either."""
+        kept, environment = dict(self.launch_configurations), dict(os.environ)
+        if not forwarding:
+            self.launch_configurations.clear()
+            self._put_back(self._environment_at_start)
+        try:
+            yield
+        finally:
+            self.launch_configurations.clear()
+            self.launch_configurations.update(kept)
+            self._put_back(environment)
+
+    def _put_back(self, environment: dict[str, str]) -> None:
+        os.environ.clear()
+        os.environ.update(environment)
+
+    @contextmanager
+    def reading(self, file: Path) -> Iterator[None]:
+        """`file` is the launch file that is being carried out."""
+        outer, self.file = self.file, file
+        try:
+            yield
+        finally:
+            self.file = outer
+
+    def new_name(self, base: str) -> str:
+        """The name of the next process: `talker-1`."""
+        return f"{base}-{next(self._names)}"
+
+    def new_file(self, ending: str) -> Path:
+        """A path in our own folder that nothing else has."""
+        return self.folder / f"launch_params_{next(self._numbers)}{ending}"
+
+    def register_event_handler(self, handler: EventHandler) -> None:
+        """Ask `handler` about each event from now on, before those that were there earlier."""
+        self.handlers.appendleft(handler)
+
+    def unregister_event_handler(self, handler: EventHandler) -> None:
+        """Ask it no more."""
+        if handler in self.handlers:
+            self.handlers.remove(handler)
+
+    def emit_event_sync(self, event: Event) -> None:
+        """Tell every handler, after what is being done now."""
+        self.events.append(event)
+
+    def after(self, period_s: float, act: Callable[[], None], *, always: bool = False) -> Alarm:
+        """Do `act` later; a shutdown cancels it, except where it is done `always`."""
+        at_s = time.monotonic() + period_s
+        alarm = Alarm(at_s, next(self._numbers), act, ends_with_shutdown=not always)
+        heapq.heappush(self.alarms, alarm)
+        return alarm
+
+    def next_alarm(self) -> Alarm | None:
+        """The one that comes next."""
+        while self.alarms and self._is_off(self.alarms[0]):
+            heapq.heappop(self.alarms)
+        return self.alarms[0] if self.alarms else None
+
+    def _is_off(self, alarm: Alarm) -> bool:
+        return alarm.cancelled or (self.is_shutdown and alarm.ends_with_shutdown)
