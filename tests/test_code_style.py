@@ -28,7 +28,8 @@ ROOMS_BELOW = {
     "course": set[str](),
     "lessons": set[str](),
     "arena": {"evidence", "rtps"},
-    "probe": {"evidence", "near", "rates", "arena"},
+    "rosbag2": set[str](),
+    "probe": {"evidence", "near", "rates", "arena", "rosbag2"},
     "workspace": {"evidence", "verdict", "course", "arena"},
     "experiment": {
         "evidence", "near", "rates", "rtps", "endings", "timeline", "course", "arena", "probe",
@@ -63,7 +64,7 @@ ROOMS_BELOW = {
     "devices": {"keyboard"},
     "ros2": {
         "evidence", "near", "rates", "endings", "rtps", "leaving", "keyboard", "arena", "probe",
-        "report", "doctor",
+        "report", "doctor", "rosbag2",
     },
     "jupyter": {"lessons", "workspace"},
     "notebook": {

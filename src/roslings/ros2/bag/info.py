@@ -3,61 +3,130 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterable, Mapping, Sequence
 from datetime import datetime
-from pathlib import Path
-from typing import Any
 
-from roslings.ros2.bag.reading import NoBag, opened
+from roslings.ros2.bag.problem import told
 from roslings.ros2.words import OK
+from roslings.rosbag2.metadata import Metadata, Topic
+from roslings.rosbag2.reading import BagReader, opened, read_metadata
 
 UNITS = ("B", "KiB", "MiB", "GiB", "TiB")
 INDENT = 19 * " "
-STORAGE = {".mcap": "mcap", ".db3": "sqlite3"}
+EVENT = "/_service_event"
+SORTS = ("name", "type", "count")
+
+
+REQUESTS, RESPONSES = (0, 1), (2, 3)
+"""What service_msgs/msg/ServiceEventInfo calls sent and received."""
+
+Seen = Mapping[str, tuple[int, int]]
+"""Topic of a service's events to how many requests and how many responses it holds."""
 
 
 def show_info(options: argparse.Namespace) -> int:
     """`ros2 bag info BAG`."""
-    path = options.bag_path
-    with opened(path) as reader:
-        print("\n" + "\n".join(lines_of(reader, _files(path))))
+    path, seen = options.bag_path, None
+    with told():
+        if path.is_dir() and not options.verbose:
+            metadata = read_metadata(path)
+        else:
+            with opened(path) as reader:
+                metadata = reader.metadata
+                seen = events_in(reader) if options.verbose else None
+    lines = names_of(metadata) if options.topic_name else lines_of(metadata, options.sort, seen)
+    print("\n".join(lines))
     return OK
 
 
-def _files(path: Path) -> list[Path]:
-    files = [path] if path.is_file() else sorted(p for p in path.iterdir() if p.suffix in STORAGE)
-    if not files:
-        raise NoBag(path, "it holds no file of messages")
-    return files
+def events_in(reader: BagReader) -> Seen:
+    """How often each service was asked, and answered; sent and received count once."""
+    found: dict[str, set[tuple[bool, bytes]]] = {
+        topic.name: set() for topic in reader.metadata.topics if is_event(topic)
+    }
+    for topic, _, raw in reader.messages(lambda name, _: name in found):
+        found[topic].add(_call(raw))
+    return {name: (_of(calls, REQUESTS), _of(calls, RESPONSES)) for name, calls in found.items()}
 
 
-def lines_of(reader: Any, files: list[Path]) -> list[str]:
-    """The lines of Jazzy's `ros2 bag info`."""
-    size = sum(file.stat().st_size for file in files)
-    empty = not reader.message_count
-    start_ns, end_ns = (0, 0) if empty else (reader.start_time, reader.end_time - 1)
-    topics = [
-        f"Topic: {c.topic} | Type: {c.msgtype} | Count: {c.msgcount}"
-        f" | Serialization Format: {c.ext.serialization_format}"
-        for c in sorted(reader.connections, key=lambda c: c.topic)
-    ]
+def _call(raw: bytes) -> tuple[bool, bytes]:
+    """Whether it is an answer, and who asked: the client and the number of its question.
+
+    The event begins with its info: a byte for the kind, a stamp, 16 bytes of the client's id, and
+    the number, which begins at a multiple of 8 (CDR).
+    """
+    body = memoryview(raw)[4:]
+    return body[0] in RESPONSES, bytes(body[12:28]) + bytes(body[32:40])
+
+
+def _of(calls: Iterable[tuple[bool, bytes]], kind: tuple[int, int]) -> int:
+    return sum(answer == (kind == RESPONSES) for answer, _ in calls)
+
+
+def is_event(topic: Topic) -> bool:
+    """Whether the topic holds what was said to and by a service."""
+    typed = "/srv/" in topic.type and topic.type.endswith("_Event")
+    return typed and topic.name.endswith(EVENT)
+
+
+def names_of(metadata: Metadata) -> list[str]:
+    """What `-t` prints: the topics' names."""
+    return [topic.name for topic in metadata.topics if not is_event(topic)]
+
+
+def lines_of(metadata: Metadata, sort: str = "name", seen: Seen | None = None) -> list[str]:
+    """The lines of Jazzy's `ros2 bag info`; with `seen`, those of `-v`."""
+    span = metadata.span
+    first_ns = span.first_ns if span.count else 0
+    services = [topic for topic in metadata.topics if is_event(topic)]
+    topics = [topic for topic in metadata.topics if not is_event(topic)]
     return [
-        "Files:             " + f"\n{INDENT}".join(file.name for file in files),
-        f"Bag size:          {readable(size)}",
-        f"Storage id:        {STORAGE.get(files[0].suffix, 'unknown')}",
-        f"ROS Distro:        {distribution(reader)}",
-        f"Duration:          {seconds(end_ns - start_ns)}s",
-        f"Start:             {moment(start_ns)}",
-        f"End:               {moment(end_ns)}",
-        f"Messages:          {reader.message_count}",
-        "Topic information: " + f"\n{INDENT}".join(topics),
-        "Service:           0",
-        "Service information: ",
+        "",
+        "Files:             " + _column(file.name for file in metadata.files),
+        f"Bag size:          {readable(metadata.size)}",
+        f"Storage id:        {metadata.storage}",
+        f"ROS Distro:        {_distribution(metadata)}",
+        f"Duration:          {seconds(span.duration_ns)}s",
+        f"Start:             {moment(first_ns)}",
+        f"End:               {moment(first_ns + span.duration_ns)}",
+        f"Messages:          {span.count}",
+        "Topic information: " + _column(map(_topic_line, in_order(topics, sort))),
+        f"Service:           {len(services)}",
+        "Service information: "
+        + _column(_service_line(topic, seen) for topic in in_order(services, sort)),
     ]
 
 
-def distribution(reader: Any) -> str:
+def in_order(topics: Sequence[Topic], sort: str) -> list[Topic]:
+    """By name, type or count; the most messages come last."""
+    return sorted(topics, key=lambda topic: (getattr(topic, sort), topic.name))
+
+
+def _column(lines: Iterable[str]) -> str:
+    return f"\n{INDENT}".join(lines)
+
+
+def _topic_line(topic: Topic) -> str:
+    return (
+        f"Topic: {topic.name} | Type: {topic.type} | Count: {topic.count}"
+        f" | Serialization Format: {topic.format}"
+    )
+
+
+def _service_line(topic: Topic, seen: Seen | None) -> str:
+    count = f"Event Count: {topic.count}"
+    if seen is not None:
+        requests, responses = seen[topic.name]
+        count = f"Request Count: {requests} | Response Count: {responses}"
+    return (
+        f"Service: {topic.name.removesuffix(EVENT)} | Type: {topic.type.removesuffix('_Event')}"
+        f" | {count} | Serialization Format: {topic.format}"
+    )
+
+
+def _distribution(metadata: Metadata) -> str:
     """The ROS that wrote the bag; `rosbags` writes its own name in that place."""
-    name = str(reader.ros_distro or "")
+    name = metadata.distro
     return name if name and name != "rosbags" else "unknown"
 
 
@@ -70,13 +139,13 @@ def readable(size: float) -> str:
 
 
 def seconds(duration_ns: int) -> str:
-    """Seconds with milliseconds."""
-    whole, rest = divmod(duration_ns // 10**6, 1000)
-    return f"{whole}.{rest:03d}"
+    """Seconds with nine digits, as Jazzy writes them."""
+    whole, rest = divmod(duration_ns, 10**9)
+    return f"{whole}.{rest:09d}"
 
 
 def moment(time_ns: int) -> str:
     """A moment in local time, and as seconds since 1970."""
     local = datetime.fromtimestamp(time_ns // 10**9)
     day = f"{local:%b} {local.day:2d} {local:%Y %H:%M:%S}"
-    return f"{day}.{time_ns // 10**6 % 1000:03d} ({seconds(time_ns)})"
+    return f"{day}.{time_ns % 10**9:09d} ({seconds(time_ns)})"
