@@ -29,6 +29,7 @@ ROOMS_BELOW = {
     "lessons": set[str](),
     "arena": {"evidence", "rtps"},
     "rosbag2": set[str](),
+    "stand_ins": {"rosbag2"},
     "probe": {"evidence", "near", "rates", "arena", "rosbag2"},
     "workspace": {"evidence", "verdict", "course", "arena"},
     "experiment": {

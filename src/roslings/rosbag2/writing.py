@@ -67,6 +67,7 @@ class BagWriter:
         self._counts: dict[str, int] = {}
         self._files: list[File] = []
         self._span = Span()
+        self._last_id = 0
         self._failed = self._closed = False
         self._make_folder()
         self._begin()
@@ -84,10 +85,15 @@ class BagWriter:
         """The file that is being written."""
         return self._storage.path
 
-    @property
-    def topics(self) -> list[Topic]:
-        """What has been added."""
-        return list(self._topics.values())
+    def has(self, topic: str) -> bool:
+        """Whether it has been added."""
+        return topic in self._topics
+
+    def remove_topic(self, topic: str) -> None:
+        """Leave it out of metadata.yaml; a topic with messages stays."""
+        if not self._counts.get(topic, 1):
+            for kept in (self._topics, self._connections, self._counts):
+                kept.pop(topic)
 
     def add_topic(self, topic: Topic) -> None:
         """Before its first message. A second time nothing happens. Raises CannotWrite."""
@@ -163,11 +169,15 @@ class BagWriter:
         )
 
         self._connections[topic.name] = Connection(
-            len(self._connections) + 1, topic.name, topic.type,
+            self._next_id(), topic.name, topic.type,
             MessageDefinition(MessageDefinitionFormat.MSG, text), topic.hash, 0,
             ConnectionExtRosbag2(topic.format, list(topic.qos)), self,
         )  # fmt: skip
         self._introduce(self._connections[topic.name])
+
+    def _next_id(self) -> int:
+        self._last_id += 1
+        return self._last_id
 
     def _introduce(self, connection: Any) -> None:
         if connection.msgtype not in self._types:
