@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 if sys.version_info >= (3, 14):
@@ -25,15 +26,23 @@ def packed(data: bytes) -> bytes:
 def packed_file(file: Path) -> Path:
     """A compressed file, instead of `file`. Raises OSError."""
     place = file.with_name(file.name + ENDING)
-    with file.open("rb") as plain, zstd.open(place, "wb") as out:
-        shutil.copyfileobj(plain, out)
+    pack_file(file, place)
     file.unlink()
     return place
 
 
 def unpack_file(file: Path, place: Path) -> None:
-    """Write what a compressed file holds to `place`. Raises OSError, zstd.ZstdError."""
-    with zstd.open(file, "rb") as stream, place.open("wb") as out:
+    """Write what a compressed file holds to `place`; of one that was cut off, what is left.
+
+    Raises OSError, zstd.ZstdError.
+    """
+    with zstd.open(file, "rb") as stream, place.open("wb") as out, suppress(EOFError):
+        shutil.copyfileobj(stream, out)
+
+
+def pack_file(plain: Path, place: Path) -> None:
+    """The other way round. Raises OSError."""
+    with plain.open("rb") as stream, zstd.open(place, "wb") as out:
         shutil.copyfileobj(stream, out)
 
 

@@ -86,7 +86,7 @@ def _faults() -> tuple[type[Exception], ...]:
     from rosbags.rosbag2 import ReaderError
 
     return (
-        ReaderError, OSError, ValueError, KeyError, TypeError, IndexError, AssertionError,
+        ReaderError, OSError, ValueError, KeyError, TypeError, IndexError, AssertionError, EOFError,
         struct.error, apsw.Error, BROKEN,
     )  # fmt: skip
 

@@ -13,7 +13,15 @@ from typing import Any
 
 from roslings.rosbag2.files import mended
 from roslings.rosbag2.metadata import ENDINGS, NAME, File, Metadata, Span, Topic, as_yaml
-from roslings.rosbag2.packing import BROKEN, ENDING, MAGIC, ZSTD, packed_file, unpack_file
+from roslings.rosbag2.packing import (
+    BROKEN,
+    ENDING,
+    MAGIC,
+    ZSTD,
+    pack_file,
+    packed_file,
+    unpack_file,
+)
 from roslings.rosbag2.trouble import NoBag, reason_of
 
 STORAGES = {ending: name for name, ending in ENDINGS.items()}
@@ -80,9 +88,11 @@ def _number(file: Path) -> int:
 
 def _content(folder: Path, file: Path, by_file: bool) -> Content:
     try:
-        if file.suffix != ENDING:
-            mended(file)
-        content = _read(file)
+        with unpacked(file) as plain:
+            torn = mended(plain)
+            content = _read(plain)
+            if torn and plain != file:
+                pack_file(plain, file)
     except (ValueError, sqlite3.Error, BROKEN) as fault:
         raise NoBag(folder, f"{file.name} cannot be read: {reason_of(fault)}") from fault
     if by_file and file.suffix != ENDING:  # the last one, where the recorder was killed
@@ -94,7 +104,7 @@ def _read(file: Path) -> Content:
     from rosbags.rosbag2 import Reader, ReaderError
 
     try:
-        with unpacked(file) as plain, Reader(plain) as reader:
+        with Reader(file) as reader:
             return Content(File(file.name, span_of(reader)), topics_of(reader), _is_packed(reader))
     except ReaderError as fault:
         raise ValueError(str(fault)) from fault

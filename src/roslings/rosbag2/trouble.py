@@ -34,7 +34,7 @@ class Damaged(BagTrouble):
 
     def __init__(self, path: Path, reason: str) -> None:
         super().__init__(
-            f"the bag '{path}' is damaged: {reason}. What is left of it is saved by:"
+            f"the bag '{path}' is damaged: {reason}. To save what is left of it:"
             f" ros2 bag reindex {path if path.is_dir() else path.parent}"
         )
 

@@ -113,6 +113,14 @@ class BagWriter:
         self._counts[topic] += 1
         self._span = self._span.with_one(time_ns)
 
+    def settle(self) -> None:
+        """What was written survives from here on, whatever happens. Raises CannotWrite."""
+        self._guarded(self._storage.settle)
+
+    def keep_settled(self) -> None:
+        """The same, at most once in SETTLE_EVERY_S: for those who wait for the next message."""
+        self._guarded(self._settle_if_due)
+
     def split(self) -> None:
         """The next message goes into a new file. Raises CannotWrite."""
         self._guarded(self._split)
@@ -192,6 +200,9 @@ class BagWriter:
             self._split()
         self._storage.write(connection, time_ns, data)
         self._bytes += len(data) + EXTRA_BYTES
+        self._settle_if_due()
+
+    def _settle_if_due(self) -> None:
         if time.monotonic() - self._settled_s >= SETTLE_EVERY_S:
             self._storage.settle()
             self._settled_s = time.monotonic()

@@ -205,6 +205,7 @@ class Recorder:
             self._eye.spin_to(time.monotonic() + min(every_s, 0.05))
             if self._fault:
                 raise self._fault
+            self._writer.keep_settled()
             if keyboard and keyboard.next(0.0) == SPACE:
                 self._toggle()
             if not complete and time.monotonic() >= look_s:
