@@ -66,9 +66,14 @@ def _mode(by_file: bool, contents: list[Content]) -> str:
 
 def write_metadata(folder: Path, metadata: Metadata) -> None:
     """metadata.yaml, whole or not at all. Raises OSError."""
-    scratch = folder / f"{NAME}.part"
+    scratch = place_of_metadata(folder)
     scratch.write_text(as_yaml(metadata), encoding="utf-8")
     scratch.replace(folder / NAME)
+
+
+def place_of_metadata(folder: Path) -> Path:
+    """Where metadata.yaml is written, before it gets its name."""
+    return folder / f"{NAME}.part"
 
 
 def storage_files(folder: Path) -> list[Path]:

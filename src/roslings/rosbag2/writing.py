@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sqlite3
 import time
 from collections.abc import Mapping
@@ -22,7 +23,7 @@ from roslings.rosbag2.metadata import (
     as_plain,
 )
 from roslings.rosbag2.packing import ZSTD, packed, packed_file
-from roslings.rosbag2.reindexing import reindex, write_metadata
+from roslings.rosbag2.reindexing import place_of_metadata, reindex, write_metadata
 from roslings.rosbag2.trouble import BagThere, BagTrouble, CannotWrite, TooSmall
 
 Compression = Literal["none", "file", "message"]
@@ -32,6 +33,8 @@ SETTLE_EVERY_S = 1.0
 
 EXTRA_BYTES = 40
 """What a message needs in a file beside its own bytes, in round numbers."""
+
+RESERVE_BYTES = 64 * 1024
 
 FAULTS = (OSError, sqlite3.Error)
 
@@ -77,8 +80,14 @@ class BagWriter:
             raise BagThere(self.folder)
         try:
             self.folder.mkdir(parents=True)
+            self._reserve()
         except OSError as fault:
             raise CannotWrite(self.folder, fault) from fault
+
+    def _reserve(self) -> None:
+        """Keep room for the end: on a full disk, metadata.yaml and the last index fit in there."""
+        with place_of_metadata(self.folder).open("wb") as reserve:
+            os.posix_fallocate(reserve.fileno(), 0, RESERVE_BYTES)
 
     @property
     def file(self) -> Path:
@@ -133,6 +142,7 @@ class BagWriter:
         if self._closed:
             return
         self._closed = True
+        place_of_metadata(self.folder).unlink(missing_ok=True)
         if self._failed:
             self._save_what_is_left()
         else:

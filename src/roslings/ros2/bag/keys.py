@@ -41,4 +41,4 @@ def _is_ours() -> bool:
     try:
         return os.tcgetpgrp(sys.stdin.fileno()) == os.getpgrp()
     except OSError:
-        return False
+        return True  # it is a terminal, and not the one whose jobs the shell stops
