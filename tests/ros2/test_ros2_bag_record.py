@@ -151,7 +151,7 @@ def test_publishers_that_differ_and_one_that_comes_late(empty: Shell) -> None:
             with empty.program(talking("/later")) as third:
                 await_subscribed(running, "/later")
                 with empty.program(talking("/later", "BEST_EFFORT")):
-                    running.wait_for("A publisher of '/later', node late, cannot be recorded")
+                    running.wait_for("'/later', offering incompatible QoS")
                 assert running.interrupt() == 0
                 assert third.process.poll() is None
         assert first.process.poll() is None and second.process.poll() is None
@@ -166,7 +166,7 @@ def test_a_profile_of_a_file_goes_first(here: Shell) -> None:
     words = record("--topics", "/scan", "--qos-profile-overrides-path", "qos.yaml")
     with here.start(*words) as running:
         running.wait_for("Overriding subscription profile for /scan")
-        running.wait_for("A publisher of '/scan', node rover, cannot be recorded")
+        running.wait_for("'/scan', offering incompatible QoS")
         assert running.interrupt() == 0
     assert messages(here.folder / "b")["/scan"] == []
     (here.folder / "qos.yaml").write_text("/scan: {reliability: perhaps}\n")
@@ -239,9 +239,6 @@ def test_a_place_that_cannot_be_written(empty: Shell) -> None:
     ran = empty("bag", "record", "-a", "-o", "file/b")
     assert ran.code == 1
     assert "cannot write the bag 'file/b': Not a directory. Make room there" in ran.err
-
-
-FULL = ["sh", "-c", 'mount -t tmpfs -o size=300k none "$0" && exec "$@"']
 
 
 @pytest.mark.skipif(not shutil.which("unshare") or os.geteuid() != 0, reason="needs a small disk")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import subprocess
 import sys
@@ -10,7 +11,8 @@ from typing import Literal
 
 import pytest
 import yaml
-from bags import BEGIN_NS, STEP_NS, TOPICS, raw, read_by_mcap, read_by_rosbags, said, write
+from bags import BEGIN_NS, STEP_NS, TOPICS, TYPES, raw, read_by_mcap, read_by_rosbags, said, write
+from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 
 from roslings.rosbag2.choosing import BadExpression, Choice
 from roslings.rosbag2.files import LEAST_SPLIT
@@ -317,3 +319,39 @@ def test_a_topic_that_comes_late_is_in_every_file(tmp_path: Path) -> None:
     ]  # fmt: skip
     late = next(t for t in read_metadata(tmp_path / "b").topics if t.name == "/late")
     assert late.qos[0].reliability.name == "BEST_EFFORT"
+
+
+def test_a_torn_file_of_another_recorder_is_mended(tmp_path: Path) -> None:
+    """Its chunks are compressed, its stamps not in order; both readers find all that is whole."""
+    kind = TYPES.types[STRING_TYPE]
+    writer = Writer(tmp_path / "b", version=9, storage_plugin=StoragePlugin.MCAP)
+    writer.set_compression(CompressionMode.STORAGE, CompressionFormat.ZSTD)
+    with writer:
+        heard = writer.add_connection("/heard", kind.__msgtype__, typestore=TYPES)
+        for number in range(30):
+            stamp_ns = BEGIN_NS + (number ^ 1)
+            writer.write(heard, stamp_ns, raw(f"{number} {os.urandom(50_000).hex()}"))
+    file = tmp_path / "b/b.mcap"
+    file.write_bytes(file.read_bytes()[:-5000])
+    (tmp_path / "b/metadata.yaml").unlink()
+    count = reindex(tmp_path / "b").span.count
+    assert 10 <= count < 30
+    texts = [text.partition(" ")[0] for _, _, text in read_by_rosbags(tmp_path / "b")]
+    assert texts == [str(number ^ 1) for number in range(count)]
+    assert sorted(read_by_mcap(tmp_path / "b")) == sorted(read_by_rosbags(tmp_path / "b"))
+    assert [path.name for path in sorted((tmp_path / "b").iterdir())] == ["b.mcap", "metadata.yaml"]
+
+
+@pytest.mark.parametrize("storage", STORAGES)
+def test_a_torn_compressed_file_is_mended(tmp_path: Path, storage: str) -> None:
+    """What can still be unpacked is packed again, or it is said that nothing can be saved."""
+    texts = [str(number).rjust(20_000) for number in range(200)]
+    bag = write(tmp_path / "b", said(texts), Plan(storage, "file"))
+    file = next(bag.glob("*.zstd"))
+    file.write_bytes(file.read_bytes()[:-20])
+    if storage == "mcap":
+        assert 0 < reindex(bag).span.count <= 200
+        assert read_by_mcap(bag) == read_by_rosbags(bag)
+    else:
+        with pytest.raises(NoBag, match="cannot be read"):
+            reindex(bag)

@@ -104,6 +104,12 @@ def _profile(topic: Topic, profiles: dict[str, Any]) -> Any:
     return offered(topic.qos)
 
 
+def _time_voice(eye: Eye) -> Any:
+    from rosgraph_msgs.msg import Clock
+
+    return eye.node.create_publisher(Clock, "/clock", 10)
+
+
 def arrive(voices: Iterable[Any], within_ms: int) -> None:
     """Wait until whoever listens has all messages. Without a word about it, a second."""
     from rclpy.duration import Duration
@@ -133,6 +139,8 @@ class Player:
         self._begin_ns = span.first_ns + round(options.start_offset * 1e9) if span.count else 0
         self._end_ns = self._begin_ns + round(options.playback_duration * 1e9)
         self._clock = BagClock(self._begin_ns, options.rate, options.start_paused)
+        self._time_voice: Any = _time_voice(eye) if options.clock else None
+        self._ticking: Any = None
         self._looked_s = 0.0
         self._next = False
 
@@ -142,34 +150,33 @@ class Player:
         for line in KEYS if self._keyboard else ():
             tell(PLAYER, line)
         self._await_listeners()
-        self._tell_time()
         while True:
             self._eye.until(lambda: False, self._options.delay)
             self._clock.set(self._begin_ns)
+            self._tell_time()
             if not (self._once() and self._options.loop):
                 return
 
     def _await_listeners(self) -> None:
         """Those who listen now shall not miss the first messages."""
         self._eye.settle()
-        waiting = [v for v in self._voices.values() if self._eye.ears(v.topic_name)]
+        voices = [*self._voices.values(), *([self._time_voice] if self._time_voice else [])]
+        waiting = [voice for voice in voices if self._eye.ears(voice.topic_name)]
         self._eye.until(lambda: all(v.get_subscription_count() for v in waiting), MATCHED_WITHIN_S)
 
     def _tell_time(self) -> None:
-        """Publish the bag's time on /clock, from now on."""
-        if not self._options.clock:
-            return
+        """From the first message on, as often as it was asked for."""
+        if self._time_voice and not self._ticking:
+            self._say_time()
+            self._ticking = self._eye.node.create_timer(1 / self._options.clock, self._say_time)
+
+    def _say_time(self) -> None:
+        """Publish the bag's time on /clock."""
         from rosgraph_msgs.msg import Clock
 
-        voice = self._eye.node.create_publisher(Clock, "/clock", 10)
-
-        def say() -> None:
-            message = Clock()
-            message.clock.sec, message.clock.nanosec = divmod(self._clock.now_ns(), 10**9)
-            voice.publish(message)
-
-        say()
-        self._eye.node.create_timer(1 / self._options.clock, say)
+        message = Clock()
+        message.clock.sec, message.clock.nanosec = divmod(self._clock.now_ns(), 10**9)
+        self._time_voice.publish(message)
 
     def _once(self) -> int:
         """How many messages were played."""

@@ -17,7 +17,6 @@ from roslings.ros2.eye import Eye
 from roslings.ros2.interfaces import UnknownInterface, class_of
 from roslings.ros2.names import checked_topic, is_hidden
 from roslings.ros2.problem import Problem, did_you_mean
-from roslings.ros2.qos import mismatches
 from roslings.ros2.words import OK
 from roslings.rosbag2.choosing import Choice
 from roslings.rosbag2.metadata import Topic
@@ -181,9 +180,8 @@ class Recorder:
         self._eye, self._writer, self._wanted = eye, writer, wanted
         self._options, self._profiles = options, profiles
         self._paused: bool = options.start_paused
-        self._asked: dict[str, Any] = {}
+        self._asked: set[str] = set()
         self._refused: set[str] = set()
-        self._warned: set[tuple[str, bytes]] = set()
         self._fault: BagTrouble | None = None
 
     def run(self, keyboard: Keyboard | None = None) -> None:
@@ -217,7 +215,7 @@ class Recorder:
         """All topics that were named are there; nothing else was asked for."""
         options = self._options
         more = options.all or options.all_topics or options.regex or options.topic_types
-        if more or not self._asked.keys() >= self._wanted.names:
+        if more or not self._asked >= self._wanted.names:
             return False
         tell(self.name, "All requested topics are subscribed. Stopping discovery...")
         return True
@@ -229,9 +227,8 @@ class Recorder:
     def _look(self) -> None:
         """Subscribe to each wanted topic that has come up since."""
         for topic, types in self._eye.topics().items():
-            if topic in self._asked:
-                self._look_at_publishers(topic)
-            elif topic not in self._refused and self._wanted.takes(self._eye, topic, types):
+            known = topic in self._asked or topic in self._refused
+            if not known and self._wanted.takes(self._eye, topic, types):
                 self._subscribe(topic, types[0])
 
     def _subscribe(self, topic: str, type_name: str) -> None:
@@ -246,7 +243,7 @@ class Recorder:
         offers = tuple(kept(info.qos_profile) for info in publishers)
         self._writer.add_topic(Topic(topic, type_name, qos=offers))
         self._eye.node.create_subscription(cls, topic, self._keeper(topic), profile, raw=True)
-        self._asked[topic] = profile
+        self._asked.add(topic)
         tell(self.name, f"Subscribed to topic '{topic}'")
 
     def _profile(self, topic: str, publishers: list[Any]) -> Any:
@@ -258,23 +255,6 @@ class Recorder:
         for note in notes:
             tell("ROSBAG2_TRANSPORT", note, "WARN")
         return profile
-
-    def _look_at_publishers(self, topic: str) -> None:
-        """A publisher that came later may not be able to reach us."""
-        for info in self._eye.publishers(topic):
-            known = topic, bytes(info.endpoint_gid)
-            why = "; ".join(mismatches(self._asked[topic], info.qos_profile))
-            if why and known not in self._warned:
-                self._warned.add(known)
-                self._tell_deaf(topic, info.node_name, why)
-
-    def _tell_deaf(self, topic: str, node: str, why: str) -> None:
-        tell(
-            self.name,
-            f"A publisher of '{topic}', node {node}, cannot be recorded: {why}."
-            " Record again, or name the topic in --qos-profile-overrides-path",
-            "WARN",
-        )
 
     def _keeper(self, topic: str) -> Any:
         """What takes the messages of one topic."""
