@@ -24,7 +24,7 @@ def rover(options: argparse.Namespace) -> int:
     prepare()
     domain_id()
     check_middleware()
-    run(options.view, options.save, options.seed, options.keys)
+    run(options.view, options.save, options.seed, options.keys, options.tf)
     return OK
 
 

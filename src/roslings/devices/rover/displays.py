@@ -17,6 +17,7 @@ from roslings.devices.rover.words import (
     KEYS_TELL,
     below,
     beside,
+    next_steps,
     position,
     said,
 )
@@ -209,8 +210,8 @@ class Lines:
     def __init__(self, node: RoverNode, out: TextIO) -> None:
         self._out, self._last = out, ""
         self._say("The rover is ready. It hears /cmd_vel and says " + ", ".join(said(node)) + ".")
-        if not node.publishes_tf:
-            self._say("/tf is left out: tf2_msgs is not installed here.")
+        if node.tf and not node.publishes_tf:
+            self._say(f"/tf is left out: its type is missing. {' '.join(next_steps())}")
         if node.by_keys:
             self._say(f"{KEYS_TELL}\n{KEYS_PACE}")
             return

@@ -24,15 +24,21 @@ class CannotSave(DeviceTrouble):
 
 
 def run(
-    view: View = "auto", picture: Path | None = None, seed: int = 0, keys: bool = False
+    view: View = "auto",
+    picture: Path | None = None,
+    seed: int = 0,
+    keys: bool = False,
+    tf: bool = False,
 ) -> Rover:
     """Run the rover until Ctrl-C; returns it as it then is. With `keys`, this terminal drives it.
+
+    With `tf` it also publishes /tf, where the type of that topic is installed.
 
     Raises NoWindow, CannotSave, NoTerminal.
     """
     if picture:
         _require_place_for(picture)
-    with driving(keys) as look, RoverNode(Rover(seed=seed)) as node, listening() as asked:
+    with driving(keys) as look, RoverNode(Rover(seed=seed), tf=tf) as node, listening() as asked:
         node.by_keys = keys
         with opened(view, node) as display:
             _go_on(node, display, asked, look)

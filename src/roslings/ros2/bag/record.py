@@ -25,6 +25,9 @@ from roslings.rosbag2.trouble import BagThere, BagTrouble
 from roslings.rosbag2.writing import BagWriter, Plan
 
 STORAGE = "rosbag2_storage"
+AT_ONCE = 500
+"""After so many messages of a topic the others, keys and Ctrl-C get their turn."""
+
 POSITIONAL = (
     'Positional "topics" argument deprecated. Please use optional "--topics" argument instead.'
 )
@@ -242,7 +245,7 @@ class Recorder:
         profile = self._profile(topic, publishers)
         offers = tuple(kept(info.qos_profile) for info in publishers)
         self._writer.add_topic(Topic(topic, type_name, qos=offers))
-        self._eye.node.create_subscription(cls, topic, self._keeper(topic), profile, raw=True)
+        self._listen(cls, topic, profile)
         self._asked.add(topic)
         tell(self.name, f"Subscribed to topic '{topic}'")
 
@@ -256,19 +259,27 @@ class Recorder:
             tell("ROSBAG2_TRANSPORT", note, "WARN")
         return profile
 
-    def _keeper(self, topic: str) -> Any:
-        """What takes the messages of one topic."""
+    def _listen(self, cls: Any, topic: str, profile: Any) -> None:
+        """Take the messages of one topic. What waits already is taken at once: to wake up for each
+        costs more than to write it."""
 
         def keep(raw: bytes, info: Any) -> None:
-            time_ns = self._time_ns(info)
-            if self._paused or self._fault or not time_ns:
-                return
-            try:
-                self._writer.write(topic, time_ns, raw)
-            except BagTrouble as fault:
-                self._fault = fault
+            self._keep(topic, raw, info)
+            for _ in range(AT_ONCE):
+                if (taken := subscription.handle.take_message(cls, True)) is None:
+                    return
+                self._keep(topic, *taken)
 
-        return keep
+        subscription = self._eye.node.create_subscription(cls, topic, keep, profile, raw=True)
+
+    def _keep(self, topic: str, raw: bytes, info: Any) -> None:
+        time_ns = self._time_ns(info)
+        if self._paused or self._fault or not time_ns:
+            return
+        try:
+            self._writer.write(topic, time_ns, raw)
+        except BagTrouble as fault:
+            self._fault = fault
 
     def _time_ns(self, info: Any) -> int:
         """When a message came. In simulated time 0 until somebody has said what time it is."""
