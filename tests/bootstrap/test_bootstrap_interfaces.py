@@ -67,6 +67,15 @@ def test_changed_types_are_built_again(arm: CourseCopy) -> None:
     assert (stale.code, "numpy" in stale.err, "Next:" in stale.err) == (2, True, True)
 
 
+def test_tf_is_built_where_it_can_be(arm: CourseCopy, tmp_path: Path) -> None:
+    """Without a compiler the rover runs all the same, and nobody waits for one."""
+    path = without_compiler(tmp_path)
+    plain = arm.run("rover", PATH=path).seen["has"]
+    assert arm.run("rover", "--tf", PATH=path).seen["has"] == plain
+    assert "bag_x" not in plain
+    assert "bag_x" in arm.run("rover", "--tf").seen["has"]
+
+
 def interfaces_of(root: Path) -> Interfaces:
     """Those of the course in `root`; its environment's Python is the running one."""
     environment = root / ".venv"
@@ -125,4 +134,8 @@ def test_a_sourced_ros_without_generators_is_named(
         interfaces.require_compiler()
     (tmp_path / "jazzy/share/rosidl_default_generators").mkdir(parents=True)
     interfaces.require_compiler()
+    package = add_types(tmp_path)
+    assert interfaces.sources == [package]
+    (tmp_path / "jazzy/share" / package.name).mkdir()
+    assert interfaces.sources == []  # what it brings is not built again
     assert interfaces.prefix == tmp_path / ".venv-apt/overlay"

@@ -18,6 +18,7 @@ from compiled import uncompiled
 from course_copy import REAL, CourseCopy, plain_environment
 from pythons_here import BASE
 
+from roslings.bootstrap.interfaces import packages_of
 from roslings.bootstrap.packages import installed
 from roslings.bootstrap.virtual import Virtual
 
@@ -50,7 +51,7 @@ def jazzy(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
 
 def _link_prefix(prefix: Path) -> None:
     """What the packages hold beside Python, without what this clone has built for its labs."""
-    own = [found.parent.name for found in REAL.glob("labs/*/interfaces/*/package.xml")]
+    own = [folder.name for folder in packages_of(REAL)]
     for part in ("share", "lib", "include"):
         (prefix / part).mkdir(exist_ok=True)
         for entry in (Path(sys.prefix) / part).iterdir():

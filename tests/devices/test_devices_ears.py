@@ -18,8 +18,8 @@ from program import SOURCE, environment, run, running
 from roslings.arena.lease import leased_domain
 from roslings.course import lab
 from roslings.devices.rover import Motion, Rover
-from roslings.devices.rover.body import Pose
 from roslings.devices.rover.text_map import ASCII, cells
+from roslings.models.differential_drive import Pose
 
 LISTENING = ["rover", "--view", "lines", "--listen"]
 SPEED = ["ros2", "topic", "echo", "/odom", "--field", "twist.twist.linear.x"]

@@ -9,10 +9,13 @@ from pathlib import Path
 
 import pytest
 from program import Program, environment, run, running
+from rosbags.highlevel import AnyReader
 
 from roslings.arena.lease import leased_domain
 from roslings.devices.rover import Ball, Box, Circle, Motion, Rover, World
+from roslings.devices.rover.node import RoverNode
 from roslings.devices.rover.text_map import ASCII, UNICODE, text_map
+from roslings.devices.rover.words import about_tf
 
 FORWARD = "{linear: {x: 0.5}}"
 PUB = ["ros2", "topic", "pub", "--once", "/cmd_vel", "geometry_msgs/msg/Twist"]
@@ -63,7 +66,46 @@ def test_its_topics_have_the_usual_names_and_types(
     assert "range_max: 6.0" in scan
     field = ["ros2", "topic", "echo", "--once", "/camera/image_raw", "--field"]
     assert "1920" in run([*field, "step"], terminal, tmp_path).stdout
-    assert "tf2_msgs" in "\n".join(rover.lines) or "/tf [tf2_msgs/msg/TFMessage]" in listed
+    assert "/tf [" not in listed  # it would change the graphs that lessons show
+    assert "/tf" not in "\n".join(rover.lines)
+
+
+def test_asked_to_it_publishes_tf(terminal: dict[str, str], tmp_path: Path) -> None:
+    """20 times a second, beside /odom, and from one to the other."""
+    pytest.importorskip("tf2_msgs", reason="./roslings test builds it")
+    with running(["rover", "--view", "lines", "--tf"], terminal, tmp_path) as rover:
+        rover.wait_for("says /odom, /scan, /tf")
+        rover.wait_for("standing")
+        listed = run(["ros2", "topic", "list", "-t"], terminal, tmp_path).stdout
+        assert "/tf [tf2_msgs/msg/TFMessage]" in listed
+        words = ["ros2", "topic", "echo", "--once", "/tf"]
+        moved = run(words, terminal, tmp_path).stdout
+        assert "frame_id: odom" in moved and "child_frame_id: base_link" in moved
+        bag = ["ros2", "bag", "record", "--topics", "/tf", "/odom"]
+        with running([*bag, "-o", "drive"], terminal, tmp_path) as recorder:
+            recorder.wait_for("All requested topics are subscribed")
+            run(["ros2", "topic", "echo", "--once", "/tf"], terminal, tmp_path)
+            assert recorder.interrupt() == 0
+    with AnyReader([tmp_path / "drive"]) as reader:
+        counts = {c.topic: c.msgcount for c in reader.connections}
+        first = next(iter(reader.messages()))
+        assert reader.deserialize(first[2], first[0].msgtype)
+    assert abs(counts["/tf"] - counts["/odom"]) <= 2 and counts["/tf"] > 2
+
+
+@pytest.mark.parametrize(("distro", "step"), [
+    ("", "sudo apt install g++"), ("jazzy", "sudo apt install ros-jazzy-tf2-msgs"),
+])  # fmt: skip
+def test_where_tf_has_no_type_the_next_step_is_on_the_screen(
+    monkeypatch: pytest.MonkeyPatch, distro: str, step: str
+) -> None:
+    """And only where /tf was asked for; it fits beside the map."""
+    monkeypatch.setenv("ROS_DISTRO", distro)
+    asked = about_tf(RoverNode(Rover(), tf=True))
+    assert step in " ".join(word.strip() for word in asked)
+    assert max(map(len, asked)) <= 32
+    assert about_tf(RoverNode(Rover(), tf=True, publishes_tf=True)) == ()
+    assert about_tf(RoverNode(Rover())) == ("(with /tf: rover --tf)",)
 
 
 def test_a_command_that_is_no_number_is_told_and_not_followed(

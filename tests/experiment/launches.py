@@ -13,11 +13,11 @@ from pathlib import Path
 
 from roslings.arena import Installed, Wall, choose_isolation, ros_environment
 from roslings.arena.environment import base_environment
-from roslings.course import LaunchContract
+from roslings.capabilities.launch.act import launched
+from roslings.capabilities.launch.contract import LaunchContract
 from roslings.evidence import ExperimentSeen
 from roslings.experiment import Scene, experiment
 from roslings.experiment.assignment import Assignment
-from roslings.experiment.launching import launched
 from roslings.experiment.measuring import Stage, run_all
 
 NAMES = ("left", "right")

@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 from launches import seen_of
 
+from roslings.capabilities.launch.demands import start_all
+from roslings.capabilities.launch.faults import LaunchFailed, LaunchMissesNode
 from roslings.judge import ExperimentView, Inconclusive
-from roslings.judge.faults.launching import LaunchFailed, LaunchMissesNode
-from roslings.judge.launching import start_all
 
 pytest.importorskip("rclpy")
 BOTH = start_all(["/left", "/right"])

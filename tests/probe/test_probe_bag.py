@@ -10,7 +10,7 @@ from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from roslings.evidence import ExperimentSeen, Qos, Spoken
 from roslings.probe import bag
-from roslings.probe.definition import NO_HASH, definition_of
+from roslings.rosbag2.definition import NO_HASH, definition_of
 
 TYPES = get_typestore(Stores.ROS2_JAZZY)
 STRING = "std_msgs/msg/String"

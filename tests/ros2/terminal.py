@@ -50,12 +50,16 @@ def eventually(condition: Callable[[], bool], pause_s: float = 0.01) -> None:
 class Running:
     """A process whose lines are read as they come."""
 
-    def __init__(self, command: list[str], environment: Environment, folder: Path) -> None:
+    def __init__(
+        self, command: list[str], environment: Environment, folder: Path,
+        keys: int = subprocess.DEVNULL,
+    ) -> None:  # fmt: skip
+        """`keys` is a descriptor that it reads from."""
         self.lines: list[str] = []
         mortal = [sys.executable, "-I", "-S", str(MORTAL), str(os.getpid())]
         self.process = subprocess.Popen(
             [*mortal, *command], env=environment, cwd=folder, text=True, start_new_session=True,
-            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+            stdin=keys, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
         )  # fmt: skip
         self._changed = threading.Condition()
         self._reader = threading.Thread(target=self._read, daemon=True)
@@ -122,15 +126,19 @@ class Shell:
         return Ran(done.returncode, done.stdout, done.stderr)
 
     @contextmanager
-    def start(self, *words: str, **changes: str) -> Iterator[Running]:
-        """`ros2 words...` while the block runs."""
-        with self.program(ours(*words), **changes) as running:
+    def start(
+        self, *words: str, keys: int = subprocess.DEVNULL, **changes: str
+    ) -> Iterator[Running]:
+        """`ros2 words...` while the block runs; `keys` is a descriptor that it reads from."""
+        with self.program(ours(*words), keys, **changes) as running:
             yield running
 
     @contextmanager
-    def program(self, command: list[str], **changes: str) -> Iterator[Running]:
+    def program(
+        self, command: list[str], keys: int = subprocess.DEVNULL, **changes: str
+    ) -> Iterator[Running]:
         """Any program while the block runs."""
-        running = Running(command, self.environment | changes, self.folder)
+        running = Running(command, self.environment | changes, self.folder, keys)
         try:
             yield running
         finally:

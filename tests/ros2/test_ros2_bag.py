@@ -12,13 +12,13 @@ from terminal import Shell
 
 TYPES = get_typestore(Stores.ROS2_JAZZY)
 INFO = r"""
-Files:             b\.(mcap|db3)
+Files:             b_0\.(mcap|db3)
 Bag size:          [\d.]+ (B|KiB)
 Storage id:        {storage}
-ROS Distro:        unknown
-Duration:          \d+\.\d{{3}}s
-Start:             \w{{3}} [ \d]\d \d{{4}} \d\d:\d\d:\d\d\.\d{{3}} \(\d+\.\d{{3}}\)
-End:               \w{{3}} [ \d]\d \d{{4}} \d\d:\d\d:\d\d\.\d{{3}} \(\d+\.\d{{3}}\)
+ROS Distro:        jazzy
+Duration:          \d+\.\d{{9}}s
+Start:             \w{{3}} [ \d]\d \d{{4}} \d\d:\d\d:\d\d\.\d{{9}} \(\d+\.\d{{9}}\)
+End:               \w{{3}} [ \d]\d \d{{4}} \d\d:\d\d:\d\d\.\d{{9}} \(\d+\.\d{{9}}\)
 Messages:          (?P<count>\d+)
 Topic information: Topic: /chatter \| Type: std_msgs/msg/String \| Count: \d+ \| Serialization Format: cdr
                    Topic: /cmd_vel \| Type: geometry_msgs/msg/TwistStamped \| Count: \d+ \| Serialization Format: cdr
@@ -30,7 +30,7 @@ Service information: $"""  # noqa: E501  the format has long lines
 def test_record_and_read(stage: Shell, tmp_path: Path, storage: str) -> None:
     """Ctrl-C completes the bag; every message in it can be read without ROS."""
     bag = tmp_path / "b"
-    words = ("bag", "record", "/chatter", "/cmd_vel", "-o", str(bag), "-s", storage)
+    words = ("bag", "record", "--topics", "/chatter", "/cmd_vel", "-o", str(bag), "-s", storage)
     with stage.start(*words) as record:
         record.wait_for(r"\[rosbag2_recorder\]: Subscribed to topic '/cmd_vel'")
         record.wait_for("All requested topics are subscribed")
@@ -98,7 +98,7 @@ def test_play_of_a_topic_that_is_not_in_the_bag(empty: Shell, tmp_path: Path) ->
         (("info", "nowhere"), "there is nothing of that name", 1),
         (("info", "."), "no bag can be read at '.'", 1),
         (("record",), "Must specify topics to record", 2),
-        (("record", "-a", "-o", "."), "Output folder '.' already exists", 1),
+        (("record", "-a", "-o", "."), "Output folder '.' already exists. Choose another", 1),
         (("convert", "-i", "x"), "is part of the full ros2", 2),
     ],
 )

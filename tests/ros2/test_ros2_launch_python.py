@@ -11,7 +11,7 @@ import pytest
 from launch_shop import is_gone, package, pid_of, written
 from terminal import Shell, eventually
 
-from roslings.endings import NOT_READ_HERE
+from roslings.exits import NOT_READ_HERE
 
 GOOD = """\
 from launch import LaunchDescription

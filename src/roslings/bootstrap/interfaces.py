@@ -1,6 +1,7 @@
-"""The labs' own message types, built once by colcon and kept with the environment.
+"""The course's own message types, built once by colcon and kept with the environment.
 
-A lab may hold ROS packages of types in `labs/LAB/interfaces/PACKAGE`. What Python needs of them is
+A lab may hold ROS packages of types in `labs/LAB/interfaces/PACKAGE`, and the rover has those that
+no wheel brings in `devices/interfaces/PACKAGE`. What Python needs of them is
 compiled code, one for each Python, so no file of this course can hold it: it is built here, by
 the same colcon as a student's package.
 
@@ -25,7 +26,7 @@ from roslings.bootstrap.virtual import Virtual
 
 GROUP = "interfaces"
 PARTS = ("include", "lib", "share")
-_SOURCES = "labs/*/interfaces/*"
+_SOURCES = ("labs/*/interfaces/*", "src/roslings/devices/interfaces/*")
 _STAMP = "interfaces.stamp"
 _LAST_LINES = 8
 
@@ -56,9 +57,13 @@ class Interfaces:
 
     @property
     def sources(self) -> list[Path]:
-        """The folder of each package."""
-        found = self.place.root.glob(f"{_SOURCES}/package.xml")
-        return sorted(manifest.parent for manifest in found)
+        """The folder of each package that must be built: a sourced ROS may bring some of them."""
+        return [folder for folder in packages_of(self.place.root) if not self._brought(folder.name)]
+
+    def _brought(self, package: str) -> bool:
+        prefixes = os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if self.sourced else ()
+        others = (Path(prefix) for prefix in prefixes if prefix and Path(prefix) != self.prefix)
+        return any((prefix / "share" / package).is_dir() for prefix in others)
 
     @property
     def prefix(self) -> Path:
@@ -220,9 +225,15 @@ class Interfaces:
                 shutil.copytree(built / part, self.prefix / part, dirs_exist_ok=True)
 
 
+def packages_of(root: Path) -> list[Path]:
+    """The folder of each package of types in the course."""
+    found = [manifest for place in _SOURCES for manifest in root.glob(f"{place}/package.xml")]
+    return sorted(manifest.parent for manifest in found)
+
+
 def files_of(root: Path) -> Iterator[tuple[str, Path]]:
     """Every file of the packages of types, with its name from the package's folder on."""
-    for folder in sorted(root.glob(_SOURCES)):
+    for folder in sorted(folder for place in _SOURCES for folder in root.glob(place)):
         for file in sorted(folder.rglob("*")):
             if file.is_file():
                 yield str(file.relative_to(folder.parent)), file

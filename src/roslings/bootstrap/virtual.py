@@ -19,6 +19,7 @@ _LOCAL_SETUP = """# Nothing is left to set: `source setup.bash` in the roslings 
 # done it. colcon looks for this file in each folder of AMENT_PREFIX_PATH, and warns where it is
 # missing.
 """
+_ON_THE_PATH = ("src", "src/roslings/stand_ins")
 _SHELLS = ("bash", "sh", "zsh")
 _FACTS = "import sys, sysconfig; print(sys.prefix); print(sysconfig.get_path('purelib'))"
 
@@ -77,7 +78,8 @@ class Virtual:
 
     def see(self, root: Path) -> None:
         """Programs of this environment can import the course's code, and its commands are here."""
-        (self.site / "roslings.pth").write_text(f"{root / 'src'}\n", encoding="utf-8")
+        seen = "".join(f"{root / place}\n" for place in _ON_THE_PATH)
+        (self.site / "roslings.pth").write_text(seen, encoding="utf-8")
         for name in COMMANDS:
             self._add_command(root, name)
         for shell in _SHELLS:

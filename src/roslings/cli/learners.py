@@ -94,6 +94,9 @@ def graph_options(word: argparse.ArgumentParser) -> None:
     word.add_argument(
         "path", metavar="PATH", type=Path, nargs="?", help="with --for: your package, as for check"
     )
+    word.add_argument(
+        "--tf", action="store_true", help="publish /tf too; its type is compiled once, by g++"
+    )
     word.add_argument("--save", metavar="FILE.png", type=Path, help="save a picture of it")
     word.add_argument("--force", action="store_true", help="replace FILE.png if it is there")
     word.add_argument("--all", action="store_true", help="also /rosout and other parts of ROS")
@@ -127,6 +130,9 @@ def rover_options(word: argparse.ArgumentParser) -> None:
         help="show the sentences that your nodes say, and keep the limit of /motor_state; it"
         " is one more subscription on each of these topics",
     )  # fmt: skip
+    word.add_argument(
+        "--tf", action="store_true", help="publish /tf too; its type is compiled once, by g++"
+    )
     word.add_argument("--save", metavar="FILE.png", type=Path, help="save the map at the end")
     word.add_argument("--seed", metavar="N", type=int, default=0, help="for the sensors' noise")
 

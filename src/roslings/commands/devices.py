@@ -24,7 +24,10 @@ def rover(options: argparse.Namespace) -> int:
     prepare()
     domain_id()
     check_middleware()
-    run(options.view, options.save, options.seed, options.keys, options.listen)
+    run(
+        options.view, options.save, options.seed, options.keys,
+        listens=options.listen, tf=options.tf,
+    )  # fmt: skip
     return OK
 
 

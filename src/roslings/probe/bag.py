@@ -13,8 +13,8 @@ from typing import Any, Literal
 
 from roslings.evidence import Endpoint, ExperimentSeen, Qos, Spoken
 from roslings.probe.content import from_plain
-from roslings.probe.definition import definition_of
 from roslings.probe.recorder import Recorder
+from roslings.rosbag2.definition import definition_of
 
 VERSION: Literal[9] = 9
 """The layout of Jazzy's rosbag2."""

@@ -272,6 +272,10 @@ class Eye:
         while (left_s := due_s - time.monotonic()) > 0:
             self._spin(min(left_s, SPIN_S))
 
+    def spin_some(self) -> None:
+        """Run what is due, and wait for nothing."""
+        self._spin(0.0)
+
     def _spin(self, within_s: float) -> None:
         stopping.check()
         self._executor.spin_once(timeout_sec=within_s)

@@ -15,6 +15,16 @@ def listen(*also: signal.Signals) -> None:
         signal.signal(number, _take)
 
 
+def listen_softly(*also: signal.Signals) -> None:
+    """The same, but nothing is interrupted: `check`, and whoever calls it, ends the work."""
+    for number in (signal.SIGINT, *also):
+        signal.signal(number, _note)
+
+
+def _note(*_: object) -> None:
+    _asked.set()
+
+
 def _take(*_: object) -> NoReturn:
     _asked.set()
     raise KeyboardInterrupt

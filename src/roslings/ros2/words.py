@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, NoReturn
 
 Run = Callable[[argparse.Namespace], int]
@@ -40,12 +40,15 @@ def _with_near_miss(message: str) -> str:
 class Verbs:
     """Adds the verbs of one command."""
 
-    def __init__(self, parser: argparse.ArgumentParser, absent: Iterable[str] = ()) -> None:
-        """`absent` names the verbs that only the full `ros2` has."""
+    def __init__(
+        self, parser: argparse.ArgumentParser, absent: Iterable[str] | Mapping[str, str] = ()
+    ) -> None:
+        """`absent` names the verbs that only the full `ros2` has, and what to use instead."""
         self._words = parser.add_subparsers(title="Commands", metavar="VERB", required=False)
         parser.set_defaults(run=lambda _: _show_help(parser))
         for verb in absent:
-            self._add_absent(parser.prog, verb)
+            instead = absent[verb] if isinstance(absent, Mapping) else ""
+            self._add_absent(parser.prog, verb, instead)
 
     def __call__(self, verb: str, about: str, run: Run) -> argparse.ArgumentParser:
         """A verb that calls `run`."""
@@ -58,20 +61,22 @@ class Verbs:
         word.set_defaults(run=run)
         return word
 
-    def _add_absent(self, command: str, verb: str) -> None:
+    def _add_absent(self, command: str, verb: str, instead: str) -> None:
         """It is not in the list of verbs, and says where it is when somebody types it."""
         word = self._words.add_parser(verb, add_help=False, prefix_chars="\0")
         word.add_argument("rest", nargs="*")
-        word.set_defaults(run=lambda _: only_in_full(f"{command} {verb}"))
+        word.set_defaults(run=lambda _: only_in_full(f"{command} {verb}", instead))
 
 
-def only_in_full(words: str) -> int:
-    """Say that `words` belong to the full installation."""
+def only_in_full(words: str, instead: str = "") -> int:
+    """Say that `words` belong to the full installation, and what does the same here."""
     import sys
 
     print(
         f"'{words}' is part of the full ros2, which needs Ubuntu 24.04:"
         " sudo apt install ros-jazzy-ros-base",
+        *([f"Here, use instead: {instead}"] if instead else []),
+        sep="\n",
         file=sys.stderr,
     )
     return WRONG_USE

@@ -19,6 +19,7 @@ from roslings.devices.rover.words import (
     below,
     beside,
     heard,
+    next_steps,
     position,
     said,
 )
@@ -229,8 +230,8 @@ class Lines:
         self._say("The rover is ready. It hears /cmd_vel and says " + ", ".join(said(node)) + ".")
         if node.listens:
             self._say("It also hears sentences (std_msgs/msg/String), and /motor_state.")
-        if not node.publishes_tf:
-            self._say("/tf is left out: tf2_msgs is not installed here.")
+        if node.tf and not node.publishes_tf:
+            self._say(f"/tf is left out: its type is missing. {' '.join(next_steps())}")
         if node.by_keys:
             self._say(f"{KEYS_TELL}\n{KEYS_PACE}")
             return

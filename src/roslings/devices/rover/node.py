@@ -1,4 +1,4 @@
-"""The rover as a ROS node: it listens on /cmd_vel and publishes /odom, /scan and /tf.
+"""The rover as a ROS node: it listens on /cmd_vel and publishes /odom, /scan and, asked to, /tf.
 
 What its camera sees is on /camera/image_raw, as long as somebody listens.
 """
@@ -48,6 +48,8 @@ class RoverNode:
     notice: str = ""
     """What the person at the screen should know; empty where all is well."""
     commands: int = 0
+    tf: bool = False
+    """Somebody asked for /tf."""
     publishes_tf: bool = False
     by_keys: bool = False
     """The keys of this terminal drive it."""
@@ -111,7 +113,7 @@ class RoverNode:
         self._scan = node.create_publisher(LaserScan, "scan", qos_profile_sensor_data)
         self._pictures = node.create_publisher(Image, "camera/image_raw", qos_profile_sensor_data)
         self._camera = SyntheticCamera(self.rover.eye)
-        self._tf = _tf_publisher(node)
+        self._tf = _tf_publisher(node) if self.tf else None
         self.publishes_tf = self._tf is not None
 
     def _open_timers(self) -> None:
@@ -176,7 +178,7 @@ def _what_it_cannot_do(twist: Any) -> str:
 
 
 def _tf_publisher(node: Any) -> Any | None:
-    """A publisher on /tf, where tf2_msgs is installed (it has no wheels)."""
+    """A publisher on /tf, where tf2_msgs is: no wheel has it, and `--tf` builds it."""
     try:
         from tf2_msgs.msg import TFMessage
     except ImportError:

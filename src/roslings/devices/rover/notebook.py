@@ -20,8 +20,8 @@ from roslings.models.differential_drive import Pose
 class LiveRover:
     """A rover whose node runs in a thread. Also a context manager, which stops it at its end."""
 
-    def __init__(self, rover: Rover) -> None:
-        self._rover = rover
+    def __init__(self, rover: Rover, tf: bool = False) -> None:
+        self._rover, self._tf = rover, tf
         self._stopping = threading.Event()
         self._ready = threading.Event()
         self._thread = threading.Thread(target=self._run, name="rover", daemon=True)
@@ -61,7 +61,7 @@ class LiveRover:
 
     def _run(self) -> None:
         try:
-            with RoverNode(self._rover) as node:
+            with RoverNode(self._rover, tf=self._tf) as node:
                 self._ready.set()
                 while not self._stopping.is_set():
                     node.turn()
@@ -69,7 +69,10 @@ class LiveRover:
             self._ready.set()
 
 
-def start(seed: int = 0) -> LiveRover:
-    """Start a rover. Without a word about the range, only this computer hears it."""
+def start(seed: int = 0, tf: bool = False) -> LiveRover:
+    """Start a rover; with `tf` it publishes /tf, where tf2_msgs is installed.
+
+    Without a word about the range, only this computer hears it.
+    """
     os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-    return LiveRover(Rover(seed=seed))
+    return LiveRover(Rover(seed=seed), tf)

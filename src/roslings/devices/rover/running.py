@@ -29,14 +29,16 @@ def run(
     seed: int = 0,
     keys: bool = False,
     listens: bool = False,
+    tf: bool = False,
 ) -> Rover:
     """Run the rover until Ctrl-C; returns it as it then is. With `keys`, this terminal drives it.
 
-    One that `listens` shows what others say. Raises NoWindow, CannotSave, NoTerminal.
+    One that `listens` shows what others say; with `tf` it also publishes /tf, where the type of
+    that topic is installed. Raises NoWindow, CannotSave, NoTerminal.
     """
     if picture:
         _require_place_for(picture)
-    rover = RoverNode(Rover(seed=seed), listens=listens)
+    rover = RoverNode(Rover(seed=seed), listens=listens, tf=tf)
     with driving(keys) as look, rover as node, listening() as asked:
         node.by_keys = keys
         with opened(view, node) as display:

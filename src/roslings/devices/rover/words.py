@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 
 from roslings.devices.rover.node import RoverNode
 
@@ -29,7 +30,7 @@ def beside(node: RoverNode) -> list[str]:
         *(("      sentences, /motor_state",) if node.listens else ()),
         f"says  {', '.join(said(node))}",
         "      /camera/image_raw",
-        *(() if node.publishes_tf else ("(no /tf: tf2_msgs is", " not installed here)")),
+        *about_tf(node),
         "",
         "Ctrl-C ends it",
     ]
@@ -43,6 +44,22 @@ def _limit(node: RoverNode) -> str:
 def heard(node: RoverNode) -> str:
     """The sentence that it hears now, as it is shown; empty where there is none."""
     return f'"{node.sentence.text}"' if node.sentence else ""
+
+
+def about_tf(node: RoverNode) -> tuple[str, ...]:
+    """Why there is no /tf; at most 32 columns each."""
+    if node.publishes_tf:
+        return ()
+    if not node.tf:
+        return ("(with /tf: rover --tf)",)
+    return ("no /tf: its type is missing.", *(f"  {step}" for step in next_steps()))
+
+
+def next_steps() -> tuple[str, ...]:
+    """How one gets the type of /tf."""
+    if os.environ.get("ROS_DISTRO"):
+        return ("sudo apt install", "ros-jazzy-tf2-msgs")
+    return ("sudo apt install g++", "then start the rover again")
 
 
 def said(node: RoverNode) -> list[str]:

@@ -14,8 +14,8 @@ from roslings.matching import nearest
 
 PACKAGES = (
     "action_msgs", "builtin_interfaces", "diagnostic_msgs", "example_interfaces", "geometry_msgs",
-    "nav_msgs", "rcl_interfaces", "rclpy", "sensor_msgs", "std_msgs", "std_srvs", "test_msgs",
-    "tf2_msgs", "tf2_ros", "trajectory_msgs", "visualization_msgs",
+    "nav_msgs", "rcl_interfaces", "rclpy", "rosbag2_py", "sensor_msgs", "std_msgs", "std_srvs",
+    "test_msgs", "tf2_msgs", "tf2_ros", "trajectory_msgs", "visualization_msgs",
 )  # fmt: skip
 """What a beginner imports."""
 

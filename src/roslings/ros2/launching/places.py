@@ -33,7 +33,7 @@ class NotReadHere(BadLaunchFile):
     """Right in Jazzy, and only the full ROS carries it out."""
 
     def __init__(self, place: Place | str, what: str, instead: str = "") -> None:
-        from roslings.endings import NOT_READ_HERE  # it loads pydantic: most launches need none
+        from roslings.exits import NOT_READ_HERE  # it loads pydantic: most launches need none
 
         self.exit_code = NOT_READ_HERE
         use = f" Use instead: {instead}" if instead else ""

@@ -1,0 +1,44 @@
+"""What is wrong with a bag, as `ros2 bag` says it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from roslings.ros2.problem import Problem, did_you_mean
+from roslings.rosbag2.trouble import BagTrouble
+
+
+class BagProblem(Problem):
+    """A trouble with the bag, in the form of the real command."""
+
+    def __init__(self, trouble: BagTrouble | str) -> None:
+        super().__init__(f"[ERROR] [ros2bag]: {trouble}")
+
+
+class WrongWords(Problem):
+    """Options that say nothing together."""
+
+    exit_code = 2
+
+    def __init__(self, text: str) -> None:
+        super().__init__(f"[ERROR] [ros2bag]: {text}")
+
+
+class NotInBag(Problem):
+    """The bag has no such topic."""
+
+    def __init__(self, topic: str, there: list[str]) -> None:
+        super().__init__(
+            f"[ERROR] [ros2bag]: the bag has no topic '{topic}'.{did_you_mean(topic, there)}"
+            f" It has: {', '.join(there)}"
+        )
+
+
+@contextmanager
+def told() -> Iterator[None]:
+    """A trouble with a bag in the block is a problem of the command. Raises BagProblem."""
+    try:
+        yield
+    except BagTrouble as trouble:
+        raise BagProblem(trouble) from trouble
