@@ -24,9 +24,10 @@ from course_site import (
     tables,
     words,
 )
+from course_site.colours import theme_colours
 from course_site.course import course_digest
 
-__all__ = ["course_digest", "setup"]
+__all__ = ["course_digest", "setup", "theme_colours"]
 
 
 def setup(app: Sphinx) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from roslings.batch.result import Result
 from roslings.batch.similar import Pair, alike, equal_groups
 from roslings.batch.student_pages import folder_name
 from roslings.course import Lab
-from roslings.report.html.document import POLICY, STYLE
+from roslings.report.html.document import POLICY, brand, style
 from roslings.report.html.markup import Markup, prose, tag
 from roslings.report.whole_file import write_whole
 from roslings.saving import asked_rates
@@ -53,7 +53,7 @@ def _head(lab: Lab) -> Markup:
         tag("meta", http_equiv="Content-Security-Policy", content=POLICY),
         tag("meta", name_="viewport", content="width=device-width, initial-scale=1"),
         tag("title", f"The class: {lab.card.title}"),
-        tag("style", Markup(STYLE.read_text("utf-8") + OWN_STYLE)),
+        style(OWN_STYLE),
     )
 
 
@@ -65,7 +65,7 @@ def _body(lab: Lab, found: Class, common: Iterable[int]) -> Markup:
         *_rates(lab, results), *_alike(results, common),
     )  # fmt: skip
     header = tag("header", tag("p", f"Lab {lab.name}", class_="over"), tag("h1", lab.card.title))
-    return tag("body", header, tag("main", *parts))
+    return tag("body", brand(), header, tag("main", *parts))
 
 
 def _overview(found: Class) -> Iterator[Markup]:

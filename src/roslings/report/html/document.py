@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,10 +11,12 @@ from roslings.evidence import Evidence
 from roslings.report.html import seen_part, shown_part, verdict_part
 from roslings.report.html.intervals import Asked, watched
 from roslings.report.html.markup import Markup, joined, tag
+from roslings.report.palette import variables
 from roslings.report.whole_file import write_whole
 from roslings.verdict import Verdict
 
 STYLE = Path(__file__).with_name("style.css")
+MARK = Path(__file__).with_name("roslings.svg")
 POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:"
 """What the browser may do with this page: draw it, with the pictures that it carries itself. No
 script, no address, whatever stands in it."""
@@ -57,8 +60,27 @@ def _head(verdict: Verdict, whose: str) -> Markup:
         tag("meta", name_="viewport", content="width=device-width, initial-scale=1"),
         tag("meta", name_="color-scheme", content="light dark"),
         tag("title", f"{whose or verdict.package}: {score} (lab {verdict.lab})"),
-        tag("style", Markup(STYLE.read_text("utf-8"))),
+        style(),
     )
+
+
+def style(more: str = "") -> Markup:
+    """The style of every page of the engine, in the colours of the course; `more` is a page's own.
+
+    `color-scheme` stands in it, and not only in the head: so the pictures on the page know, too.
+    """
+    return tag("style", Markup(variables() + STYLE.read_text("utf-8") + more))
+
+
+def brand(*beside: Markup) -> Markup:
+    """The line above a page's title: the course's mark and name, and links beside them."""
+    return tag("div", tag("span", _mark(), "roslings", class_="brand"), *beside, class_="top")
+
+
+def _mark() -> Markup:
+    """The drawing without what it has as a file of its own: a name space, and its name in words."""
+    drawing = MARK.read_text("utf-8")
+    return Markup(re.sub("<svg [^>]*>", '<svg viewBox="0 0 64 64" aria-hidden="true">', drawing))
 
 
 def _body(
@@ -85,11 +107,11 @@ def _body(
         tag("code", f"./roslings regrade {verdict.lab} EVIDENCE"),
     )
     whose = of_class.student if of_class else ""
-    head = joined(_way_back(of_class), verdict_part.head(verdict, whose))
+    head = joined(brand(_way_back(of_class)), verdict_part.head(verdict, whose))
     return tag("body", head, tag("main", parts), tag("footer", again))
 
 
 def _way_back(of_class: OfClass | None) -> Markup:
     if of_class is None:
         return Markup()
-    return tag("nav", tag("a", "The class", href=of_class.everybody))
+    return tag("nav", tag("a", "The class", href=of_class.everybody), aria_label="Class")
