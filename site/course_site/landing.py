@@ -15,7 +15,8 @@ from course_site.course import html
 from roslings.report import print_verdict, read_json
 
 VERDICT = Path(__file__).parents[1] / "pictures" / "verdict.json"
-COLUMNS = 50
+FAILED = "✗"
+COLUMNS = 46
 """So wide that it stands beside the rover, and can be read on a telephone."""
 FIRST_PAGES = ("days/01-install/first-15-minutes", "days/01-install/index", "reference/installing")
 SAID = "One letter is missing in a program. The course ran it, and says this."
@@ -36,11 +37,17 @@ class Hero(SphinxDirective):
             f'<p class="actions"><a class="button" href="{first}.html">Drive a robot in 15 minutes'
             '</a></p></div><div class="hero-room">'
             f'<img src="_static/rover.svg" width="360" height="270" alt="{ROVER}"></div>'
-            f'<figure class="hero-verdict"><pre class="verdict">{escape(printed())}</pre>'
+            f'<figure class="hero-verdict"><pre class="verdict">{marked()}</pre>'
             f"<figcaption>{SAID}</figcaption></figure></div>"
             '<p class="note-box review-due" hidden><span></span> '
             '<a href="review.html">Review them</a></p>'
         )]  # fmt: skip
+
+
+def marked() -> str:
+    """The same as HTML, its first words in the colour of what failed."""
+    failed = f"{FAILED} fail"
+    return escape(printed()).replace(failed, f'<b class="failed">{failed}</b>', 1)
 
 
 def printed() -> str:
@@ -51,7 +58,7 @@ def printed() -> str:
     console = Console(file=io.StringIO(), record=True, width=COLUMNS, color_system=None)
     print_verdict(read_json(VERDICT), console=console)
     text = console.export_text()
-    return text[text.index("✗") :].strip("\n")
+    return text[text.index(FAILED) :].strip("\n")
 
 
 def setup(app: Sphinx) -> None:

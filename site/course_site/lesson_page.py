@@ -45,7 +45,8 @@ def _card(document: nodes.document) -> nodes.Element | None:
 
 def _label(block: nodes.Node) -> str:
     """The bold words that a block begins with."""
-    first = next(iter(block.findall(nodes.Text)), None)
+    texts = (text for text in block.findall(nodes.Text) if text.astext())
+    first = next(texts, None)
     bold = first is not None and isinstance(first.parent, nodes.strong)
     return first.astext() if first is not None and bold else ""
 
@@ -58,10 +59,18 @@ def _show_first(document: nodes.document, name: str, card: nodes.Element) -> Non
         log.warning("The lesson has no picture '%s'. Mend: path.yaml.", name, location=document)
         return
     holder = found[0].parent
-    place = card.parent.index(card) + 1
-    card.parent.insert(place, holder.deepcopy())
+    card.parent.insert(_place_below(card), holder.deepcopy())
     if found[0] is pictures[0]:
         holder.parent.remove(holder)
+
+
+def _place_below(card: nodes.Element) -> int:
+    """After the card, and after the command that its last item asks for, where there is one."""
+    blocks = card.parent.children
+    place = card.parent.index(card) + 1
+    while place < len(blocks) and isinstance(blocks[place], nodes.literal_block):
+        place += 1
+    return place
 
 
 def _mark_guesses(document: nodes.document) -> None:
