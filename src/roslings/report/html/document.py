@@ -12,6 +12,7 @@ from roslings.report.html import seen_part, shown_part, verdict_part
 from roslings.report.html.intervals import Asked, watched
 from roslings.report.html.markup import Markup, joined, tag
 from roslings.report.palette import variables
+from roslings.report.typed import Typed
 from roslings.report.whole_file import write_whole
 from roslings.verdict import Verdict
 
@@ -30,23 +31,36 @@ class OfClass:
     everybody: str
 
 
+@dataclass(frozen=True)
+class Own:
+    """Of a page about one's own package: how it was checked, and where the lessons can be read."""
+
+    typed: Typed
+    site: str = ""
+    """The address of the built site, without a slash at its end; empty where there is none."""
+
+
+Reader = OfClass | Own
+"""For whom a page is made."""
+
+
 def write_html(
     verdict: Verdict,
     evidence: Evidence,
     asked: Sequence[Asked],
     path: Path,
-    of_class: OfClass | None = None,
+    reader: Reader | None = None,
 ) -> None:
     """Write the page to `path`, whole or not at all. Raises CannotWrite."""
-    write_whole(path, html_of(verdict, evidence, asked, of_class).encode("utf-8"))
+    write_whole(path, html_of(verdict, evidence, asked, reader).encode("utf-8"))
 
 
 def html_of(
-    verdict: Verdict, evidence: Evidence, asked: Sequence[Asked], of_class: OfClass | None = None
+    verdict: Verdict, evidence: Evidence, asked: Sequence[Asked], reader: Reader | None = None
 ) -> str:
     """The page; `asked` are the rates that the lab asks for."""
-    whose = of_class.student if of_class else ""
-    body = _body(verdict, evidence, asked, of_class)
+    whose = reader.student if isinstance(reader, OfClass) else ""
+    body = _body(verdict, evidence, asked, reader)
     page = tag("html", _head(verdict, whose), body, lang="en")
     return f"<!DOCTYPE html>\n{page}\n"
 
@@ -84,14 +98,16 @@ def _mark() -> Markup:
 
 
 def _body(
-    verdict: Verdict, evidence: Evidence, asked: Sequence[Asked], of_class: OfClass | None
+    verdict: Verdict, evidence: Evidence, asked: Sequence[Asked], reader: Reader | None
 ) -> Markup:
+    of_class = reader if isinstance(reader, OfClass) else None
+    own = reader if isinstance(reader, Own) else Own(Typed(verdict.lab))
     heard = watched(evidence, asked)
     plots = seen_part.rate_plots(verdict, heard)
     figures = {check: seen_part.topic(each) for check, each in plots.items()}
     rest = [each for each in heard if not any(each is plot for plot in plots.values())]
     parts = joined(
-        *verdict_part.body(verdict, figures),
+        *verdict_part.body(verdict, figures, own.site),
         *shown_part.pictures(evidence),
         *shown_part.ways(evidence),
         *seen_part.topics(evidence, rest),
@@ -107,7 +123,7 @@ def _body(
         tag("code", f"./roslings regrade {verdict.lab} EVIDENCE"),
     )
     whose = of_class.student if of_class else ""
-    head = joined(brand(_way_back(of_class)), verdict_part.head(verdict, whose))
+    head = joined(brand(_way_back(of_class)), verdict_part.head(verdict, own.typed, whose))
     return tag("body", head, tag("main", parts), tag("footer", again))
 
 
