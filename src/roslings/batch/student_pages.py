@@ -109,7 +109,7 @@ def _page(name: str, heading: str, lines: Iterator[str] | list[str]) -> str:
         style(),
     )
     over = tag("p", name, class_="over")
-    back = tag("nav", tag("a", "The class", href=CLASS_PAGE), aria_label="Class")
+    back = tag("a", "The class", href=CLASS_PAGE)
     body = tag(
         "body",
         brand(back),

@@ -88,7 +88,8 @@ def style(more: str = "") -> Markup:
 
 def brand(*beside: Markup) -> Markup:
     """The line above a page's title: the course's mark and name, and links beside them."""
-    return tag("div", tag("span", _mark(), "roslings", class_="brand"), *beside, class_="top")
+    name = tag("span", _mark(), "roslings", class_="brand")
+    return tag("nav", name, *beside, class_="top", aria_label="roslings")
 
 
 def _mark() -> Markup:
@@ -130,4 +131,4 @@ def _body(
 def _way_back(of_class: OfClass | None) -> Markup:
     if of_class is None:
         return Markup()
-    return tag("nav", tag("a", "The class", href=of_class.everybody), aria_label="Class")
+    return tag("a", "The class", href=of_class.everybody)
