@@ -110,10 +110,7 @@ def _page(name: str, heading: str, lines: Iterator[str] | list[str]) -> str:
     )
     over = tag("p", name, class_="over")
     back = tag("a", "The class", href=CLASS_PAGE)
-    body = tag(
-        "body",
-        brand(back),
-        tag("header", over, tag("h1", heading)),
-        *(tag("p", prose(x)) for x in lines),
-    )
+    header = tag("header", over, tag("h1", heading))
+    told = tag("main", *(tag("p", prose(line)) for line in lines))
+    body = tag("body", brand(back), header, told)
     return f"<!DOCTYPE html>\n{tag('html', head, body, lang='en')}\n"
