@@ -18,6 +18,9 @@ from roslings.ros2.surroundings import domain_id, prepare
 LOGS = {"RCUTILS_LOGGING_USE_STDOUT": "1", "RCUTILS_LOGGING_BUFFERED_STREAM": "0"}
 """A node's log lines stand among the cell's other output, and not in red as an error does."""
 
+ON_THE_SITE = "ROSLINGS_SITE"
+"""Set where the website runs a lesson: the quiz has a page of its own there, for example."""
+
 _held: dict[int, socket.socket] = {}
 """The domain of this process, with its lease; empty until a cell first needs it."""
 
@@ -32,6 +35,11 @@ def settle_in() -> int:
         domain, held = _lease(domain_id())
         _held[domain] = held
     return next(iter(_held))
+
+
+def on_the_site() -> bool:
+    """The website is built, and nobody sits before this notebook."""
+    return bool(os.environ.get(ON_THE_SITE))
 
 
 def _fill_in() -> None:
