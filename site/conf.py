@@ -7,7 +7,9 @@ from pathlib import Path
 HERE = Path(__file__).parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "src")]
 
-from course_site import course_digest  # noqa: E402  found by the line above
+from course_site import course_digest, theme_colours  # noqa: E402  found by the line above
+
+from roslings.report.html.document import MARK  # noqa: E402
 
 # For the cells of the lessons: the quiz has a page of its own here, and nobody's work is checked.
 os.environ["ROSLINGS_SITE"] = "1"
@@ -40,8 +42,7 @@ html_theme = "furo"
 html_title = "roslings"
 html_static_path = ["static"]
 templates_path = ["templates"]
-html_logo = "static/roslings.svg"
-html_favicon = "static/roslings.svg"
+html_logo = html_favicon = str(MARK)
 html_css_files = ["course.css"]
 # Plain scripts in this order: module scripts do not load from file://.
 html_js_files = [(name, {"defer": "defer"}) for name in ("progress.js", "words.js", "page.js")]
@@ -62,29 +63,8 @@ html_theme_options = {
     "light_css_variables": {
         "font-stack": _SANS,
         "font-stack--monospace": _MONO,
-        "color-brand-primary": "#0a5a55",
-        "color-brand-content": "#0a5a55",
         "color-brand-visited": "#4d3a86",
-        "color-foreground-secondary": "#4c555e",
-        "color-foreground-muted": "#59626b",
-        "course-right": "#1d6b2c",
-        "course-wrong": "#a3261b",
-        "course-soft": "#eef6f5",
-        "course-line": "#c3d5d3",
-        "course-button": "#0a5a55",
-        "course-on-button": "#ffffff",
+        **theme_colours("light"),
     },
-    "dark_css_variables": {
-        "color-brand-primary": "#6fd3c9",
-        "color-brand-content": "#6fd3c9",
-        "color-brand-visited": "#c3b1f5",
-        "color-foreground-secondary": "#b4bdc6",
-        "color-foreground-muted": "#a3adb7",
-        "course-right": "#7ddb8f",
-        "course-wrong": "#ff9d92",
-        "course-soft": "#17262a",
-        "course-line": "#35504f",
-        "course-button": "#6fd3c9",
-        "course-on-button": "#06201e",
-    },
+    "dark_css_variables": {"color-brand-visited": "#c3b1f5", **theme_colours("dark")},
 }

@@ -14,6 +14,7 @@ from course_site import (
     few_tags,
     glossary_page,
     landing,
+    lesson_page,
     maths,
     navigation,
     one_sheet,
@@ -22,11 +23,13 @@ from course_site import (
     run_box,
     small_scripts,
     tables,
+    terminals,
     words,
 )
+from course_site.colours import theme_colours
 from course_site.course import course_digest
 
-__all__ = ["course_digest", "setup"]
+__all__ = ["course_digest", "setup", "theme_colours"]
 
 
 def setup(app: Sphinx) -> dict[str, Any]:
@@ -42,6 +45,8 @@ def setup(app: Sphinx) -> dict[str, Any]:
         path_of_days,
         day_box,
         run_box,
+        lesson_page,
+        terminals,
         landing,
     ):
         part.setup(app)

@@ -20,6 +20,8 @@ from roslings.lessons import Day, read_lessons
 COMMANDS = Path(ros2.__file__).with_name("COMMANDS.md")
 NOT_A_PAGE = ("quiz.yaml", "lesson.ipynb")
 DRILLS = "drills"
+IMPORTS = "imports"
+"""The cell of a lesson that only makes the others ready."""
 LINK_TO_LESSON = re.compile(r"\]\(((?:\.\./[0-9a-z-]+/)?)lesson\.ipynb")
 LINK_TO_PAGE = "](../../site/pages/"
 LINK_TO_TASK = re.compile(r"\]\(\.\./\.\./labs/([0-9a-z-]+)/task\.md")
@@ -109,6 +111,9 @@ def _with_tree(lesson: Path, quiz: Path) -> str:
     pages = sorted(str(p.relative_to(folder).with_suffix("")) for p in folder.rglob("*.md"))
     pages += [f"Quiz <{quiz.stem}>"] if quiz.is_file() else []
     notebook = json.loads(_linked(lesson))
+    for cell in notebook["cells"]:
+        if cell.get("id") == IMPORTS:  # becomes a class of the cell on the page
+            cell["metadata"].setdefault("tags", []).append(IMPORTS)
     if pages:
         tree = "\n".join(["```{toctree}", ":hidden:", "", *pages, "```"])
         cell = {"cell_type": "markdown", "id": "tree-of-the-day", "metadata": {}, "source": tree}

@@ -1,4 +1,4 @@
-"""What a visitor sees first: the rover, one button, and a verdict as the course gives it."""
+"""What a visitor sees first: one button, the rover, and beside it a verdict of the course."""
 
 from __future__ import annotations
 
@@ -15,46 +15,52 @@ from course_site.course import html
 from roslings.report import print_verdict, read_json
 
 VERDICT = Path(__file__).parents[1] / "pictures" / "verdict.json"
-COLUMNS = 72
+FAILED = "✗"
+COLUMNS = 46
+"""So wide that it stands beside the rover, and can be read on a telephone."""
 FIRST_PAGES = ("days/01-install/first-15-minutes", "days/01-install/index", "reference/installing")
+SAID = "One letter is missing in a program. The course ran it, and says this."
 ROVER = "A small robot drives round a room, along a dotted line, past a red ball."
 
 
 class Hero(SphinxDirective):
-    """`{hero}`: what the course is, the rover, and the button that begins."""
+    """`{hero}`: what the course is, the button that begins, the rover, and a verdict."""
 
     def run(self) -> list[nodes.Node]:
         """The first of the first pages that this course has."""
+        self.env.note_dependency(str(VERDICT))
         first = next(page for page in FIRST_PAGES if page in self.env.found_docs)
         return [html(
-            '<div class="hero"><div><p class="lead">Seven days, from the first two programs that'
-            " talk to a robot that sees. You build each part yourself. The course runs what you"
-            " built, and says what to do next.</p>"
+            '<div class="hero"><div class="hero-words"><p class="lead">Seven days, from the first'
+            " two programs that talk to a robot that sees. You build each part yourself. The"
+            " course runs what you built, and says what to do next.</p>"
             f'<p class="actions"><a class="button" href="{first}.html">Drive a robot in 15 minutes'
-            '</a></p></div>'
+            '</a></p></div><div class="hero-room">'
             f'<img src="_static/rover.svg" width="360" height="270" alt="{ROVER}"></div>'
+            f'<figure class="hero-verdict"><pre class="verdict">{marked()}</pre>'
+            f"<figcaption>{SAID}</figcaption></figure></div>"
             '<p class="note-box review-due" hidden><span></span> '
             '<a href="review.html">Review them</a></p>'
         )]  # fmt: skip
 
 
-class RealVerdict(SphinxDirective):
-    """`{real-verdict}`: a kept verdict, printed by the engine's own report."""
-
-    def run(self) -> list[nodes.Node]:
-        """The same text as in a terminal."""
-        self.env.note_dependency(str(VERDICT))
-        return [html(f'<pre class="verdict">{escape(printed())}</pre>')]
+def marked() -> str:
+    """The same as HTML, its first words in the colour of what failed."""
+    failed = f"{FAILED} fail"
+    return escape(printed()).replace(failed, f'<b class="failed">{failed}</b>', 1)
 
 
 def printed() -> str:
-    """The verdict as a terminal without colours shows it."""
+    """How a terminal without colours ends with the kept verdict: from what failed to what is next.
+
+    Raises ValueError where nothing failed.
+    """
     console = Console(file=io.StringIO(), record=True, width=COLUMNS, color_system=None)
     print_verdict(read_json(VERDICT), console=console)
-    return console.export_text().strip("\n")
+    text = console.export_text()
+    return text[text.index(FAILED) :].strip("\n")
 
 
 def setup(app: Sphinx) -> None:
     """Called by Sphinx."""
     app.add_directive("hero", Hero)
-    app.add_directive("real-verdict", RealVerdict)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from html import escape
 
 from docutils import nodes
@@ -11,6 +12,7 @@ from sphinx.util.docutils import SphinxDirective
 
 from course_site.course import MarkdownDirective, html, lessons_of
 from roslings.course import Lab, all_labs
+from roslings.course.card import NodeContract
 from roslings.lessons import Day, Quiz, Term
 
 
@@ -95,36 +97,39 @@ class DaysTree(MarkdownDirective):
 class LabCards(MarkdownDirective):
     """`{labs}`: a card a lab, drawn from its card.yaml."""
 
-    def markdown(self) -> str:
-        """A section a lab, and the tree of their tasks."""
-        labs = all_labs()
-        tree = "\n".join(lab.name for lab in labs)
-        cards = "\n".join(_lab_card(lab, self._day(lab)) for lab in labs)
-        return f"{cards}\n\n```{{toctree}}\n:hidden:\n\n{tree}\n```"
-
-    def _day(self, lab: Lab) -> str:
+    def run(self) -> list[nodes.Node]:
+        """The cards, and the tree of their tasks."""
         days = {day.id: day.name for day in lessons_of(self.config).days}
-        return days.get(lab.card.day, lab.card.day)
+        cards = "".join(_lab_card(lab, days.get(lab.card.day, lab.card.day)) for lab in all_labs())
+        return [html(f'<ul class="lab-cards">{cards}</ul>'), *super().run()]
+
+    def markdown(self) -> str:
+        """A hidden table of contents."""
+        tree = "\n".join(lab.name for lab in all_labs())
+        return f"```{{toctree}}\n:hidden:\n\n{tree}\n```"
 
 
 def _lab_card(lab: Lab, day: str) -> str:
     card = lab.card
-    rows = "".join(
-        f"- node `{node.node}`, started by `{node.executable}`\n"
-        + "".join(f"- publishes {_topic(t.topic, t.type, t.rate)}\n" for t in node.publishes)
-        + "".join(f"- subscribes to {_topic(t.topic, t.type)}\n" for t in node.subscribes)
-        for node in card.nodes
-    )
     return (
-        f":::{{container}} lab-card\n**[{card.title}]({lab.name}.md)**\n\n"
-        f"{day} · package `{card.package}` · {len(card.points)} checks\n\n{rows}\n"
-        f"`./roslings start {lab.name}`\n:::\n"
+        f'<li class="lab-card"><p class="lab-day">{escape(day)}</p>'
+        f'<h2><a href="{lab.name}.html">{escape(card.title)}</a></h2>'
+        f'<ul class="lab-names">{"".join(_names(card.nodes))}</ul>'
+        f"<p>Package <code>{escape(card.package)}</code> · {len(card.points)} checks</p>"
+        f"<pre data-copy>./roslings start {lab.name}</pre></li>"
     )
 
 
-def _topic(topic: str, type_: str, rate: object = None) -> str:
-    often = f" at {rate.hz:g} Hz" if rate is not None and hasattr(rate, "hz") else ""
-    return f"`{topic}` (`{type_}`){often}"
+def _names(contracts: Sequence[NodeContract]) -> Iterator[str]:
+    """Each name of the card once, in the colour of its kind: what a student makes, and meets."""
+    for kind, names in {
+        "node": [each.node for each in contracts],
+        "topic": [t.topic for each in contracts for t in (*each.publishes, *each.subscribes)],
+        "service": [s.service for each in contracts for s in (*each.serves, *each.calls)],
+        "action": [a.action for each in contracts for a in (*each.performs, *each.orders)],
+    }.items():
+        for name in dict.fromkeys(names):
+            yield f'<li class="kind {kind}"><span>{kind}</span> <code>{escape(name)}</code></li>'
 
 
 def setup(app: Sphinx) -> None:

@@ -1,18 +1,23 @@
-"""Draw a verdict as the picture in README.md: `python site/pictures/draw_verdict.py FILE.json`."""
+"""Draw a verdict as it looks in a terminal: `python site/pictures/draw_verdict.py JSON SVG TITLE`.
+
+README.md shows `site/pictures/verdict.svg`, and the first 15 minutes show
+`days/01-install/pictures/one-letter.svg`, drawn from `site/pictures/verdict.json`.
+"""
 
 from __future__ import annotations
 
 import io
 import sys
+from html import escape
 from pathlib import Path
 
 from rich.console import Console
 
 from roslings.report import print_verdict, read_json
 
-HERE = Path(__file__).parent
-FRAME = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" role="img">
-<title>The verdict on a talker with two mistakes</title>
+FRAME = """<svg class="terminal" xmlns="http://www.w3.org/2000/svg"
+viewBox="0 0 {width} {height}" role="img">
+<title>TITLE</title>
 <style>
 .{unique_id}-matrix {{ font-family: "DejaVu Sans Mono", Menlo, Consolas, monospace;
 font-size: {char_height}px; line-height: {line_height}px; }}
@@ -35,12 +40,13 @@ font-size: {char_height}px; line-height: {line_height}px; }}
 """
 
 
-def main(verdict: Path) -> None:
-    """Write `verdict.svg`; no font and nothing else is fetched when it is shown."""
+def main(verdict: Path, picture: Path, title: str) -> None:
+    """Write `picture`; no font and nothing else is fetched when it is shown."""
     console = Console(record=True, width=80, file=io.StringIO(), force_terminal=True, height=60)
     print_verdict(read_json(verdict), console=console)
-    console.save_svg(str(HERE / "verdict.svg"), title="", code_format=FRAME, unique_id="verdict")
+    frame = FRAME.replace("TITLE", escape(title).replace("{", "{{").replace("}", "}}"))
+    console.save_svg(str(picture), title="", code_format=frame, unique_id=picture.stem)
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]))
+    main(Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3])

@@ -155,6 +155,6 @@
   // --- print: what is folded is unfolded --------------------------------------------------------
 
   addEventListener("beforeprint", () => {
-    for (const part of document.querySelectorAll(".page-words details")) part.open = true;
+    for (const part of document.querySelectorAll(".page-words details, details.folded")) part.open = true;
   });
 })();

@@ -13,7 +13,7 @@ from roslings.evidence import Evidence
 from roslings.experiment.run_folder import run_folder
 from roslings.report import write_json
 from roslings.report.evidence_folder import CannotKeepThere, fill, in_the_making, require_free
-from roslings.report.html import Asked, OfClass, write_html
+from roslings.report.html import Asked, Reader, write_html
 from roslings.verdict import Verdict
 
 BAGS, VERDICT, PAGE = "bags", "verdict.json", "report.html"
@@ -47,9 +47,9 @@ class Graded:
     verdict: Verdict
     evidence: Evidence
 
-    def write_page(self, path: Path, of_class: OfClass | None = None) -> None:
+    def write_page(self, path: Path, reader: Reader | None = None) -> None:
         """Write the page for a browser. Raises CannotWrite."""
-        write_html(self.verdict, self.evidence, asked_rates(self.lab), path, of_class)
+        write_html(self.verdict, self.evidence, asked_rates(self.lab), path, reader)
 
 
 def asked_rates(lab: Lab) -> list[Asked]:

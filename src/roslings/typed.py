@@ -13,6 +13,7 @@ from roslings import course
 from roslings.workspace.errors import quoted
 
 if TYPE_CHECKING:
+    from roslings.report.html import Own
     from roslings.report.typed import Typed
 
 FLAGS = ("solution", "trust")
@@ -34,6 +35,14 @@ def as_typed(options: argparse.Namespace) -> Typed:
     path = getattr(options, "path", None)
     place = (quoted(path),) if path else ()
     return Typed(options.lab, program(), place, tuple(_options(options)))
+
+
+def own_page(options: argparse.Namespace) -> Own:
+    """For the page of a student's own check: the same words, and the site that was built here."""
+    from roslings.report.html import Own
+
+    site = course.root() / "build" / "site" / "html"
+    return Own(as_typed(options), site.as_uri() if (site / "index.html").is_file() else "")
 
 
 def _options(options: argparse.Namespace) -> Iterator[str]:

@@ -266,7 +266,8 @@ def drawn(works: Works, windows: Sequence[Window], shot: Shot) -> str:
     parts = [part for top, each in zip(tops, windows, strict=False) for part in _drawn(each, top)]
     total = tops[-1] + high + 3 * EDGE_PX
     return "\n".join([
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDE_PX:g} {total:g}"'
+        '<svg class="terminal" xmlns="http://www.w3.org/2000/svg"'
+        f' viewBox="0 0 {WIDE_PX:g} {total:g}"'
         f' width="{WIDE_PX:g}" height="{total:g}">',
         f"<title>{escape(works.alt)}</title>",
         f"<style>{STYLE}</style>",

@@ -59,6 +59,45 @@ with session() as ros:
     assert "4 periods" in alt_of(ran.shown[0]) and "3 periods of /words" in alt_of(ran.shown[1])
 
 
+ON_THE_SITE = """
+import os
+class Steady(Node):
+    def __init__(self):
+        super().__init__("steady")
+        self.publisher = self.create_publisher(String, "even", 10)
+        self.timer = self.create_timer(0.2, self.tell)
+    def tell(self):
+        self.publisher.publish(String(data="x"))
+class Sleepy(Steady):
+    def tell(self):
+        super().tell()
+        import time
+        time.sleep(0.3)
+os.environ["ROSLINGS_SITE"] = "1"
+try:
+    for kind in (Steady, Sleepy):
+        with session() as ros:
+            ros.start(kind)
+            plot_intervals("/even", count=6)
+            print(len(ros.collect("/even", count=2)), "more")
+finally:
+    del os.environ["ROSLINGS_SITE"]
+"""
+
+
+def test_on_the_site_a_timer_is_plotted_in_simulated_time(cells: Kernel) -> None:
+    """A busy computer is not in it; a callback that sleeps is slow by itself, and shown so."""
+    ran = cells.run(ON_THE_SITE)
+    assert ran.error == "", ran
+    assert ran.text.count("2 more") == 2, "the nodes live by the wall's clock again"
+    even, slow = map(alt_of, ran.shown)
+    assert "the shortest 200.0 ms, the longest 200.0 ms" in even
+    assert b"simulated seconds" in content_of(ran.shown[0])
+    assert b"simulated seconds" not in content_of(ran.shown[1])
+    shortest = re.search(r"the shortest ([\d.]+) ms", slow)
+    assert shortest and float(shortest[1]) > 250
+
+
 def test_intervals_need_stamps_and_two_messages(cells: Kernel) -> None:
     """Each says how to get them."""
     assert "stamps=True" in cells.run("plot_intervals([String()])").said

@@ -7,6 +7,7 @@ import re
 from collections import Counter
 from collections.abc import Sequence
 from html.parser import HTMLParser
+from itertools import pairwise
 
 import pytest
 from written_evidence import evidence, messages, process, steady, talking
@@ -15,11 +16,12 @@ from written_verdicts import HINTS, TOO_SLOW, failing, left_open, too_slow, verd
 
 from roslings.evidence import Evidence, ExperimentSeen, LogLine, Qos, Segment, Spoken, Tick
 from roslings.rates import measure_rate
-from roslings.report.html import Asked, html_of
+from roslings.report.html import Asked, Own, html_of
 from roslings.report.html.interval_plot import BOTTOM, TOP, interval_plot
 from roslings.report.html.intervals import watched
 from roslings.report.html.markup import prose, tag
 from roslings.report.html.slips import marked
+from roslings.report.typed import Typed
 from roslings.verdict import Verdict
 
 ASKED = [Asked("/chatter", STRING, 2.0, 1.9, 2.1)]
@@ -123,6 +125,16 @@ def test_the_page_says_what_is_next() -> None:
     assert "./roslings pack topics" in page(evidence()).text
 
 
+def test_what_to_read_is_a_link_where_the_site_is_built() -> None:
+    """And what is typed next is what was typed, the package's place included."""
+    typed = Typed("topics", place=("~/mine",))
+    seen = evidence(talking(messages(steady(1.0, 12))))
+    linked = html_of(too_slow(), seen, ASKED, Own(typed, "file:///site"))
+    assert re.search(r'<a href="file:///site/days/[\w-]+/index.html#[\w-]+">days/', linked)
+    assert "./roslings check topics ~/mine" in linked
+    assert "<a " not in html_of(too_slow(), seen, ASKED, Own(typed))
+
+
 def test_a_rate_that_failed_has_its_plot_in_its_card() -> None:
     """Once on the page, and above the checks that pass."""
     text = html_of(too_slow(), evidence(talking(messages(steady(1.0, 12)))), ASKED)
@@ -205,6 +217,10 @@ def test_the_steps_of_the_clock_are_no_jitter(period_s: float) -> None:
     text = page(evidence(seen)).text
     assert "less than one step of the simulated clock (100.0 ms)" in text
     assert "400.0 ms" not in text
+    gaps_s = [after.end_s - before.end_s for before, after in pairwise(each.intervals)]
+    assert gaps_s == pytest.approx([each.intervals[0].period_s] * len(gaps_s))
+    assert "give or take" in text
+    assert "p95" not in text  # nobody can tell
 
 
 def test_what_no_step_explains_is_shown() -> None:

@@ -88,7 +88,12 @@ def test_the_front_page_begins_and_tells_where_the_reader_is(visit: Visit) -> No
     page = visit.go("index.html")
     rover = page.locator(".hero img")
     assert rover.evaluate("image => image.complete && image.naturalWidth > 0")
-    assert "fail" in page.locator("pre.verdict").inner_text()
+    verdict = page.locator(".hero pre.verdict")
+    assert "fail" in verdict.inner_text()
+    assert "Next " in verdict.inner_text()
+    for width in (1280, 390):
+        page.set_viewport_size({"width": width, "height": 900})
+        assert verdict.evaluate("pre => pre.scrollWidth <= pre.clientWidth")
     here = page.locator(".path-day.here")
     assert here.get_attribute("data-day") == "01-install"
     page.evaluate("roslings.finishDay('01-install')")
@@ -102,6 +107,93 @@ def test_a_lesson_tells_how_to_open_it(visit: Visit) -> None:
     page = visit.go("days/03-topics/index.html")
     assert page.locator(".run-box pre").inner_text().strip() == "./roslings lab 3"
     assert "press Shift" not in page.locator("article").inner_text()
+
+
+def test_the_first_screen_of_a_lesson_has_its_card_and_its_drawing(visit: Visit) -> None:
+    """Goal, level, time and need; then the picture, before any code; the imports are folded."""
+    page = visit.go("days/03-topics/index.html")
+    labels = page.locator(".day-card li strong").all_inner_texts()
+    assert [label.rstrip(":.") for label in labels] == ["Goal", "Level", "Time", "You need"]
+    pictures = page.locator("article img")
+    assert pictures.count() == 1  # it was the next one on the page, and has moved
+    box = pictures.bounding_box()
+    assert box
+    assert box["y"] + box["height"] < 900
+    assert page.locator(".cell_input:visible").first.bounding_box()["y"] > box["y"]
+    imports = page.locator(".tag_imports pre").first
+    assert not imports.is_visible()
+    page.get_by_text("The imports of this page").click()
+    assert imports.is_visible()
+
+
+def test_what_the_reader_does_stands_in_a_box(visit: Visit) -> None:
+    """What to guess, and what to change: there, what it says before waits for a click."""
+    page = visit.go("days/03-topics/index.html")
+    assert page.locator("p.guess").inner_text().startswith("Before you run:")
+    turn = page.locator(".your-turn")
+    assert turn.inner_text().startswith("Your turn")
+    assert "number = 3" in turn.locator(".cell_input").inner_text()
+    output = turn.locator(".cell_output")
+    assert not output.is_visible()
+    turn.get_by_text("before you change it").click()
+    assert "Still 3" in output.inner_text()
+
+
+def test_a_folded_part_is_open_on_paper(visit: Visit) -> None:
+    """Nobody can click there."""
+    page = visit.go("days/03-topics/index.html")
+    folded = page.locator("details.folded, .page-words details")
+    assert folded.count() > 2
+    page.evaluate("dispatchEvent(new Event('beforeprint'))")
+    assert folded.evaluate_all("parts => parts.every(part => part.open)")
+
+
+def test_a_drawing_is_dark_on_a_dark_page_unless_it_is_a_terminal(browser: Any, site: Path) -> None:
+    """White drawings are turned round; a terminal is dark already."""
+    context = browser.new_context(color_scheme="dark")
+    look = "image => getComputedStyle(image).filter"
+    visit = Visit(context, site.as_uri())
+    drawing = visit.go("days/03-topics/index.html").locator("article img").first
+    assert "invert" in drawing.evaluate(look)
+    terminal = visit.go("labs/topics.html").locator("article img.terminal")
+    assert terminal.evaluate(look) == "none"
+    context.close()
+
+
+def test_a_drawing_on_a_phone_can_be_read_and_scrolled(browser: Any, site: Path) -> None:
+    """At least 34rem wide, in a holder that scrolls and that the keyboard reaches."""
+    context = browser.new_context(viewport={"width": 390, "height": 900})
+    drawing = Visit(context, site.as_uri()).go("days/03-topics/index.html").locator("article img")
+    assert drawing.first.evaluate("image => image.clientWidth") >= 34 * 16
+    holder = drawing.first.locator("xpath=..")
+    assert holder.evaluate("part => part.clientWidth < 390 && part.scrollWidth > 390")
+    assert holder.evaluate("part => part.tabIndex") == 0
+    context.close()
+
+
+def test_code_can_be_read_and_copied(visit: Visit) -> None:
+    """14.5 pixels, a button, and the two sides of a diff in two colours."""
+    page = visit.go("days/01-install/page.html")
+    diff = page.locator(".highlight-diff pre")
+    assert diff.evaluate("pre => parseFloat(getComputedStyle(pre).fontSize)") >= 14.4
+    assert diff.evaluate("pre => getComputedStyle(pre).borderTopWidth") == "1px"
+    colour = "part => getComputedStyle(part).color"
+    assert diff.locator(".gd").evaluate(colour) != diff.locator(".gi").evaluate(colour)
+    if visit.base.startswith("http"):  # a file has no clipboard
+        assert page.locator(".highlight-diff button.copy").is_visible()
+
+
+def test_a_lab_is_a_card_with_its_names(visit: Visit) -> None:
+    """Nodes and topics of its card, each kind in its colour, once."""
+    page = visit.go("labs/index.html")
+    card = page.locator(".lab-card")
+    assert card.locator(".node code").all_inner_texts() == ["/talker", "/listener"]
+    assert card.locator(".topic code").all_inner_texts() == ["/chatter"]
+    ground = "part => getComputedStyle(part).backgroundColor"
+    assert card.locator(".node").first.evaluate(ground) != card.locator(".topic").evaluate(ground)
+    assert "./roslings start topics" in card.locator("pre").inner_text()
+    card.get_by_role("link").click()
+    assert page.url.endswith("labs/topics.html")
 
 
 def test_the_side_bar_has_one_entry_a_day(visit: Visit) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import statistics
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Sequence
@@ -12,31 +13,37 @@ from roslings.batch.result import Result
 from roslings.batch.similar import Pair, alike, equal_groups
 from roslings.batch.student_pages import folder_name
 from roslings.course import Lab
-from roslings.report.html.document import POLICY, STYLE
+from roslings.report.html.document import POLICY, brand, style
 from roslings.report.html.markup import Markup, prose, tag
 from roslings.report.whole_file import write_whole
 from roslings.saving import asked_rates
 
 OWN_STYLE = """
-main { overflow-x: auto; }
+.holder { overflow-x: auto; }
 table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; }
 th, td { padding: .3rem .6rem .3rem 0; text-align: left; vertical-align: top; }
 th { border-bottom: 1px solid var(--edge); }
 th, td code { overflow-wrap: normal; white-space: nowrap; }
-td.number, th.number { text-align: right; }
+th:first-child, td:first-child { min-width: 4.5rem; overflow-wrap: break-word; }
+td.words { min-width: 11rem; overflow-wrap: break-word; }
 th:first-child, td:first-child { position: sticky; left: 0; background: var(--ground); }
 .outcome.pass { color: var(--good); }
 .outcome.fail { color: var(--bad); }
 .outcome.inconclusive, .outcome.refused { color: var(--open); }
+.counts .refused { color: var(--open); }
 .axis-ends { display: flex; justify-content: space-between; font-size: .85rem; }
 svg.part { width: 8rem; height: .7rem; vertical-align: middle; }
 svg.part rect { fill: var(--link); }
+@media (max-width: 640px) { svg.part { width: 3rem; } }
 svg.spread { display: block; width: 100%; height: 5rem; }
 svg.spread rect.right { fill: var(--band); }
 svg.spread line { stroke: var(--edge); }
 svg.spread ellipse { fill: var(--dot); fill-opacity: .5; }
 """
 STEPS = 10
+WORDS = 3
+"""More in a cell are a sentence."""
+TAG = re.compile("<[^>]*>")
 WIDTH, HEIGHT = 720.0, 60.0
 
 
@@ -53,7 +60,7 @@ def _head(lab: Lab) -> Markup:
         tag("meta", http_equiv="Content-Security-Policy", content=POLICY),
         tag("meta", name_="viewport", content="width=device-width, initial-scale=1"),
         tag("title", f"The class: {lab.card.title}"),
-        tag("style", Markup(STYLE.read_text("utf-8") + OWN_STYLE)),
+        style(OWN_STYLE),
     )
 
 
@@ -65,7 +72,7 @@ def _body(lab: Lab, found: Class, common: Iterable[int]) -> Markup:
         *_rates(lab, results), *_alike(results, common),
     )  # fmt: skip
     header = tag("header", tag("p", f"Lab {lab.name}", class_="over"), tag("h1", lab.card.title))
-    return tag("body", header, tag("main", *parts))
+    return tag("body", brand(), header, tag("main", *parts))
 
 
 def _overview(found: Class) -> Iterator[Markup]:
@@ -88,7 +95,7 @@ def _scores(grades: Sequence[Grade]) -> Iterator[Markup]:
               str(counts[step])))
         for step in range(STEPS)
     ]  # fmt: skip
-    yield tag("section", tag("h2", "Scores"), _table(("score", "", "how many"), rows))
+    yield tag("section", tag("h2", "Scores"), _table(("score", "part of all", "how many"), rows))
 
 
 def _checks(results: Sequence[Result]) -> Iterator[Markup]:
@@ -115,7 +122,7 @@ def _checks(results: Sequence[Result]) -> Iterator[Markup]:
 
 def _check_table(rows: Sequence[Markup]) -> Iterator[Markup]:
     if rows:
-        yield _table(("check", "what it asks", "", "fail", "skipped"), rows)
+        yield _table(("check", "what it asks", "part of all", "fail", "skipped"), rows)
 
 
 def _folded_checks(rows: Sequence[Markup]) -> Iterator[Markup]:
@@ -227,7 +234,7 @@ def _everybody(grades: Sequence[Grade]) -> Iterator[Markup]:
         for grade in sorted(grades, key=lambda grade: (-1.0 if grade.final is None
                                                        else grade.final))
     ]  # fmt: skip
-    head = ("who", "submission", "outcome", "score", "")
+    head = ("who", "submission", "outcome", "score", "remark")
     yield tag("section", tag("h2", "Everybody"), _table(head, rows))
 
 
@@ -245,7 +252,12 @@ def _remark(grade: Grade) -> str:
         who = f"{grade.override.by}: {grade.override.reason}"
         return f"score given by a person (measured: {measured}). {who}"
     late = f"{grade.late_days} days late, costs {grade.late_points:g}. " if grade.late_days else ""
-    return late + (grade.result.reason.split("\n")[0] if grade.result else "")
+    return late + (_one_line(grade.result.reason) if grade.result else "")
+
+
+def _one_line(reason: str) -> str:
+    """A reason that ends in a colon goes on below it, as in a terminal."""
+    return " ".join(line.strip() for line in reason.splitlines())
 
 
 def _link(submission: str) -> Markup:
@@ -253,12 +265,21 @@ def _link(submission: str) -> Markup:
 
 
 def _table(head: Sequence[str], rows: Sequence[Markup]) -> Markup:
+    """In a holder of its own, which scrolls where a screen is narrow; its first column stays."""
     top = tag("tr", *(tag("th", cell, scope="col") for cell in head))
-    return tag("table", tag("thead", top), tag("tbody", *rows))
+    table = tag("table", tag("thead", top), tag("tbody", *rows))
+    name = f"table: {', '.join(filter(None, head))}"
+    return tag("div", table, class_="holder", tabindex="0", role="group", aria_label=name)
 
 
 def _row(cells: Sequence[str]) -> Markup:
-    return tag("tr", *(tag("td", cell) for cell in cells))
+    return tag("tr", *map(_cell, cells))
+
+
+def _cell(text: str) -> Markup:
+    """A sentence gets room, a name or a number only what it needs."""
+    words = TAG.sub("", text).split()
+    return tag("td", text, class_="words" if len(words) > WORDS else None)
 
 
 def _part(part: float) -> Markup:

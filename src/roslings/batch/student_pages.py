@@ -14,8 +14,8 @@ from roslings.batch.result import Result
 from roslings.course import Lab
 from roslings.report import Refusal, write_check50, write_gradescope, write_json, write_junit
 from roslings.report.html import OfClass
-from roslings.report.html.document import POLICY, STYLE
-from roslings.report.html.markup import Markup, prose, tag
+from roslings.report.html.document import POLICY, brand, style
+from roslings.report.html.markup import prose, tag
 from roslings.report.whole_file import write_whole
 from roslings.saving import Graded
 from roslings.verdict import Verdict
@@ -106,11 +106,11 @@ def _page(name: str, heading: str, lines: Iterator[str] | list[str]) -> str:
         tag("meta", http_equiv="Content-Security-Policy", content=POLICY),
         tag("meta", name_="viewport", content="width=device-width, initial-scale=1"),
         tag("title", f"{name}: {heading}"),
-        tag("style", Markup(STYLE.read_text("utf-8"))),
+        style(),
     )
     over = tag("p", name, class_="over")
-    back = tag("nav", tag("a", "The class", href=CLASS_PAGE))
-    body = tag(
-        "body", back, tag("header", over, tag("h1", heading)), *(tag("p", prose(x)) for x in lines)
-    )
+    back = tag("a", "The class", href=CLASS_PAGE)
+    header = tag("header", over, tag("h1", heading))
+    told = tag("main", *(tag("p", prose(line)) for line in lines))
+    body = tag("body", brand(back), header, told)
     return f"<!DOCTYPE html>\n{tag('html', head, body, lang='en')}\n"

@@ -12,7 +12,7 @@ from roslings import course
 from roslings.commands.showing import from_here, is_stdout, kept, read, replace_kept, show
 from roslings.course import Lab, NoSolution
 from roslings.errors import OK
-from roslings.typed import program
+from roslings.typed import own_page, program
 from roslings.workspace.errors import shown
 from roslings.workspace.student import package_of, workspace_root
 
@@ -120,7 +120,7 @@ def _save(graded: Graded, options: argparse.Namespace, bags: Path | None) -> Non
     from roslings.saving import save
 
     if options.html:
-        graded.write_page(options.html)
+        graded.write_page(options.html, own_page(options))
     if options.evidence:
         save(graded, options.evidence, bags)
         say = f"\nThe evidence is in {shown(options.evidence)}. Look at it in a browser:"

@@ -14,6 +14,9 @@ class Day(Part):
     title: str
     can: str = Field(description="What the student can do after it, one sentence")
     hours: float = Field(gt=0, le=24, description="Lesson and lab together")
+    picture: str | None = Field(
+        default=None, description="The drawing that shows what the day is about, in its pictures/"
+    )
     senses: tuple[str, ...] = Field(
         default=(), description="Ids of words that this day's pages mean, where a word has several"
     )

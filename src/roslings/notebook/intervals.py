@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
+from typing import Literal
 
 from roslings.notebook.hearing import Heard
 from roslings.notebook.picture import Picture, show, svg_picture
+from roslings.notebook.place import on_the_site
 from roslings.notebook.session import any_session
+from roslings.notebook.simulated import simulated_times_s
 from roslings.notebook.trouble import Trouble
 
 WIDTH, HEIGHT = 640.0, 260.0
@@ -38,7 +41,8 @@ def plot_intervals(
     """Show how long it took from message to message.
 
     `heard` is what `ros.collect(..., stamps=True)` gave, or a topic: then `count` messages are
-    collected first. Times are the sender's. Raises NoStamps, TooFew, NothingHeard.
+    collected first. Times are the sender's; where the site is built, those of a simulated clock,
+    so that a busy computer is not in the picture. Raises NoStamps, TooFew, NothingHeard.
     """
     show(intervals_picture(heard, count, timeout_s))
 
@@ -48,13 +52,15 @@ def intervals_picture(heard: str | Sequence[Heard], count: int, timeout_s: float
     name = heard if isinstance(heard, str) else "the topic"
     if isinstance(heard, str):
         with any_session() as ros:
+            if on_the_site() and (times_s := simulated_times_s(ros, heard, count, timeout_s)):
+                return _drawn(name, times_s, "sim")
             heard = ros.collect(heard, count=count, timeout_s=timeout_s, stamps=True)
     if not all(isinstance(each, Heard) for each in heard):
         raise NoStamps
-    return _drawn(name, [each.sent_s for each in heard])
+    return _drawn(name, [each.sent_s for each in heard], "wall")
 
 
-def _drawn(name: str, times_s: Sequence[float]) -> Picture:
+def _drawn(name: str, times_s: Sequence[float], clock: Literal["sim", "wall"]) -> Picture:
     if len(times_s) < 2:
         raise TooFew(len(times_s))
     from roslings.evidence import ExperimentSeen, TopicSeen
@@ -62,6 +68,6 @@ def _drawn(name: str, times_s: Sequence[float]) -> Picture:
     from roslings.report.html.intervals import Interval, Watched
 
     intervals = tuple(Interval(b - times_s[0], b - a, 0) for a, b in pairwise(times_s))
-    topic, place = TopicSeen(name=name, type=""), ExperimentSeen(name="cell", clock="wall")
+    topic, place = TopicSeen(name=name, type=""), ExperimentSeen(name="cell", clock=clock)
     watched = Watched(place, topic, None, None, intervals)
     return svg_picture(interval_plot(watched, WIDTH, HEIGHT), describe(watched))

@@ -13,25 +13,31 @@ import sys
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from roslings.report.palette import colour_of, filled_in
+
 STYLE = (
-    "max-width:100%;height:auto;background:#fff;border:1px solid #d5d9e0;border-radius:8px;"
-    "padding:4px"
+    "max-width:100%;height:auto;background:#fff;border-radius:8px;padding:4px;"
+    f"border:1px solid {colour_of('edge')}"
 )
-INK = """
-text { fill: #14181f; font-family: ui-monospace, "DejaVu Sans Mono", Menlo, Consolas, monospace; }
-.plot text { fill: #515b69; font: 12px system-ui, sans-serif; }
-.graph .bold { font-weight: 700; } .graph .warn { fill: #b3151d; }
-.node { fill: #eaf2ff; stroke: #1f6feb; stroke-width: 1.4; } .doubled { stroke: #b3151d; }
-.topic { fill: #e9f7ec; stroke: #1a7f37; stroke-width: 1.4; }
-.arrow { fill: none; stroke: #444; stroke-width: 1.4; } .head { fill: #444; }
-.grid { stroke: #e4e7ec; } .axis { stroke: #515b69; }
-.trace { fill: none; stroke: #1d4ed8; stroke-width: 1; opacity: .45; }
-.dots { stroke: #1d4ed8; stroke-width: 6; stroke-linecap: round; }
-.columns { stroke: #1d4ed8; stroke-width: 1.2; }
-.gap { stroke: #b3151d; stroke-dasharray: 2 4; } .beyond { fill: #b3151d; }
-.lost { fill: none; stroke: #b3151d; stroke-width: 2.4; }
-"""
-"""The colours of the lessons' own pictures: nodes blue, topics green."""
+INK = filled_in("""
+text {
+  fill: var(--ink);
+  font-family: ui-monospace, "DejaVu Sans Mono", Menlo, Consolas, monospace;
+}
+.plot text { fill: var(--soft); font: 12px system-ui, sans-serif; }
+.graph .bold { font-weight: 700; } .graph .warn { fill: var(--bad); }
+.node { fill: var(--node); stroke: var(--node-edge); stroke-width: 1.4; }
+.doubled { stroke: var(--bad); }
+.topic { fill: var(--topic); stroke: var(--topic-edge); stroke-width: 1.4; }
+.arrow { fill: none; stroke: var(--arrow); stroke-width: 1.4; } .head { fill: var(--arrow); }
+.grid { stroke: var(--grid); } .axis { stroke: var(--soft); }
+.trace { fill: none; stroke: var(--dot); stroke-width: 1; opacity: .45; }
+.dots { stroke: var(--dot); stroke-width: 6; stroke-linecap: round; }
+.columns { stroke: var(--dot); stroke-width: 1.2; }
+.gap { stroke: var(--bad); stroke-dasharray: 2 4; } .beyond { fill: var(--bad); }
+.lost { fill: none; stroke: var(--bad); stroke-width: 2.4; }
+""")
+"""The colours of the lessons' own drawings: nodes blue, topics green."""
 
 
 @dataclass(frozen=True)

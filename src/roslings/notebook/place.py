@@ -19,6 +19,9 @@ LOGS_ON_STDOUT = "RCUTILS_LOGGING_USE_STDOUT"
 LOGS = {LOGS_ON_STDOUT: "1", "RCUTILS_LOGGING_BUFFERED_STREAM": "0"}
 """A node's log lines stand among the cell's other output, and not in red as an error does."""
 
+ON_THE_SITE = "ROSLINGS_SITE"
+"""Set where the website runs a lesson: the quiz has a page of its own there, for example."""
+
 _held: dict[int, socket.socket] = {}
 """The domain of this process, with its lease; empty until a cell first needs it."""
 
@@ -33,6 +36,11 @@ def settle_in() -> int:
         domain, held = _lease(domain_id())
         _held[domain] = held
     return next(iter(_held))
+
+
+def on_the_site() -> bool:
+    """The website is built, and nobody sits before this notebook."""
+    return bool(os.environ.get(ON_THE_SITE))
 
 
 def _fill_in() -> None:

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import os
 from importlib.util import find_spec
 
 from roslings.notebook.picture import in_a_notebook
-
-ON_THE_SITE = "ROSLINGS_SITE"
-"""Set where the website runs the lesson: there the quiz has a page of its own."""
+from roslings.notebook.place import on_the_site
 
 LINK = '<p><a href="quiz.html">The quiz of this day</a> has a page of its own.</p>'
 
@@ -31,7 +28,7 @@ def quiz(day: str) -> None:
     if found is None:
         there = ", ".join(each.day for each in lessons.quizzes) or "none"
         print(f"There is no quiz for {day!r}. There is: {there}.")
-    elif os.environ.get(ON_THE_SITE):
+    elif on_the_site():
         from IPython.display import HTML, display
 
         display(HTML(LINK))

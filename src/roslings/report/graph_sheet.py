@@ -18,6 +18,7 @@ from roslings.report.graph_plan import HEAD_HALF, HEAD_LENGTH, Arrow, Point, pla
 from roslings.report.graph_shape import GraphShape
 from roslings.report.graph_words import NEXT, NOTHING
 from roslings.report.lettering import WARNING, Lettering, Line
+from roslings.report.palette import colour_of
 from roslings.report.safe_text import harmless, wrapped
 
 MARGIN = 24.0
@@ -27,9 +28,9 @@ TITLE_WIDTH = 620.0
 LEGEND_HEIGHT = 20.0
 SHADOW = 5.0
 
-GROUND, ARROW = "#ffffff", "#374151"
-NODE_FILL, NODE_EDGE = "#dbeafe", "#1e3a8a"
-TOPIC_FILL, TOPIC_EDGE = "#fef3c7", "#713f12"
+GROUND, ARROW = colour_of("ground"), colour_of("arrow")
+NODE_FILL, NODE_EDGE = colour_of("node"), colour_of("node-edge")
+TOPIC_FILL, TOPIC_EDGE = colour_of("topic"), colour_of("topic-edge")
 
 
 class Sheet:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,10 +12,13 @@ from roslings.evidence import Evidence
 from roslings.report.html import seen_part, verdict_part
 from roslings.report.html.intervals import Asked, watched
 from roslings.report.html.markup import Markup, joined, tag
+from roslings.report.palette import variables
+from roslings.report.typed import Typed
 from roslings.report.whole_file import write_whole
 from roslings.verdict import Verdict
 
 STYLE = Path(__file__).with_name("style.css")
+MARK = Path(__file__).with_name("roslings.svg")
 POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:"
 """What the browser may do with this page: draw it, with the pictures that it carries itself. No
 script, no address, whatever stands in it."""
@@ -28,23 +32,36 @@ class OfClass:
     everybody: str
 
 
+@dataclass(frozen=True)
+class Own:
+    """Of a page about one's own package: how it was checked, and where the lessons can be read."""
+
+    typed: Typed
+    site: str = ""
+    """The address of the built site, without a slash at its end; empty where there is none."""
+
+
+Reader = OfClass | Own
+"""For whom a page is made."""
+
+
 def write_html(
     verdict: Verdict,
     evidence: Evidence,
     asked: Sequence[Asked],
     path: Path,
-    of_class: OfClass | None = None,
+    reader: Reader | None = None,
 ) -> None:
     """Write the page to `path`, whole or not at all. Raises CannotWrite."""
-    write_whole(path, html_of(verdict, evidence, asked, of_class).encode("utf-8"))
+    write_whole(path, html_of(verdict, evidence, asked, reader).encode("utf-8"))
 
 
 def html_of(
-    verdict: Verdict, evidence: Evidence, asked: Sequence[Asked], of_class: OfClass | None = None
+    verdict: Verdict, evidence: Evidence, asked: Sequence[Asked], reader: Reader | None = None
 ) -> str:
     """The page; `asked` are the rates that the lab asks for."""
-    whose = of_class.student if of_class else ""
-    body = _body(verdict, evidence, asked, of_class)
+    whose = reader.student if isinstance(reader, OfClass) else ""
+    body = _body(verdict, evidence, asked, reader)
     page = tag("html", _head(verdict, whose), body, lang="en")
     return f"<!DOCTYPE html>\n{page}\n"
 
@@ -58,19 +75,41 @@ def _head(verdict: Verdict, whose: str) -> Markup:
         tag("meta", name_="viewport", content="width=device-width, initial-scale=1"),
         tag("meta", name_="color-scheme", content="light dark"),
         tag("title", f"{whose or verdict.package}: {score} (lab {verdict.lab})"),
-        tag("style", Markup(STYLE.read_text("utf-8"))),
+        style(),
     )
 
 
+def style(more: str = "") -> Markup:
+    """The style of every page of the engine, in the colours of the course; `more` is a page's own.
+
+    `color-scheme` stands in it, and not only in the head: so the pictures on the page know, too.
+    """
+    return tag("style", Markup(variables() + STYLE.read_text("utf-8") + more))
+
+
+def brand(*beside: Markup) -> Markup:
+    """The line above a page's title: the course's mark and name, and links beside them."""
+    name = tag("span", _mark(), "roslings", class_="brand")
+    return tag("nav", name, *beside, class_="top", aria_label="roslings")
+
+
+def _mark() -> Markup:
+    """The drawing without what it has as a file of its own: a name space, and its name in words."""
+    drawing = MARK.read_text("utf-8")
+    return Markup(re.sub("<svg [^>]*>", '<svg viewBox="0 0 64 64" aria-hidden="true">', drawing))
+
+
 def _body(
-    verdict: Verdict, evidence: Evidence, asked: Sequence[Asked], of_class: OfClass | None
+    verdict: Verdict, evidence: Evidence, asked: Sequence[Asked], reader: Reader | None
 ) -> Markup:
+    of_class = reader if isinstance(reader, OfClass) else None
+    own = reader if isinstance(reader, Own) else Own(Typed(verdict.lab))
     heard = watched(evidence, asked)
     plots = seen_part.rate_plots(verdict, heard)
     figures = {check: seen_part.topic(each) for check, each in plots.items()}
     rest = [each for each in heard if not any(each is plot for plot in plots.values())]
     parts = joined(
-        *verdict_part.body(verdict, figures),
+        *verdict_part.body(verdict, figures, own.site),
         *(section for each in capabilities() for section in each.sections_of(evidence)),
         *seen_part.topics(evidence, rest),
         *seen_part.said(evidence),
@@ -85,11 +124,11 @@ def _body(
         tag("code", f"./roslings regrade {verdict.lab} EVIDENCE"),
     )
     whose = of_class.student if of_class else ""
-    head = joined(_way_back(of_class), verdict_part.head(verdict, whose))
+    head = joined(brand(_way_back(of_class)), verdict_part.head(verdict, own.typed, whose))
     return tag("body", head, tag("main", parts), tag("footer", again))
 
 
 def _way_back(of_class: OfClass | None) -> Markup:
     if of_class is None:
         return Markup()
-    return tag("nav", tag("a", "The class", href=of_class.everybody))
+    return tag("a", "The class", href=of_class.everybody)

@@ -38,11 +38,14 @@ def interval_plot(watched: Watched, width: float, height: float) -> Markup:
 def describe(watched: Watched) -> str:
     """The plot in sentences: its text alternative."""
     periods_s = sorted(each.period_s for each in watched.intervals)
+    name = watched.seen.name
+    shortest, longest = time_text(periods_s[0]), time_text(periods_s[-1])
+    half = f"half of them at most {time_text(statistics.median(periods_s))}"
+    spread = f"the shortest {shortest}, the longest {longest}, {half}"
+    even = f"all of {shortest}, as far as the steps of the simulated clock tell"
     lost = sum(each.lost for each in watched.intervals)
     sentences = [
-        f"{len(periods_s)} periods of {watched.seen.name}, the shortest {time_text(periods_s[0])},"
-        f" the longest {time_text(periods_s[-1])}, half of them at most"
-        f" {time_text(statistics.median(periods_s))}.",
+        f"{len(periods_s)} periods of {name}, {even if watched.within_steps else spread}.",
         f"The lab asks for {_asked_words(watched.asked)}." if watched.asked else "",
         f"{lost} messages were lost." if lost else "No message was lost.",
     ]

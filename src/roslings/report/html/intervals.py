@@ -96,9 +96,17 @@ def _simulated(experiment: ExperimentSeen, topic: TopicSeen, asked: Asked | None
     step_s = max((each.step_ns for each in experiment.segments), default=0) / NS_PER_S
     period_s = _one_period_s(rate, messages, step_s) if rate else None
     if rate and period_s:
-        intervals = tuple(replace(each, period_s=period_s) for each in intervals)
+        intervals = tuple(_evenly(intervals, period_s))
         rate = replace(rate, periods_s=(period_s,) * len(rate.periods_s))
     return Watched(experiment, topic, asked, rate, intervals, step_s, period_s is not None)
+
+
+def _evenly(intervals: Sequence[Interval], period_s: float) -> Iterator[Interval]:
+    """The same intervals, where a timer of this period ends them."""
+    periods = 0
+    for each in intervals:
+        periods += 1 + each.lost
+        yield replace(each, end_s=periods * period_s, period_s=period_s)
 
 
 def _one_period_s(rate: Rate, messages: Sequence[MessageSeen], step_s: float) -> float | None:

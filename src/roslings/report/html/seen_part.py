@@ -100,11 +100,20 @@ def _figures(each: Watched) -> Iterator[tuple[str, str]]:
     if each.asked:
         low, high = each.asked.low_hz, each.asked.high_hz
         yield "asked rate", f"{each.asked.hz:g} Hz ({low:g} to {high:g} Hz)"
-    yield "half of the periods (p50)", f"at most {time_text(rate.median_s)}"
-    yield "95 % of the periods (p95)", f"at most {time_text(rate.p95_s)}"
+    yield from _periods(each, rate)
     yield "jitter (standard deviation)", _jitter(each, rate)
     yield "lost messages", f"{rate.lost}"
     yield "times from", _clock(each, rate)
+
+
+def _periods(each: Watched, rate: Rate) -> Iterator[tuple[str, str]]:
+    """Where the clock's steps hide how the periods differ, only what all of them share is known."""
+    if each.within_steps:
+        about_s = rate.period_s * rate.uncertainty_hz / rate.hz
+        yield "period", f"{time_text(rate.median_s)}, give or take {time_text(about_s)}"
+        return
+    yield "half of the periods (p50)", f"at most {time_text(rate.median_s)}"
+    yield "95 % of the periods (p95)", f"at most {time_text(rate.p95_s)}"
 
 
 def _jitter(each: Watched, rate: Rate) -> str:

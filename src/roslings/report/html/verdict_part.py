@@ -27,7 +27,7 @@ WORDS: dict[CheckOutcome, str] = {
 MARKS: dict[CheckOutcome, str] = {"pass": "✓", "fail": "✗", "skip": "-", "inconclusive": "?"}
 
 
-def head(verdict: Verdict, whose: str = "") -> Markup:
+def head(verdict: Verdict, typed: Typed, whose: str = "") -> Markup:
     """What was checked, of whom, and what came of it."""
     of_whom = [tag("b", whose), " · "] if whose else []
     return tag(
@@ -36,14 +36,14 @@ def head(verdict: Verdict, whose: str = "") -> Markup:
         tag("h1", HEADLINES[verdict.outcome]),
         _score(verdict),
         _counts(verdict),
-        _next(verdict),
+        _next(verdict, typed),
         class_=verdict.outcome,
     )
 
 
-def _next(verdict: Verdict) -> Markup:
+def _next(verdict: Verdict, typed: Typed) -> Markup:
     """One thing to do now, in the words of the terminal."""
-    typed, first = Typed(verdict.lab), first_failed(verdict)
+    first = first_failed(verdict)
     if verdict.outcome == "pass":
         words, command = "Make the file to hand in:", typed.pack
     elif first:
@@ -78,13 +78,15 @@ def _counts(verdict: Verdict) -> Markup:
     return tag("ul", *counts, class_="counts")
 
 
-def body(verdict: Verdict, plots: Mapping[str, Markup]) -> Iterator[Markup]:
+def body(verdict: Verdict, plots: Mapping[str, Markup], site: str = "") -> Iterator[Markup]:
     """The checks: those to mend first, each whole; then the others, folded.
 
-    `plots` are the figures that show what a check found wrong, by the check's id.
+    `plots` are the figures that show what a check found wrong, by the check's id; `site` is the
+    address of the lessons' pages.
     """
     failed = [
-        _failed(check, verdict.package, plots.get(check.id, Markup())) for check in verdict.failed()
+        _failed(check, verdict.package, plots.get(check.id, Markup()), _read(check, site))
+        for check in verdict.failed()
     ]
     if failed:
         yield tag("section", tag("h2", "What to mend"), *failed)
@@ -121,14 +123,18 @@ def _rows(checks: Sequence[CheckResult]) -> Markup:
     return tag("ul", *map(_row, checks), class_="checks")
 
 
-def _failed(check: CheckResult, package: str, plot: Markup) -> Markup:
+def _read(check: CheckResult, site: str) -> Markup:
+    """Which paragraph of a lesson to read: a link, where its page is built."""
+    day, _, place = (check.lesson or "").partition("#")
+    if not site or not day.startswith("days/"):
+        return prose(check.lesson or "")
+    return tag("a", check.lesson or "", href=f"{site}/{day}/index.html#{place}")
+
+
+def _failed(check: CheckResult, package: str, plot: Markup, read: Markup) -> Markup:
     expected, measured = check.expected or "", check.measured or ""
     seen = {"expected": marked(expected, measured), "measured": marked(measured, expected)}
-    rows = {
-        "why": check.why,
-        "try": check.hint,
-        "read": check.lesson,
-    }
+    rows = {"why": prose(check.why or ""), "try": prose(check.hint or ""), "read": read}
     return tag(
         "article",
         tag("h3", _mark("fail"), " ", prose(check.title)),
@@ -136,7 +142,7 @@ def _failed(check: CheckResult, package: str, plot: Markup) -> Markup:
         tag(
             "dl",
             *(_row_of(label, tag("strong", text)) for label, text in seen.items() if text),
-            *(_row_of(label, prose(text)) for label, text in rows.items() if text),
+            *(_row_of(label, text) for label, text in rows.items() if text),
         ),
         plot,
         *_log(check, package),

@@ -1,0 +1,105 @@
+"""A lesson as a page to read: its first screen, and boxes for what the reader is asked to do.
+
+In JupyterLab a lesson is cells. Here nothing runs, so the page shows what it is about first (goal,
+level, time and need as a card, then the drawing that `days/path.yaml` names), folds the imports,
+and marks what to guess ("Before you run") and what to change ("Your turn").
+"""
+
+from __future__ import annotations
+
+from docutils import nodes
+from sphinx.application import Sphinx
+from sphinx.util import logging
+
+from course_site.course import html
+from course_site.run_box import day_of
+
+log = logging.getLogger(__name__)
+
+GUESS = "Before you run"
+YOUR_TURN = '<div class="your-turn"><p class="your-turn-title">Your turn</p>'
+END = "</div>"
+
+
+def shape(app: Sphinx, document: nodes.document) -> None:
+    """Give a lesson its form; other pages stay as they are."""
+    day = day_of(app, app.env.docname)
+    if day is None:
+        return
+    card = _card(document)
+    if card is not None and day.picture:
+        _show_first(document, day.picture, card)
+    _mark_guesses(document)
+    for cell in list(document.findall(nodes.container)):
+        _mark_cell(cell)
+
+
+def _card(document: nodes.document) -> nodes.Element | None:
+    """The list below the title, where each item begins with what it is about."""
+    found = next(iter(document.findall(nodes.bullet_list)), None)
+    if found is None or not all(_label(item) for item in found.children):
+        return None
+    found["classes"].append("day-card")
+    return found
+
+
+def _label(block: nodes.Node) -> str:
+    """The bold words that a block begins with."""
+    texts = (text for text in block.findall(nodes.Text) if text.astext())
+    first = next(texts, None)
+    bold = first is not None and isinstance(first.parent, nodes.strong)
+    return first.astext() if first is not None and bold else ""
+
+
+def _show_first(document: nodes.document, name: str, card: nodes.Element) -> None:
+    """Put the drawing below the card. Its section keeps it, too, unless that is the next one."""
+    pictures = [image for image in document.findall(nodes.image)]
+    found = [image for image in pictures if image["uri"].endswith(f"/{name}")]
+    if not found:
+        log.warning("The lesson has no picture '%s'. Mend: path.yaml.", name, location=document)
+        return
+    holder = found[0].parent
+    card.parent.insert(_place_below(card), holder.deepcopy())
+    if found[0] is pictures[0]:
+        holder.parent.remove(holder)
+
+
+def _place_below(card: nodes.Element) -> int:
+    """After the card, and after the command that its last item asks for, where there is one."""
+    blocks = card.parent.children
+    place = card.parent.index(card) + 1
+    while place < len(blocks) and isinstance(blocks[place], nodes.literal_block):
+        place += 1
+    return place
+
+
+def _mark_guesses(document: nodes.document) -> None:
+    for paragraph in document.findall(nodes.paragraph):
+        if _label(paragraph).startswith(GUESS):
+            paragraph["classes"].append("guess")
+
+
+def _mark_cell(cell: nodes.container) -> None:
+    """By the tags that the notebook gives it."""
+    tags = cell.get("classes", ())
+    if "tag_imports" in tags:
+        _between(cell, _folded("The imports of this page"), "</details>")
+    elif "tag_change" in tags:
+        _between(cell, YOUR_TURN, END)
+        for output in cell.children[1:]:
+            _between(output, _folded("What it says before you change it"), "</details>")
+
+
+def _folded(summary: str) -> str:
+    return f'<details class="folded"><summary>{summary}</summary>'
+
+
+def _between(node: nodes.Node, before: str, after: str) -> None:
+    place = node.parent.index(node)
+    node.parent.insert(place + 1, html(after))
+    node.parent.insert(place, html(before))
+
+
+def setup(app: Sphinx) -> None:
+    """Called by Sphinx."""
+    app.connect("doctree-read", shape, priority=600)  # after the pictures got their paths

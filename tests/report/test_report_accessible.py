@@ -1,0 +1,89 @@
+"""The engine's own pages in a browser: verdicts, a class, its students; two widths, light, dark."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from written_evidence import evidence, messages, steady, talking
+from written_verdicts import full_score, inconclusive, three_faults, too_slow, verdict
+
+from roslings.batch.export import hand_out
+from roslings.batch.gradebook import gradebook
+from roslings.batch.result import Result
+from roslings.course import lab
+from roslings.report.html import Asked, Own, html_of
+from roslings.report.typed import Typed
+from roslings.verdict import Verdict
+
+Axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe
+
+TOPICS = lab("topics")
+ASKED = [Asked("/chatter", "std_msgs/msg/String", 2.0, 1.9, 2.1)]
+LOOKS = [(width, scheme) for width in (1280, 390) for scheme in ("light", "dark")]
+
+
+def graded(name: str, found: Verdict, hz: float) -> Result:
+    """A submission that was judged."""
+    return Result(submission=name, digest=name, attempt=1, state="graded", verdict=found,
+                  rates={"/chatter": hz})  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def pages(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
+    """One page of every kind."""
+    folder = tmp_path_factory.mktemp("pages")
+    refused = Result(submission="eve", digest="e", attempt=1, state="refused",
+                     reason="There is no ROS package in it:\nno package.xml.",
+                     next_step="Give the folder.")  # fmt: skip
+    with gradebook(folder, "topics") as book:
+        book.write(graded("ada", verdict(), 2.0))
+        book.write(graded("a_long_name_of_a_student_who_failed", too_slow(), 1.0))
+        book.write(refused)
+        hand_out(book, TOPICS, folder)
+    return [*_verdicts(folder), *sorted(folder.rglob("*.html"))]
+
+
+def _verdicts(folder: Path) -> Iterator[Path]:
+    seen = evidence(talking(messages(steady(1.0, 12))))
+    own = Own(Typed("topics"), "file:///site")
+    for number, found in enumerate((full_score(), too_slow(), three_faults(), inconclusive())):
+        page = folder / f"verdict-{number}.htm"
+        page.write_text(html_of(found, seen, ASKED, own), "utf-8")
+        yield page
+
+
+@pytest.mark.parametrize(("width", "scheme"), LOOKS)
+def test_no_page_of_the_engine_breaks_a_rule(
+    browser: Any, pages: list[Path], width: int, scheme: str
+) -> None:
+    """axe-core, best practices included; inside the screen; nobody else is asked."""
+    context = browser.new_context(viewport={"width": width, "height": 900}, color_scheme=scheme)
+    asked, found = list[str](), list[str]()
+    context.on("request", lambda request: asked.append(request.url))
+    page = context.new_page()
+    for file in pages:
+        page.goto(file.as_uri())
+        found += [f"{file.name}: {x}" for x in Axe().run(page).generate_snapshot().splitlines()]
+        if page.evaluate("document.documentElement.scrollWidth") > width:
+            found.append(f"{file.name} is wider than the screen")
+    context.close()
+    assert len(pages) >= 8
+    assert found == []
+    assert [url for url in asked if not url.startswith(("file:", "data:"))] == []
+
+
+def test_on_a_phone_the_first_column_of_a_class_stays(browser: Any, pages: list[Path]) -> None:
+    """The table is moved sideways; whose row it is can be read all the time."""
+    context = browser.new_context(viewport={"width": 390, "height": 900})
+    page = context.new_page()
+    page.goto(next(file for file in pages if file.name == "class.html").as_uri())
+    holder = page.locator(".holder").first
+    before = holder.locator("td").first.bounding_box()
+    assert holder.evaluate("part => part.scrollWidth > part.clientWidth")
+    holder.evaluate("part => { part.scrollLeft = 200 }")
+    assert holder.locator("td").first.bounding_box()["x"] == before["x"]
+    assert holder.locator("th").first.bounding_box()["x"] == before["x"]
+    context.close()
