@@ -106,12 +106,15 @@ def _context(options: argparse.Namespace) -> Iterator[tuple[LaunchContext, Scree
     """What a launch needs around it, with what the options say."""
     from roslings.ros2.launching.context import LaunchContext
     from roslings.ros2.launching.processes import OVERRIDE_OUTPUT
+    from roslings.ros2.launching.provided import offer
     from roslings.ros2.launching.python_file import show_traces
+    from roslings.ros2.launching.reading import description_in
     from roslings.ros2.launching.screen import Screen
 
     room = tempfile.TemporaryDirectory(prefix="roslings_launch_")
     with room as folder, Screen() as screen:
-        context = LaunchContext(screen, Path(folder))
+        offer()
+        context = LaunchContext(screen, Path(folder), description_in)
         for name in ("launch_prefix", "launch_prefix_filter"):
             if value := getattr(options, name):
                 context.launch_configurations[name.replace("_", "-")] = value
@@ -124,11 +127,10 @@ def _context(options: argparse.Namespace) -> Iterator[tuple[LaunchContext, Scree
 
 def _show(options: argparse.Namespace, context: LaunchContext, path: Path) -> int:
     from roslings.ros2.launching.showing import all_arguments, argument_lines, tree_lines
-    from roslings.ros2.launching.sources import description_in
 
     path = path.absolute()
     with context.reading(path):
-        description = description_in(path)
+        description = context.description_in(path, "")
         if options.print:
             print("\n".join(tree_lines(description)))
         else:

@@ -17,11 +17,15 @@ from typing import TYPE_CHECKING, Any
 from roslings.ros2.launching.substitution import Substitution, WrongKind
 
 if TYPE_CHECKING:
-    from roslings.ros2.launching.description import Entity
+    from roslings.ros2.launching.description import Entity, LaunchDescription
     from roslings.ros2.launching.events import Event
     from roslings.ros2.launching.handlers import EventHandler
     from roslings.ros2.launching.processes import Planned
     from roslings.ros2.launching.screen import Screen
+
+
+DescriptionIn = Callable[[Path, str], "LaunchDescription"]
+"""A launch file and its language, to what it asks for; without one its ending says the language."""
 
 
 @dataclass(order=True)
@@ -38,8 +42,9 @@ class Alarm:
 class LaunchContext:
     """Launch configurations, event handlers, and what is still to be done."""
 
-    def __init__(self, screen: Screen, folder: Path) -> None:
-        """`folder` is for the parameter files of nodes."""
+    def __init__(self, screen: Screen, folder: Path, description_in: DescriptionIn) -> None:
+        """`folder` is for the parameter files of nodes; `description_in` reads launch files."""
+        self.description_in = description_in
         self.launch_configurations: dict[str, Any] = {}
         self.locals = SimpleNamespace()
         self.is_shutdown = False

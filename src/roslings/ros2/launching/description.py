@@ -164,3 +164,7 @@ def checked(entities: Iterable[Entity] | Entity, where: str) -> list[Entity]:
         if not isinstance(one, Entity):
             raise WrongEntity(where, one)
     return found
+
+
+class ProcessAction(Action):
+    """One that starts a process: event handlers may be told which."""

@@ -6,6 +6,9 @@ substitutions, and from what the actions' `parse` takes.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 EACH_NODE = "a Node(...) for each node"
 LIFECYCLE = "Node(...), and in a terminal ros2 lifecycle set NODE configure"
 END = "Shutdown() of launch.actions, which ends all"
@@ -95,30 +98,30 @@ SUBSTITUTIONS = {
 """A `$(...)` that Jazzy has, to what to use here."""
 
 
+_offered: dict[str, Mapping[str, Any]] = {}
+
+
+def know(modules: Mapping[str, Mapping[str, Any]]) -> None:
+    """What launch files can import here: name of a module to what is in it."""
+    _offered.update(modules)
+
+
 def home_of(name: str) -> str | None:
     """The module that a launch file imports `name` from."""
-    from roslings.ros2.launching.provided import modules
-
-    homes = [module for module, names in modules().items() if name in names]
+    homes = [module for module, names in _offered.items() if name in names]
     return min(homes, key=lambda module: (module.count("."), module)) if homes else None
 
 
 def known_names() -> list[str]:
     """Every name that a launch file can import."""
-    from roslings.ros2.launching.provided import modules
-
-    return sorted({name for names in modules().values() for name in names})
+    return sorted({name for names in _offered.values() for name in names})
 
 
 def known_modules() -> list[str]:
     """Every module that is offered to launch files."""
-    from roslings.ros2.launching.provided import modules
-
-    return list(modules())
+    return list(_offered)
 
 
 def names_in(module: str) -> list[str]:
     """What can be imported from `module`."""
-    from roslings.ros2.launching.provided import modules
-
-    return list(modules().get(module, ()))
+    return list(_offered.get(module, ()))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from roslings.ros2.launching.description import Entity, checked
+from roslings.ros2.launching.description import Entity, ProcessAction, checked
 from roslings.ros2.launching.events import (
     Event,
     ExecutionComplete,
@@ -90,9 +90,7 @@ class OnAction(EventHandler):
 
 
 def _is_process(value: Any) -> bool:
-    from roslings.ros2.launching.processes import ExecuteProcess
-
-    return isinstance(value, ExecuteProcess)
+    return isinstance(value, ProcessAction)
 
 
 class OnProcessStart(OnAction):

@@ -20,6 +20,7 @@ from roslings.ros2.launching.substitution import (
     performed,
 )
 from roslings.ros2.launching.substitutions import truth
+from roslings.ros2.launching.text import parts_in
 
 if TYPE_CHECKING:
     from roslings.ros2.launching.context import LaunchContext
@@ -79,8 +80,6 @@ class ParameterFile:
         file = existing_file(performed(context, self.param_file))
         if not truth(performed(context, self.allow_substs), "allow_substs"):
             return file
-        from roslings.ros2.launching.markup.text import parts_in
-
         place = context.new_file(".yaml")
         place.write_text(performed(context, parts_in(file.read_text("utf-8"))), encoding="utf-8")
         return place

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from roslings.ros2.launching.description import Action, Entity, checked
+from roslings.ros2.launching.description import Entity, ProcessAction, checked
 from roslings.ros2.launching.handlers import Answer, OnProcessExit, answer_of
 from roslings.ros2.launching.substitution import (
     Parts,
@@ -82,7 +82,7 @@ class Planned:
     sigkill_after_s: float
 
 
-class ExecuteProcess(Action):
+class ExecuteProcess(ProcessAction):
     """Start any program."""
 
     def __init__(

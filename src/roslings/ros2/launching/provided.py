@@ -173,5 +173,6 @@ _offer = Offer()
 
 def offer() -> None:
     """From now on launch files can import them."""
+    elsewhere.know(modules())
     if _offer not in sys.meta_path:
         sys.meta_path.append(_offer)

@@ -27,9 +27,6 @@ NOT_IMPORTED = re.compile(r"cannot import name '(\w+)' from '([\w.]+)'")
 
 def described_by(file: Path) -> LaunchDescription:
     """What the file's function returns. Raises BadLaunchFile, NotReadHere."""
-    from roslings.ros2.launching import provided
-
-    provided.offer()
     module = _carried_out(file)
     make = getattr(module, FUNCTION, None)
     if not callable(make):

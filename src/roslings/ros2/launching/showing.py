@@ -6,23 +6,16 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from roslings.ros2.launching.actions import DeclareLaunchArgument, RegisterEventHandler
+from roslings.ros2.launching.actions import DeclareLaunchArgument
 from roslings.ros2.launching.description import Entity
+from roslings.ros2.launching.sources import IncludeLaunchDescription
 from roslings.ros2.launching.substitution import described
+from roslings.ros2.problem import Problem
 
 if TYPE_CHECKING:
     from roslings.ros2.launching.context import LaunchContext
 
 NOTHING_SAID = "no description given"
-
-
-def arguments_of(entity: Entity) -> Iterator[DeclareLaunchArgument]:
-    """The arguments that it declares, those in groups too; files that it includes are not read."""
-    for inner in entity.inner():
-        if isinstance(inner, DeclareLaunchArgument):
-            yield inner
-        elif not isinstance(inner, RegisterEventHandler):
-            yield from arguments_of(inner)
 
 
 @dataclass(frozen=True)
@@ -52,9 +45,6 @@ def all_arguments(
 
 def _opened(context: LaunchContext, entity: Entity) -> Entity:
     """What an included file asks for; anything else as it is."""
-    from roslings.ros2.launching.sources import IncludeLaunchDescription
-    from roslings.ros2.problem import Problem
-
     if not isinstance(entity, IncludeLaunchDescription):
         return entity
     try:

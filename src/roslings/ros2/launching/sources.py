@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from roslings.ros2.launching.actions import MissingArgument, SetLaunchConfiguration
+from roslings.ros2.launching.arguments import arguments_of
 from roslings.ros2.launching.description import Action, Entity, LaunchDescription
 from roslings.ros2.launching.places import BadLaunchFile
-from roslings.ros2.launching.showing import arguments_of
 from roslings.ros2.launching.substitution import (
     SomeSubstitutionsType,
     SubstitutionFailure,
@@ -20,25 +20,6 @@ from roslings.ros2.launching.substitution import (
 
 if TYPE_CHECKING:
     from roslings.ros2.launching.context import LaunchContext
-
-MARKUP = {".xml": "XML", ".yaml": "YAML", ".yml": "YAML"}
-
-
-def description_in(file: Path, kind: str = "") -> LaunchDescription:
-    """What a launch file asks for; its ending says the language where `kind` does not.
-
-    Raises BadLaunchFile, NotReadHere.
-    """
-    if not file.is_file():
-        raise BadLaunchFile(str(file), "there is no such launch file")
-    kind = kind or ("Python" if file.suffix == ".py" else MARKUP.get(file.suffix, "XML"))
-    if kind == "Python":
-        from roslings.ros2.launching.python_file import described_by
-
-        return described_by(file)
-    from roslings.ros2.launching.markup import description_of
-
-    return description_of(file, kind)
 
 
 class AnyLaunchDescriptionSource:
@@ -61,7 +42,7 @@ class AnyLaunchDescriptionSource:
 
     def get_launch_description(self, context: LaunchContext) -> LaunchDescription:
         """What the file asks for. Raises BadLaunchFile, SubstitutionFailure."""
-        return description_in(self.path(context), self.kind)
+        return context.description_in(self.path(context), self.kind)
 
     def describe(self) -> str:
         """The file."""

@@ -10,7 +10,6 @@ from typing import Any
 from roslings.ros2.launching import actions, elsewhere
 from roslings.ros2.launching.conditions import Condition, IfCondition, UnlessCondition
 from roslings.ros2.launching.description import Entity, LaunchDescription
-from roslings.ros2.launching.markup.text import UnknownSubstitution, parts_in
 from roslings.ros2.launching.markup.tree import Element, read
 from roslings.ros2.launching.node import Node
 from roslings.ros2.launching.parameters import ParameterFile, ParameterValue
@@ -18,6 +17,7 @@ from roslings.ros2.launching.places import BadLaunchFile, NotReadHere
 from roslings.ros2.launching.processes import ExecuteProcess
 from roslings.ros2.launching.sources import IncludeLaunchDescription
 from roslings.ros2.launching.substitution import Parts, Substitution, described, performed
+from roslings.ros2.launching.text import UnknownSubstitution, parts_in
 from roslings.ros2.problem import Problem, did_you_mean
 
 CONDITIONS = {"if": IfCondition, "unless": UnlessCondition}
