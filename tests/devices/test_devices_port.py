@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import select
+import sys
 import threading
 from collections.abc import Iterator
 from pathlib import Path
@@ -86,6 +87,25 @@ def test_in_real_time_a_reader_is_woken(board: Board) -> None:
     sequence = [int(body.split(",")[1]) for body in bodies if body.startswith("W")]
     assert sequence == list(range(sequence[0], sequence[0] + len(sequence)))
     assert "board" not in [thread.name for thread in threading.enumerate()]
+
+
+def test_a_board_lives_on_however_often_its_cable_is_pulled(board: Board) -> None:
+    """Also where it is pulled in the very moment in which the board waits for it."""
+    before_s = sys.getswitchinterval()
+    sys.setswitchinterval(1e-6)
+    try:
+        with board.running():
+            for _ in range(500):
+                board.unplug()
+                board.plug_in()
+            pulled_s = board.chip.truth.time_s
+            alive = [thread for thread in threading.enumerate() if thread.name == "board"]
+            assert len(alive) == 1
+            while board.chip.truth.time_s == pulled_s:
+                assert alive[0].is_alive()
+    finally:
+        sys.setswitchinterval(before_s)
+    assert board.trouble is None
 
 
 # --- how fast the cable is ---------------------------------------------------------------------

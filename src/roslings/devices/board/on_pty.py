@@ -121,8 +121,13 @@ class Board:
         try:
             self._live_on(ended)
         except DeviceTrouble as trouble:
-            self.trouble = trouble
-            self.unplug()
+            self._end_of(trouble)
+        except OSError as fault:
+            self._end_of(DeviceTrouble(f"the board's cable cannot be used any more: {fault}"))
+
+    def _end_of(self, trouble: DeviceTrouble) -> None:
+        self.trouble = trouble
+        self.unplug()
 
     def _live_on(self, ended: Callable[[], bool]) -> None:
         before_s = time.monotonic()

@@ -8,6 +8,7 @@ import os
 import select
 import termios
 import tty
+from contextlib import suppress
 from pathlib import Path
 
 from roslings.devices.lent import lend
@@ -108,5 +109,7 @@ class Port:
 
     def wait(self, within_s: float, wake: int) -> None:
         """Wait until the host wrote, until the descriptor `wake` can be read, or so long."""
-        watched = [wake, *([self._ours] if self.plugged_in else [])]
-        select.select(watched, [], [], max(0.0, within_s))
+        ours = self._ours
+        watched = [wake] if ours < 0 else [wake, ours]
+        with suppress(OSError):  # the cable is pulled by another thread, in this very moment
+            select.select(watched, [], [], max(0.0, within_s))
