@@ -72,7 +72,9 @@ def test_any_home_will_do(course: CourseCopy, home: str | None) -> None:
     assert not (course.root / ".venv.wheels").exists()
 
 
-@pytest.mark.parametrize("words", [["doctor"], ["--version"], ["--help"], ["check", "--help"]])
+@pytest.mark.parametrize(
+    "words", [[], ["status"], ["doctor"], ["--version"], ["--help"], ["check", "--help"]]
+)
 def test_plain_commands_need_no_environment(course: CourseCopy, words: list[str]) -> None:
     """What needs only the standard library runs at once, and installs nothing."""
     outcome = course.run(*words)
