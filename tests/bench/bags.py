@@ -53,7 +53,7 @@ for number in range(int(sys.argv[1])):
     time.sleep(max(0.0, due - time.monotonic()))
     voice.publish(message)
 print("sent", round(int(sys.argv[1]) / (time.monotonic() - began)), flush=True)
-time.sleep(2.0)
+time.sleep(5.0)
 """
 
 
