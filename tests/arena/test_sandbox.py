@@ -14,6 +14,7 @@ import pytest
 
 from roslings.arena import Isolation, Launch, Process, Sandbox, choose_isolation
 from roslings.arena.bounds import MB, Bounds
+from roslings.arena.environment import base_environment
 from roslings.arena.sandbox import installations
 from roslings.evidence import ProcessSeen
 
@@ -284,3 +285,29 @@ def test_only_our_own_variables_name_installations(tmp_path: Path) -> None:
 
 def _covered(path: str, folders: Sequence[Path]) -> bool:
     return any(Path(path).is_relative_to(folder) for folder in folders)
+
+
+def test_what_stands_in_for_packages_of_ros_is_there(sandbox: Sandbox) -> None:
+    """A program writes a bag with `rosbag2_py`, as outside; of the engine it sees no more."""
+    pytest.importorskip("rosbags")
+    source = """
+        import importlib.util, rosbag2_py
+        from rclpy.serialization import serialize_message
+        from std_msgs.msg import String
+        writer = rosbag2_py.SequentialWriter()
+        writer.open(rosbag2_py.StorageOptions("bag"), rosbag2_py.ConverterOptions())
+        topic = rosbag2_py.TopicMetadata(0, "/heard", "std_msgs/msg/String", "cdr")
+        writer.create_topic(topic)
+        writer.write("/heard", serialize_message(String(data="one")), 1)
+        writer.close()
+        reader = rosbag2_py.SequentialReader()
+        reader.open_uri("bag")
+        print(reader.read_next()[::2], importlib.util.find_spec("roslings.course"))
+    """
+    assert sandbox.home
+    environment = base_environment(sandbox.home)
+    command = [sys.executable, "-c", textwrap.dedent(source)]
+    launch = Launch(command, environment, sandbox.home, namespaces=True, sandbox=sandbox)
+    with Process("it", launch) as process:
+        assert process.wait_ended(LONG_S)
+    assert [line.text for line in process.seen.lines] == ["('/heard', 1) None"]

@@ -2,9 +2,10 @@
 
     python tests/bench/bags.py [MESSAGES]
 
-It prints, and asserts nothing. Each line is the best of three rounds with messages of that size;
-`x` is our rate over the bare one. The last lines are a real `ros2 bag record` beside a node that
-publishes as fast as it can: how many it sent, and how many the bag holds.
+It prints, and asserts nothing. Each line is the best of three rounds with messages of that size, by
+the seconds of a processor, so that other work on the machine counts little; `x` is our rate over
+the bare one. The last lines are a real `ros2 bag record` beside a node of 1000 and one of 3000 Hz:
+how many it sent, and how many the bag holds.
 """
 
 from __future__ import annotations
@@ -53,7 +54,7 @@ for number in range(int(sys.argv[1])):
     time.sleep(max(0.0, due - time.monotonic()))
     voice.publish(message)
 print("sent", round(int(sys.argv[1]) / (time.monotonic() - began)), flush=True)
-time.sleep(2.0)
+time.sleep(5.0)
 """
 
 
@@ -93,9 +94,9 @@ def best(count: int, fresh: Path | None, work: Callable[[], None]) -> float:
     for _ in range(ROUNDS):
         if fresh:
             shutil.rmtree(fresh, ignore_errors=True)
-        began_s = time.perf_counter()
+        began_s = time.process_time()
         work()
-        quickest_s = min(quickest_s, time.perf_counter() - began_s)
+        quickest_s = min(quickest_s, time.process_time() - began_s)
     return count / quickest_s
 
 

@@ -1,7 +1,8 @@
 """A sandbox for strangers' code, made by bubblewrap: what may be seen is listed, nothing is hidden.
 
-Inside are the system's programs, Python with its packages, and the one submission; no home, no
-course, no grader, no other submission. Of the network only the loopback of the arena exists.
+Inside are the system's programs, Python with its packages, what stands in for packages of ROS that
+are not installed, and the one submission; no home, no course, no grader, no other submission. Of
+the network only the loopback of the arena exists.
 """
 
 from __future__ import annotations
@@ -28,6 +29,8 @@ SYSTEM = ("/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32")
 SETTINGS = ("ld.so.cache", "ld.so.conf", "ld.so.conf.d", "alternatives", "localtime", "fonts")
 OWN_SETTINGS = {name: HERE / "etc" / name for name in ("passwd", "group")}
 GUARDIAN = (HERE / "guardian.py", HERE / "kernel.py")
+STAND_INS = tuple(HERE.parent / name for name in ("__init__.py", "rosbag2", "stand_ins"))
+"""Of the engine: packages of ROS that no wheel brings, and what they stand on."""
 SHARED_MEMORY_BYTES = 64 * MB
 LISTS_OF_FOLDERS = ("AMENT_PREFIX_PATH", "LD_LIBRARY_PATH", "PYTHONPATH")
 
@@ -111,7 +114,8 @@ def _once_for_all() -> tuple[Path, ...]:
     """What every process may see of the system, and what a guardian needs of the engine."""
     folders = [Path(name) for name in SYSTEM if not Path(name).is_symlink()]
     settings = [Path("/etc", name) for name in SETTINGS]
-    shown = [*folders, *settings, QUICK_DISCOVERY, PACED, *GUARDIAN, *map(compiled, GUARDIAN)]
+    guardian = [*GUARDIAN, *map(compiled, GUARDIAN)]
+    shown = [*folders, *settings, QUICK_DISCOVERY, PACED, *guardian, *STAND_INS]
     return tuple(filter(Path.exists, shown))
 
 
