@@ -160,6 +160,7 @@ def some_light(scene: Scene) -> Light:
 def filming(scene: Scene) -> None:
     """The camera node alone; a ball jumps about before its camera."""
     with camera_beside(scene, IMAGE) as camera, scene.run(CAMERA, start=camera.start()):
+        camera.await_pictures(1)  # a node may open its camera by a timer
         scene.watch(IMAGE)
         camera.await_pictures(PICTURES)
 

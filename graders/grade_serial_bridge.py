@@ -372,7 +372,7 @@ def test_silence(silent: ExperimentView) -> None:
     silent.topic(WHEELS).must(outlast_silence(silent, "speaks again", SILENCE_S))
 
 
-@check(needs=["wheel_topic", "port"])
+@check(needs=["wheel_topic", "port"], explained_by={"pieces": "LinesAndMessagesDiffer"})
 def test_reconnects(unplugged: ExperimentView) -> None:
     """The node waits for its board, and finds it again when its cable was pulled."""
     unplugged.process(BRIDGE).must(

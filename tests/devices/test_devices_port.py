@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import select
+import sys
 import threading
 from collections.abc import Iterator
 from pathlib import Path
@@ -10,7 +12,7 @@ import pytest
 from program import environment, run, running
 
 from roslings.devices.board import Board, Drive, LineReader, Mega, Spoiler
-from roslings.devices.board.wire import Wire
+from roslings.devices.board.wire import HELD_S, Wire
 from roslings.devices.rover import Box, Rover, World
 
 serial = pytest.importorskip("serial", reason="needs pyserial: ./roslings check serial-bridge")
@@ -87,6 +89,25 @@ def test_in_real_time_a_reader_is_woken(board: Board) -> None:
     assert "board" not in [thread.name for thread in threading.enumerate()]
 
 
+def test_a_board_lives_on_however_often_its_cable_is_pulled(board: Board) -> None:
+    """Also where it is pulled in the very moment in which the board waits for it."""
+    before_s = sys.getswitchinterval()
+    sys.setswitchinterval(1e-6)
+    try:
+        with board.running():
+            for _ in range(500):
+                board.unplug()
+                board.plug_in()
+            pulled_s = board.chip.truth.time_s
+            alive = [thread for thread in threading.enumerate() if thread.name == "board"]
+            assert len(alive) == 1
+            while board.chip.truth.time_s == pulled_s:
+                assert alive[0].is_alive()
+    finally:
+        sys.setswitchinterval(before_s)
+    assert board.trouble is None
+
+
 # --- how fast the cable is ---------------------------------------------------------------------
 
 
@@ -106,7 +127,7 @@ def test_on_a_slow_cable_a_line_comes_in_pieces(tmp_path: Path) -> None:
     assert 400 < len(came) <= 480 < len(told)
 
 
-def test_a_chip_that_gathers_bytes_cuts_lines_and_is_late() -> None:
+def test_a_chip_that_gathers_bytes_is_late() -> None:
     """What came through meanwhile arrives together, when its time is over; all of it comes."""
     wire = Wire(bits_s=10_000, packet_s=0.016)
     came = [wire(b"0123456789" if n % 3 == 0 else b"", 0.004) for n in range(12)]
@@ -115,15 +136,43 @@ def test_a_chip_that_gathers_bytes_cuts_lines_and_is_late() -> None:
     assert b"".join(came) == b"0123456789" * 4
 
 
-def test_a_line_is_cut_where_it_was_when_the_chip_sent_its_bytes() -> None:
-    """Also where a whole line comes through in one step: a node that reads then sees a half."""
+LINE = b"$W,2,60,0,0*7BFF\n"
+
+
+def test_a_packet_ends_within_a_line_and_everywhere_in_turn() -> None:
+    """Each line comes in two pieces at least, and no byte is lost."""
     wire = Wire(bits_s=57_600, packet_s=0.016)
-    line = b"$W,2,60,0,0*7BFF\n"
-    came = [wire(line if n % 5 == 0 else b"", 0.0041) for n in range(1000)]
-    pieces = [piece for piece in came if piece]
-    cut = sum(not piece.endswith(b"\n") for piece in pieces)
-    assert 0.1 * len(pieces) < cut < 0.3 * len(pieces)
-    assert (line * 200).startswith(b"".join(came))
+    came = [wire(LINE if n % 5 == 0 else b"", 0.0041) for n in range(1000)]
+    sent = b"".join(came)
+    ends = {len(sent[:at]) % len(LINE) for at in _ends(came)}
+    assert set(range(1, len(LINE))) <= ends
+    assert sum(not piece.endswith(b"\n") for piece in came if piece) > 190
+    assert (LINE * 200).startswith(sent) and len(sent) > 199 * len(LINE)
+
+
+def _ends(pieces: list[bytes]) -> list[int]:
+    return [sum(map(len, pieces[:n])) for n, piece in enumerate(pieces, 1) if piece]
+
+
+def test_a_packet_waits_for_a_host_that_has_not_read_the_one_before() -> None:
+    """A host that is late finds a half, too; one that never reads is not waited for."""
+    wire = Wire(packet_s=0.016)
+    assert wire(LINE, 0.016) == LINE[:1]
+    assert wire(LINE, 0.1, is_read=False) == b""
+    late = wire(b"", 0.016)
+    assert late.startswith(LINE[1:]) and not late.endswith(b"\n")
+    assert wire(b"", HELD_S, is_read=False) == (LINE * 2)[1 + len(late) :]
+
+
+def test_the_port_knows_what_the_host_has_read(board: Board) -> None:
+    """What was sent waits until it is read."""
+    with opened(board) as host:
+        assert board.port.is_read
+        board.port.write(b"hello")
+        assert select.select([host.fd], [], [], 60)[0]
+        assert not board.port.is_read
+        assert host.read(5) == b"hello"
+        assert board.port.is_read
 
 
 def test_a_cable_that_is_pulled_keeps_nothing() -> None:

@@ -14,6 +14,7 @@ from watching import watched
 from roslings.arena import Arena
 from roslings.arena.lease import leased_domain
 from roslings.evidence import ExperimentSeen, ProcessSeen
+from roslings.experiment.own_time import OwnTime
 from roslings.experiment.presence import GRACE_S, Absences, Presence
 from roslings.probe import Probe
 
@@ -37,6 +38,14 @@ class Programs:
     """An arena with one process."""
 
     processes = (Program(),)
+
+    def __init__(self) -> None:
+        """It plays no device."""
+        self.devices_ns = dict[str, int]()
+
+    def devices_waits_ns(self) -> dict[str, int]:
+        """What the threads of its devices waited for a processor."""
+        return self.devices_ns
 
     def all_alive(self) -> bool:
         """It lives."""
@@ -172,3 +181,14 @@ def test_a_node_that_is_late_is_heard(script: str) -> None:
     """Its constructor takes its time, or a timer makes what it publishes with."""
     last = watched(LATE / f"{script}.py", clock="wall")[-1]
     assert len(last.topics["/chatter"].messages) > 5
+
+
+def test_what_the_devices_waited_is_not_a_nodes_own_time() -> None:
+    """A node that waits for its camera is not silent by itself."""
+    programs = Programs()
+    programs.devices_ns = {"7": 1_000_000_000}
+    own = OwnTime(cast(Arena, programs))
+    assert own.is_past(0.0)
+    programs.devices_ns = {"7": 61_000_000_000}
+    assert own.waited_s() == 60.0
+    assert not own.is_past(0.0)

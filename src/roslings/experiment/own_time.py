@@ -21,6 +21,7 @@ class OwnTime:
         self._arena = arena
         self._began_s = time.monotonic()
         self._before = {process: process.waits_ns() for process in arena.processes}
+        self._devices_before = arena.devices_waits_ns()
 
     def is_past(self, limit_s: float) -> bool:
         """So much of it has passed. The kernel is asked where it matters."""
@@ -28,8 +29,15 @@ class OwnTime:
         return beyond_s > 0 and beyond_s > min(self.waited_s(), PATIENCE_S)
 
     def waited_s(self) -> float:
-        """The longest time that one of their threads was ready, and no processor was free."""
-        return waited_s(self._arena.processes, self._before)
+        """The longest time that one of their threads was ready, and no processor was free.
+
+        A node waits for its board or its camera, too: what those waited comes on top.
+        """
+        return waited_s(self._arena.processes, self._before) + self._devices_waited_s()
+
+    def _devices_waited_s(self) -> float:
+        now_ns = self._arena.devices_waits_ns()
+        return longest_wait_s(self._devices_before, now_ns) if now_ns else 0.0
 
     def waited_in_turn_s(self) -> float:
         """What all of their threads waited, added up.

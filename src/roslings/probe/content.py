@@ -4,7 +4,12 @@ from __future__ import annotations
 
 import array
 import importlib
+import threading
 from typing import Any
+
+_loading = threading.RLock()
+"""Experiments run side by side. A service marks itself as loaded before its request and its
+response are: who looks in between believes it is whole, and sends what nobody can convert."""
 
 LONGEST_TEXT = 4096
 LONGEST_LIST = 64
@@ -27,18 +32,25 @@ PARTS_OF_AN_ACTION = {
 
 
 def message_class(type_name: str) -> type[Any]:
-    """The Python class of e.g. `std_msgs/msg/String`. Raises UnknownType."""
+    """The Python class of e.g. `std_msgs/msg/String`, with what converts it. Raises UnknownType."""
+    with _loading:
+        found: type[Any] = _class_of(type_name)
+        meta: Any = type(found)
+        if meta._TYPE_SUPPORT is None:
+            meta.__import_type_support__()
+    return found
+
+
+def _class_of(type_name: str) -> Any:
     try:
         package, kind, name = type_name.split("/")
         module = importlib.import_module(f"{package}.{kind}")
         whole, _, part = name.rpartition("_")
         if kind == "action" and part in PARTS_OF_AN_ACTION:
-            inner: type[Any] = getattr(getattr(module, whole).Impl, PARTS_OF_AN_ACTION[part])
-            return inner
-        found: type[Any] = getattr(module, name)
+            return getattr(getattr(module, whole).Impl, PARTS_OF_AN_ACTION[part])
+        return getattr(module, name)
     except (ValueError, ImportError, AttributeError):
         raise UnknownType(type_name) from None
-    return found
 
 
 def to_plain(value: Any) -> Any:

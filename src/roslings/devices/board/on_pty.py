@@ -82,7 +82,7 @@ class Board:
             self.chip.receive(self.to_board(heard))
             told = self.chip.step(dt_s)
             self._note(self.told, told)
-            outgoing = self._wire(self.to_host(told), dt_s)
+            outgoing = self._wire(self.to_host(told), dt_s, self.port.is_read)
             written = self.port.write(outgoing)
             self.sent_bytes += written
             self.lost_bytes += len(outgoing) - written
@@ -121,8 +121,13 @@ class Board:
         try:
             self._live_on(ended)
         except DeviceTrouble as trouble:
-            self.trouble = trouble
-            self.unplug()
+            self._end_of(trouble)
+        except OSError as fault:
+            self._end_of(DeviceTrouble(f"the board's cable cannot be used any more: {fault}"))
+
+    def _end_of(self, trouble: DeviceTrouble) -> None:
+        self.trouble = trouble
+        self.unplug()
 
     def _live_on(self, ended: Callable[[], bool]) -> None:
         before_s = time.monotonic()

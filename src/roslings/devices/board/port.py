@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import errno
+import fcntl
 import os
 import select
 import termios
 import tty
+from contextlib import suppress
 from pathlib import Path
 
 from roslings.devices.lent import lend
@@ -18,6 +20,7 @@ SPEEDS = {
     if name.startswith("B") and name[1:].isdigit()
 }
 """The kernel's number for a speed to bits a second."""
+SIZE_OF_INT = 4
 OUTPUT_SPEED = 5
 """Where `tcgetattr` tells it."""
 
@@ -51,6 +54,14 @@ class Port:
         """
         speed = self._speed() if self.plugged_in else self._unset
         return None if speed == self._unset else SPEEDS.get(speed)
+
+    @property
+    def is_read(self) -> bool:
+        """The host has read all that was sent so far."""
+        if not self.plugged_in:
+            return True
+        waiting = fcntl.ioctl(self._theirs, termios.FIONREAD, bytes(SIZE_OF_INT))
+        return not any(waiting)
 
     def _speed(self) -> int:
         speed: int = termios.tcgetattr(self._theirs)[OUTPUT_SPEED]
@@ -98,5 +109,7 @@ class Port:
 
     def wait(self, within_s: float, wake: int) -> None:
         """Wait until the host wrote, until the descriptor `wake` can be read, or so long."""
-        watched = [wake, *([self._ours] if self.plugged_in else [])]
-        select.select(watched, [], [], max(0.0, within_s))
+        ours = self._ours
+        watched = [wake] if ours < 0 else [wake, ours]
+        with suppress(OSError):  # the cable is pulled by another thread, in this very moment
+            select.select(watched, [], [], max(0.0, within_s))
