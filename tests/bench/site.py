@@ -10,7 +10,6 @@ needs Chromium (`sudo apt install chromium`) and the message types of the lab ac
 from __future__ import annotations
 
 import os
-import re
 import shutil
 import subprocess
 import sys
@@ -23,9 +22,11 @@ from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import sync_playwright
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT / "tests" / "site"))
+
+from site_rules import weight  # noqa: E402  found by the line above
+
 LESSONS = "days/*/index.html"
-LOADED = re.compile(r'(?:src|href)="([^"?]+\.(?:js|css))')
-PICTURE = re.compile(rb'data:image/[^"]+|<svg.*?</svg>', re.DOTALL)
 
 
 def write_course(folder: Path) -> None:
@@ -44,15 +45,6 @@ def build(course: Path) -> float:
         stdout=subprocess.DEVNULL,
     )
     return time.monotonic() - start
-
-
-def weight(page: Path) -> tuple[int, int, int]:
-    """Bytes of a page without its pictures, of its styles, and of its scripts; not compressed."""
-    names = LOADED.findall(page.read_text("utf-8"))
-    files = {(page.parent / name).resolve() for name in names}
-    styles = sum(file.stat().st_size for file in files if file.suffix == ".css")
-    scripts = sum(file.stat().st_size for file in files if file.suffix == ".js")
-    return len(PICTURE.sub(b"", page.read_bytes())), styles, scripts
 
 
 def weigh(site: Path) -> None:

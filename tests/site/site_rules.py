@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -29,6 +30,25 @@ def pages_of(site: Path) -> list[str]:
     """Every page that was built."""
     files = (page.relative_to(site).with_suffix("") for page in site.rglob("*.html"))
     return sorted(str(page) for page in files if page.parts[0] != "_static")
+
+
+LOADED = re.compile(r'(?:src|href)="([^"?]+\.(?:js|css))')
+PICTURE = re.compile(rb'data:image/[^"]+|<svg.*?</svg>', re.DOTALL)
+HEAVIEST_BYTES = 200_000
+
+
+def weight(page: Path) -> tuple[int, int, int]:
+    """Bytes of a page without its pictures, of its styles, and of its scripts; not compressed."""
+    names = LOADED.findall(page.read_text("utf-8"))
+    files = {(page.parent / name).resolve() for name in names}
+    styles = sum(file.stat().st_size for file in files if file.suffix == ".css")
+    scripts = sum(file.stat().st_size for file in files if file.suffix == ".js")
+    return len(PICTURE.sub(b"", page.read_bytes())), styles, scripts
+
+
+def weight_bytes(page: Path) -> int:
+    """All that loads before a page can be read."""
+    return sum(weight(page))
 
 
 def breaches(browser: Any, site: Path, names: Sequence[str], look: Look) -> list[str]:

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 from lesson_runs import kept_for_the_site, lessons, walked
-from site_rules import Look, breaches
+from site_rules import HEAVIEST_BYTES, Look, breaches, weight_bytes
 
 from roslings.course import root
 from roslings.lessons import read_lessons
@@ -37,6 +37,8 @@ def test_the_course_is_a_site_that_keeps_all_rules(
     site = tmp_path / "html"
     assert str(site / "index.html") in done.stdout
     days = [f"days/{day.id}/{page}" for day in read_lessons(root()).days for page in PAGES]
+    heavy = [page for page in days if weight_bytes(site / f"{page}.html") > HEAVIEST_BYTES]
+    assert heavy == []
     for look in (Look(1280, "light"), Look(390, "light"), Look(1280, "dark")):
         assert breaches(browser, site, days, look) == []
 
