@@ -9,6 +9,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from roslings.course import Lab
+from roslings.errors import RoslingsError
 from roslings.evidence import Evidence
 from roslings.experiment.run_folder import run_folder
 from roslings.report import write_json
@@ -19,7 +20,7 @@ from roslings.verdict import Verdict
 BAGS, VERDICT, PAGE = "bags", "verdict.json", "report.html"
 
 
-class NothingToSave(Exception):
+class NothingToSave(RoslingsError):
     """The command runs nothing, so there is no evidence."""
 
     def __init__(self) -> None:
@@ -29,7 +30,7 @@ class NothingToSave(Exception):
         )
 
 
-class NoBagWriter(Exception):
+class NoBagWriter(RoslingsError):
     """The package that writes bags is not installed."""
 
     def __init__(self) -> None:

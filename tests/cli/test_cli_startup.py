@@ -6,14 +6,14 @@ import json
 import os
 import subprocess
 import sys
-from importlib import import_module
 from pathlib import Path
 
 import pytest
 
 from roslings import course
 from roslings.cli import main
-from roslings.errors import EXIT_OF_ERROR, exit_code_of
+from roslings.errors import exit_code_of
+from roslings.ros2.problem import Problem
 from roslings.verdict import CheckResult, Environment, Timings, Verdict
 from roslings.workspace.errors import CannotRead, NoWorkspace
 
@@ -134,17 +134,11 @@ def test_an_outline_that_cannot_be_read_is_told_by_the_card(
         _ = course.lab("topics").outline
 
 
-@pytest.mark.parametrize("name", EXIT_OF_ERROR)
-def test_each_error_of_the_table_exists(name: str) -> None:
-    """It is named, not imported: a new name for it must not make it unexpected."""
-    module, _, kind = name.partition(":")
-    assert issubclass(getattr(import_module(module), kind), Exception)
-
-
 def test_the_narrower_error_decides() -> None:
     """The disk is the machine's fault, a missing workspace is not; a mistake of ours is neither."""
     assert exit_code_of(CannotRead(Path("x"))) == 3
     assert exit_code_of(NoWorkspace(Path("x"))) == 2
+    assert exit_code_of(Problem("no middleware")) == 2
     assert exit_code_of(KeyError("x")) is None
 
 

@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from roslings.errors import INCONCLUSIVE, RoslingsError
 from roslings.rtps import PORT_BASE, PORTS_PER_DOMAIN
 
 SAFE_DOMAINS = range(1, 102)
@@ -21,8 +22,10 @@ SAFE_DOMAINS = range(1, 102)
 LEASE_PORT_BASE = 20200
 
 
-class NoFreeDomain(Exception):
+class NoFreeDomain(RoslingsError):
     """Every domain of this machine is taken."""
+
+    exit_status = INCONCLUSIVE
 
     def __init__(self) -> None:
         super().__init__(

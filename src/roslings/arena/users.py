@@ -27,6 +27,7 @@ from typing import IO
 from roslings.arena import cgroup
 from roslings.arena.bounds import Bounds
 from roslings.arena.environment import HERE, base_environment
+from roslings.errors import INCONCLUSIVE, RoslingsError
 
 USERS = range(64200, 64456)
 """Below 65536, for containers have no more; and of nobody: 60000 to 64999 are given on demand
@@ -51,8 +52,10 @@ class Lack:
     next_step: str
 
 
-class NoFreeUser(Exception):
+class NoFreeUser(RoslingsError):
     """Every user of the range is taken."""
+
+    exit_status = INCONCLUSIVE
 
     def __init__(self) -> None:
         super().__init__("Too many gradings run on this machine at once. Wait for one to end.")

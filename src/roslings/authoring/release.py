@@ -21,7 +21,7 @@ from roslings.workspace.sources import files
 
 TESTS = ("conftest.py", "browser.py", "costs.py", "once.py", "arena", "report")
 """Parts of tests/ that students get: they show that the installation works."""
-MAINTAINERS_ONLY = (".ci", ".github")
+MAINTAINERS_ONLY = (".ci", ".github", "example-course")
 SOLUTION_COMMAND = re.compile(r"(\./roslings check )[\w-]+( --solution)")
 """The first command of the README: in this edition it grades the example's solution."""
 REWRITTEN = ("README.md", "CONTRIBUTING.md", "src/roslings/doctor/mends.py", "days", "site/pages")

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from roslings.errors import RoslingsError
 
-class BatchError(Exception):
+
+class BatchError(RoslingsError):
     """Something that the instructor can mend; `next_step` says how."""
 
     def __init__(self, problem: str, next_step: str) -> None:

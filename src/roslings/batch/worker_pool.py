@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from roslings.batch.result import Order, Result, broken
+from roslings.errors import INCONCLUSIVE, RoslingsError
 
 ENDS_WITHIN_S = 10.0
 NO_THREADS = {"OPENBLAS_NUM_THREADS": "1"}
@@ -42,8 +43,10 @@ class Ended:
     evidence: bytes | None
 
 
-class NurseryGone(Exception):
+class NurseryGone(RoslingsError):
     """The process that forks the gradings has ended: killed from outside, or no memory is left."""
+
+    exit_status = INCONCLUSIVE
 
     def __init__(self) -> None:
         super().__init__(

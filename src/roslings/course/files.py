@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import yaml
 
+from roslings.errors import RoslingsError
+
 if TYPE_CHECKING:
     from pydantic import BaseModel
 
@@ -16,7 +18,7 @@ LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 """A card is read several times in one grading; in C that takes a tenth of the time."""
 
 
-class CourseError(Exception):
+class CourseError(RoslingsError):
     """The course's own files are at fault, not the student."""
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from roslings.errors import RoslingsError
 
-class DeviceTrouble(Exception):
+
+class DeviceTrouble(RoslingsError):
     """The text is shown to the person at the screen."""

@@ -28,6 +28,7 @@ from roslings.drills.course import Drill
 from roslings.drills.judging import DrillVerdict, failed, judged
 from roslings.drills.steps import BY_GRAPH, Step, steps_of
 from roslings.drills.watching import BESIDE, CODE, watch
+from roslings.errors import INCONCLUSIVE, RoslingsError
 from roslings.evidence import ExperimentSeen
 from roslings.experiment.assignment import Assignment
 from roslings.experiment.measuring import Stage
@@ -46,8 +47,10 @@ START = '#!/bin/sh\nexec "{program}" "{file}" "$@"\n'
 MOST_RUNS = 3
 
 
-class RunBrokeOff(Exception):
+class RunBrokeOff(RoslingsError):
     """The measuring process ended without a verdict: the machine's fault, or ours."""
+
+    exit_status = INCONCLUSIVE
 
     def __init__(self, drill: str, words: str) -> None:
         super().__init__(f"The run of {drill!r} broke off.\n{words}".rstrip())

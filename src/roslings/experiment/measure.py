@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from roslings.arena import Isolation, choose_isolation, isolation_for_strangers
+from roslings.errors import INCONCLUSIVE, RoslingsError
 from roslings.evidence import Evidence, PackageSeen
 from roslings.experiment.assignment import Assignment
 from roslings.experiment.forked import Fork
@@ -23,8 +24,10 @@ LAST_WORDS = 20
 ROOM_NEEDED_BYTES = 1024 * 1024
 
 
-class MeasuringFailed(Exception):
+class MeasuringFailed(RoslingsError):
     """The measuring process itself ended without evidence: the machine's fault, or ours."""
+
+    exit_status = INCONCLUSIVE
 
     def __init__(self, status: int, last_words: str) -> None:
         self.status, self.last_words = status, last_words

@@ -10,11 +10,12 @@ from pathlib import Path
 from roslings.arena import Isolation, Lack, isolation_for_strangers
 from roslings.course import Lab, root
 from roslings.course.labs import MUTANTS
+from roslings.errors import RoslingsError
 
 OTHERS = stat.S_IROTH | stat.S_IXOTH
 
 
-class NoWall(Exception):
+class NoWall(RoslingsError):
     """Strangers' code would run with all rights of whoever runs the command."""
 
     def __init__(self, lack: Lack) -> None:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from roslings.errors import RoslingsError
 from roslings.lessons import Day
 
 
-class NoLessonToOpen(Exception):
+class NoLessonToOpen(RoslingsError):
     """The day that was asked for cannot be opened."""
 
 

@@ -12,6 +12,8 @@ import yaml
 from pydantic import BaseModel, ConfigDict, ValidationError
 from pydantic_core import ErrorDetails
 
+from roslings.errors import RoslingsError
+
 Location = tuple[int | str, ...]
 
 
@@ -37,7 +39,7 @@ class Problem:
         return f"{self.path}:{self.line}: {self.what}\n    Mend: {self.mend}"
 
 
-class BadLessons(Exception):
+class BadLessons(RoslingsError):
     """Files of the lessons say what they may not say. Carries every problem found."""
 
     def __init__(self, problems: list[Problem]) -> None:

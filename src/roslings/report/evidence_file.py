@@ -6,13 +6,14 @@ from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from roslings.errors import RoslingsError
 from roslings.evidence import SCHEMA_VERSION, Evidence, evidence_json, read_json
 
 FILE = "evidence.json"
 AGAIN = "Save it again with: ./roslings check LAB --evidence DIR"
 
 
-class BadEvidence(Exception):
+class BadEvidence(RoslingsError):
     """A path that should lead to saved evidence does not; the message says what to do."""
 
     def __init__(self, path: Path, problem: str, next_step: str = AGAIN) -> None:

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from roslings.errors import RoslingsError
 from roslings.evidence import Evidence
 from roslings.report.evidence_file import FILE, evidence_bytes
 from roslings.report.node_logs import logs_of
@@ -19,7 +20,7 @@ LONGEST_NAME = 100
 _UNSAFE = re.compile(r"[^\w.-]+")
 
 
-class CannotKeepThere(Exception):
+class CannotKeepThere(RoslingsError):
     """Evidence cannot be put at a path; the message says why, and what to do."""
 
     def __init__(self, path: Path, problem: str, next_step: str) -> None:

@@ -9,13 +9,14 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
+from roslings.errors import RoslingsError
 from roslings.report.whole_file import write_whole
 from roslings.verdict import SCHEMA_VERSION, Verdict
 
 _HALF_CHARACTER = re.compile("[\ud800-\udfff]")
 
 
-class BadVerdictFile(Exception):
+class BadVerdictFile(RoslingsError):
     """A file that should hold a verdict does not; the message says what to do."""
 
 

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 
 from rich.console import Console
 
+from roslings.errors import RoslingsError
 from roslings.report.check_lines import (
     INDENT,
     points_of,
@@ -27,7 +28,7 @@ UNSOAKED = "Your nodes ran for some seconds here. `pack` lets them run for longe
 NOT_JUDGED: tuple[CheckOutcome, ...] = ("skip", "inconclusive")
 
 
-class NoSuchCheck(Exception):
+class NoSuchCheck(RoslingsError):
     """The verdict has no check of the name that was asked for."""
 
     def __init__(self, verdict: Verdict, name: str) -> None:

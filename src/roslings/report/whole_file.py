@@ -7,9 +7,13 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
+from roslings.errors import INCONCLUSIVE, RoslingsError
 
-class CannotWrite(Exception):
+
+class CannotWrite(RoslingsError):
     """A file could not be written; the message says why and what to do."""
+
+    exit_status = INCONCLUSIVE
 
     def __init__(self, path: Path, error: OSError) -> None:
         self.path = path

@@ -4,9 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from roslings.errors import RoslingsError
 
-class Problem(Exception):
-    """A command cannot go on; its text is shown, and `exit_code` is handed to the shell."""
+
+class Problem(RoslingsError):
+    """A command cannot go on; its text is shown, and `ros2` hands `exit_code` to the shell.
+
+    It is ROS's own code; a command of roslings that meets it ends with its `exit_status`.
+    """
 
     exit_code = 1
 

@@ -8,8 +8,10 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
+from roslings.errors import INCONCLUSIVE, RoslingsError
 
-class WorkspaceError(Exception):
+
+class WorkspaceError(RoslingsError):
     """Something about the student's files that the student can mend.
 
     `problem` says what is, `next_step` what to do; both are whole sentences.
@@ -22,6 +24,8 @@ class WorkspaceError(Exception):
 
 class MachineTrouble(WorkspaceError):
     """The disk or its permissions are in the way, not what the student wrote."""
+
+    exit_status = INCONCLUSIVE
 
 
 # --- which package is meant --------------------------------------------------------------------

@@ -1,0 +1,1 @@
+"""A course of its own: what its labs need beside roslings."""

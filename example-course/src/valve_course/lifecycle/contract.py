@@ -1,0 +1,37 @@
+"""What a card says about managed nodes, and its rows in task.md."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from roslings.capability import Row, Words
+from roslings.course.contract import Contract, Expected, Stimulus
+
+if TYPE_CHECKING:
+    from roslings.course import NodeContract
+
+Transition = Literal["configure", "activate", "deactivate", "cleanup", "shutdown"]
+State = Literal["unconfigured", "inactive", "active", "finalized"]
+
+
+class StepContract(Contract):
+    """One transition that is asked for, and the state that it leads to."""
+
+    transition: Annotated[Transition, Stimulus]
+    state: Annotated[State, Expected]
+
+
+class LifecycleWords(Contract):
+    """What a card may say of a node."""
+
+    lifecycle: tuple[StepContract, ...] = ()
+
+
+def rows(node: NodeContract) -> Iterable[Row]:
+    """Each transition, in its order, and where it leads."""
+    for step in node.lifecycle:
+        yield f"asked to {step.transition}", f"its state is then `{step.state}`"
+
+
+WORDS = Words(node=LifecycleWords, interface=rows)
