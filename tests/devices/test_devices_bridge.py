@@ -57,9 +57,12 @@ def bridge(board: Board, surroundings: dict[str, str], folder: Path) -> Iterator
     """The solution's node on the board's port."""
     source = LAB / "solution" / "serial_bridge"
     words = ["-m", "serial_bridge.serial_bridge", "--ros-args", "-p", f"port:={board.name}"]
-    path = f"{source}:{surroundings['PYTHONPATH']}"
+    own = {
+        "PYTHONPATH": f"{source}:{surroundings['PYTHONPATH']}",
+        "PYTHONDONTWRITEBYTECODE": "1",  # nothing is left beside the solution
+    }
     node = subprocess.Popen(
-        [sys.executable, *words], env=surroundings | {"PYTHONPATH": path}, cwd=folder,
+        [sys.executable, *words], env=surroundings | own, cwd=folder,
         stdin=subprocess.DEVNULL,
     )  # fmt: skip
     try:

@@ -9,7 +9,7 @@ import signal
 import subprocess
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 import pytest
@@ -36,7 +36,11 @@ def terminal(tmp_path: Path) -> Iterator[dict[str, str]]:
 def solution(name: str, module: str, terminal: dict[str, str]) -> Iterator[None]:
     """The node of a lab's solution, while the block runs."""
     start = f"import sys; from {lab(name).card.package}.{module} import main; sys.exit(main())"
-    own = {**terminal, "PYTHONPATH": f"{lab(name).solution}{os.pathsep}{SOURCE}"}
+    own = terminal | {
+        "PYTHONPATH": f"{lab(name).solution}{os.pathsep}{SOURCE}",
+        "PYTHONDONTWRITEBYTECODE": "1",  # nothing is left beside the solution
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+    }
     process = subprocess.Popen(
         [sys.executable, "-c", start], env=own, start_new_session=True,
         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
@@ -71,9 +75,11 @@ def test_a_motor_controller_slows_it(terminal: dict[str, str], tmp_path: Path) -
     drive = ["ros2", "topic", "pub", "-r", "10", "/cmd_vel", "geometry_msgs/msg/Twist"]
     with (
         running([*drive, "{linear: {x: 0.5}, angular: {z: 0.8}}"], terminal, tmp_path),
-        running(LISTENING, terminal, tmp_path),
-        running(SPEED, terminal, tmp_path) as speed,
+        running(LISTENING, terminal, tmp_path) as rover,
+        ExitStack() as later,
     ):
+        rover.wait_for("is ready")
+        speed = later.enter_context(running(SPEED, terminal, tmp_path))
         speed.wait_for(r"^0\.(49|50)")
         with solution("services", "motor_controller", terminal):
             assert run([*call, "{data: true}"], terminal, tmp_path).returncode == 0
