@@ -186,3 +186,10 @@ def test_a_lab_may_need_more_groups_than_its_command(ready: CourseCopy) -> None:
     more = ready.run("check", "--solution", "arm")
     assert more.seen["has"] == ["ros_x", "col_x", "check_x", "draw_x", "bag_x"]
     assert ready.run("watch", "arm", "graph").err == ""
+
+
+def test_programs_find_what_stands_in_for_packages_of_ros(ready: CourseCopy) -> None:
+    """Last on the path: a real package of the same name, of a sourced ROS, goes before it."""
+    (seen,) = ready.venv.glob("lib/python3.*/site-packages/roslings.pth")
+    source = ready.root / "src"
+    assert seen.read_text().splitlines() == [str(source), str(source / "roslings" / "stand_ins")]
