@@ -160,6 +160,17 @@ def test_a_drawing_is_dark_on_a_dark_page_unless_it_is_a_terminal(browser: Any, 
     context.close()
 
 
+def test_a_comment_is_quiet_in_the_dark(browser: Any, site: Path) -> None:
+    """It has the colour of what stands beside the text, and no bright one."""
+    context = browser.new_context(color_scheme="dark")
+    page = Visit(context, site.as_uri()).go("days/03-topics/index.html")
+    colour = "part => getComputedStyle(part).color"
+    comment = page.locator(".your-turn .c").first
+    assert comment.inner_text().startswith("# Change")
+    assert comment.evaluate(colour) == "rgb(180, 189, 198)"
+    context.close()
+
+
 def test_a_drawing_on_a_phone_can_be_read_and_scrolled(browser: Any, site: Path) -> None:
     """At least 34rem wide, in a holder that scrolls and that the keyboard reaches."""
     context = browser.new_context(viewport={"width": 390, "height": 900})
