@@ -1,0 +1,105 @@
+"""A course that is not in this repository brings a capability and a lab of its own.
+
+`example-course` is installed as any package is, into a folder of the test; the engine is as it is.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from once import once
+
+from roslings.course import root
+
+COURSE = root() / "example-course"
+CONFORMS = """
+from roslings.capabilities.conformance import CHECKS
+from valve_course.lifecycle import CAPABILITY
+for holds in CHECKS:
+    holds(CAPABILITY)
+print(len(CHECKS), "hold")
+"""
+
+
+@pytest.fixture(scope="session")
+def installed(shared_folder: Path) -> dict[str, str]:
+    """The environment of a command, with the package of the course installed."""
+    folder = shared_folder / "outside-course"
+    once(shared_folder / "outside-course-made", lambda: _install(folder))
+    return {**os.environ, "PYTHONPATH": str(folder / "site"),
+            "ROSLINGS_COURSE": str(folder / "source" / "course")}  # fmt: skip
+
+
+def _install(folder: Path) -> str:
+    source = shutil.copytree(COURSE, folder / "source")
+    words = ["--no-deps", "--no-build-isolation", "--no-index", "--target", folder / "site"]
+    pip = [sys.executable, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
+    subprocess.run([*pip, *words, source], check=True)
+    return "installed"
+
+
+def run(installed: dict[str, str], *words: str, cwd: Path | None = None) -> str:
+    """What a command prints; it must end well."""
+    done = subprocess.run(
+        [sys.executable, *words], env=installed, cwd=cwd, capture_output=True, text=True,
+        check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+def test_its_capability_conforms(installed: dict[str, str]) -> None:
+    """As those of roslings."""
+    assert "13 hold" in run(installed, "-c", CONFORMS)
+
+
+def test_its_task_says_what_its_card_says(installed: dict[str, str]) -> None:
+    """The rows of the capability's words, too."""
+    told = run(installed, "-m", "roslings.course.task")
+    assert "unchanged" in told
+    task = (COURSE / "course/labs/valve/task.md").read_text("utf-8")
+    assert "| asked to activate | its state is then `active` |" in task
+
+
+def test_its_lab_is_checked(installed: dict[str, str], tmp_path: Path) -> None:
+    """100 for the solution; the evidence has the part, and the page its section."""
+    page = tmp_path / "page.html"
+    words = ["check", "valve", "--solution", "--evidence", str(tmp_path / "kept")]
+    run(installed, "-m", "roslings", *words, "--html", str(page))
+    verdict = json.loads((tmp_path / "kept/verdict.json").read_bytes())
+    assert verdict["score"] == 100
+    evidence = json.loads((tmp_path / "kept/evidence.json").read_bytes())
+    part = evidence["experiments"]["leading"]["parts"]["lifecycle"]
+    assert [step["state"] for step in part["steps"]] == ["inactive", "active", "inactive"]
+    assert "The states of the node" in page.read_text("utf-8")
+
+
+@pytest.mark.slow
+def test_its_mutants_are_caught(installed: dict[str, str]) -> None:
+    """`prove`, as for any lab."""
+    told = run(installed, "-m", "roslings", "prove", "valve", "--packages")
+    assert "valve: 13 of 13 proofs hold" in told
+
+
+@pytest.mark.slow
+def test_its_submissions_are_graded(installed: dict[str, str], tmp_path: Path) -> None:
+    """`grade`: the starter of one student, the solution of another."""
+    for student, kind in (("ann", "solution"), ("bo", "starter")):
+        shutil.copytree(COURSE / f"course/labs/valve/{kind}/valve", tmp_path / "in" / student)
+    words = ["grade", "valve", str(tmp_path / "in"), "--out", str(tmp_path / "out")]
+    run({**installed, "ROSLINGS_SOAK_S": "0"}, "-m", "roslings", *words)
+    scores = (tmp_path / "out" / "grades.csv").read_text("utf-8").splitlines()
+    assert any("ann" in line and "100" in line for line in scores)
+    assert not any("bo" in line and "100" in line for line in scores)
+
+
+def test_the_engine_does_not_name_it() -> None:
+    """Nobody changed it for this course."""
+    files = (root() / "src" / "roslings").rglob("*.py")
+    assert not [file for file in files if "valve_course" in file.read_text("utf-8")]
