@@ -8,4 +8,5 @@ CAPABILITY = Capability(
     ActionsSeen,
     in_schema_1={"actions": "ends", "goals": "goals", "orders": "orders"},
     words="roslings.capabilities.actions.contract:WORDS",
+    sections="roslings.capabilities.actions.report:sections",
 )

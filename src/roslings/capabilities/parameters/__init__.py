@@ -8,4 +8,5 @@ CAPABILITY = Capability(
     ParametersSeen,
     in_schema_1={"parameters": "names", "declared": "declared", "parameter_sets": "sets"},
     words="roslings.capabilities.parameters.contract:WORDS",
+    sections="roslings.capabilities.parameters.report:sections",
 )

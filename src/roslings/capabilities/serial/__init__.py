@@ -8,5 +8,6 @@ CAPABILITY = Capability(
     SerialSeen,
     in_schema_1={"board": "board"},
     words="roslings.capabilities.serial.contract:WORDS",
+    sections="roslings.capabilities.serial.report:sections",
     companions="roslings.capabilities.serial.companions:board_for",
 )

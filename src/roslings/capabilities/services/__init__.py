@@ -8,4 +8,5 @@ CAPABILITY = Capability(
     ServicesSeen,
     in_schema_1={"services": "ends", "calls": "calls", "served": "served"},
     words="roslings.capabilities.services.contract:WORDS",
+    sections="roslings.capabilities.services.report:sections",
 )
