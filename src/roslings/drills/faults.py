@@ -16,16 +16,8 @@ class NoAnswerYet(Fault):
     question: str
     why = "Who says first what will happen, and then looks, remembers it."
     measured = "ANSWER is still None: the file holds no answer yet"
-
-    @property
-    def expected(self) -> str:
-        """The question."""
-        return f"your answer to: {self.question}"
-
-    @property
-    def hint(self) -> str:
-        """Where it goes."""
-        return "Write your answer behind ANSWER = , then save. Texts stand in quotes, numbers not."
+    expected = "your answer to: {question}"
+    hint = "Write your answer behind ANSWER = , then save. Texts stand in quotes, numbers not."
 
 
 @dataclass(eq=False)
@@ -36,21 +28,9 @@ class WrongAnswer(Fault):
     shown: Any
     because: str
     why = "Now you know it, and next time you see it before it happens."
-
-    @property
-    def expected(self) -> str:
-        """What was foretold."""
-        return f"{self.said!r}, as you said"
-
-    @property
-    def measured(self) -> str:
-        """That it was not so; the right one is for the student to find."""
-        return f"the run did not show {self.said!r}"
-
-    @property
-    def hint(self) -> str:
-        """Where to look again."""
-        return "Read the program once more, line by line, as the computer does. Then answer again."
+    expected = "{said!r}, as you said"
+    measured = "the run did not show {said!r}"
+    hint = "Read the program once more, line by line, as the computer does. Then answer again."
 
 
 @dataclass(eq=False)
@@ -63,11 +43,7 @@ class ProgramChanged(Fault):
     hint = (
         "Undo your changes but the one to ANSWER. For a fresh file, delete yours and start again."
     )
-
-    @property
-    def measured(self) -> str:
-        """Where."""
-        return f"line {self.line} is not as it was"
+    measured = "line {line} is not as it was"
 
 
 @dataclass(eq=False)
@@ -78,11 +54,7 @@ class NeverSpins(Fault):
     expected = "a node that runs its callbacks: timers, subscriptions, services"
     why = "ROS puts what comes into a queue. Only spinning takes it out and calls your function."
     hint = "What keeps main() busy? It must be rclpy.spin(node), and no callback may wait or loop."
-
-    @property
-    def measured(self) -> str:
-        """That it does not answer."""
-        return f"{self.node} is there, but it runs no callback"
+    measured = "{node} is there, but it runs no callback"
 
 
 @dataclass(eq=False)
@@ -106,11 +78,7 @@ class NotPrinted(Fault):
     wanted: str
     found: str | None
     why = "What a program prints is all that you see of it in a terminal."
-
-    @property
-    def expected(self) -> str:
-        """The text."""
-        return f"the output holds {self.wanted!r}"
+    expected = "the output holds {wanted!r}"
 
     @property
     def measured(self) -> str:
@@ -130,16 +98,8 @@ class PrintedAnyway(NotPrinted):
     """A text stands in the output that should not."""
 
     was_seen = True
-
-    @property
-    def expected(self) -> str:
-        """Without it."""
-        return f"the output does not hold {self.wanted!r}"
-
-    @property
-    def measured(self) -> str:
-        """The line."""
-        return f"it printed {self.found!r}"
+    expected = "the output does not hold {wanted!r}"
+    measured = "it printed {found!r}"
 
 
 @dataclass(eq=False)
@@ -150,11 +110,7 @@ class RunsOn(Fault):
     expected = "the program does its task and ends"
     why = "Who starts it waits until it ends."
     hint = "What does it wait for? Does it spin for ever, where it should spin until it is done?"
-
-    @property
-    def measured(self) -> str:
-        """How long it ran."""
-        return f"it was still running after {self.after_s:.1f} s"
+    measured = "it was still running after {after_s:.1f} s"
 
 
 @dataclass(eq=False)
@@ -166,11 +122,7 @@ class WrongExitCode(Fault):
     why = "The exit code tells the next program whether all went well: 0 means yes."
     hint = READ_THE_LINES
     was_seen = True
-
-    @property
-    def expected(self) -> str:
-        """The code."""
-        return f"it ends with exit code {self.wanted}"
+    expected = "it ends with exit code {wanted}"
 
     @property
     def measured(self) -> str:
@@ -186,16 +138,8 @@ class NoReaction(Fault):
     wanted: str
     why = "A callback only helps when something comes of it."
     hint = "Follow the message through your callback: is it called, and does it reach publish()?"
-
-    @property
-    def expected(self) -> str:
-        """What should come."""
-        return f"after {self.told}, {self.wanted}"
-
-    @property
-    def measured(self) -> str:
-        """Nothing."""
-        return f"after {self.told}, nothing came"
+    expected = "after {told}, {wanted}"
+    measured = "after {told}, nothing came"
 
 
 @dataclass(eq=False)
@@ -205,11 +149,7 @@ class WrongReaction(NoReaction):
     found: str
     was_seen = True
     hint = "Follow the number through your callback, with pen and paper: where does it change?"
-
-    @property
-    def measured(self) -> str:
-        """What came."""
-        return f"after {self.told}, {self.found}"
+    measured = "after {told}, {found}"
 
 
 @dataclass(eq=False)
@@ -232,16 +172,8 @@ class WrongGoal(Fault):
     why = "A robot does what the goal says, and not what you meant."
     hint = "Look where the goal is made: which field gets which value? A field left out is 0."
     was_seen = True
-
-    @property
-    def expected(self) -> str:
-        """The goal."""
-        return f"{self.action} gets the goal {self.wanted}"
-
-    @property
-    def measured(self) -> str:
-        """The goal that came."""
-        return f"{self.action} got the goal {self.found}"
+    expected = "{action} gets the goal {wanted}"
+    measured = "{action} got the goal {found}"
 
 
 @dataclass(eq=False)
@@ -255,13 +187,5 @@ class WrongField(Fault):
     why = "Who reads these messages takes each field at its word."
     hint = "Look where your code fills the message: which field gets which value?"
     was_seen = True
-
-    @property
-    def expected(self) -> str:
-        """The value."""
-        return f"{self.field_name} is {self.wanted} in each message on {self.topic}"
-
-    @property
-    def measured(self) -> str:
-        """The value that came."""
-        return f"{self.field_name} is {self.found}"
+    expected = "{field_name} is {wanted} in each message on {topic}"
+    measured = "{field_name} is {found}"

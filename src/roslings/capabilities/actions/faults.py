@@ -22,11 +22,11 @@ class NoAction(Fault):
     action: str
     is_client: bool
     why = "Without an action server nobody takes a goal."
-
-    @property
-    def expected(self) -> str:
-        """The action."""
-        return f"a node that performs {self.action}"
+    expected = "a node that performs {action}"
+    hint = (
+        "Create ActionServer(self, TYPE, NAME, FUNCTION) in __init__ of your class, and keep it in"
+        " self. Check with `ros2 action list` while the node runs."
+    )
 
     @property
     def measured(self) -> str:
@@ -34,14 +34,6 @@ class NoAction(Fault):
         if self.is_client:
             return f"the node is a client of {self.action}, and nobody performs it"
         return f"no node performs {self.action}, or a name like it"
-
-    @property
-    def hint(self) -> str:
-        """The call that makes a server."""
-        return (
-            "Create ActionServer(self, TYPE, NAME, FUNCTION) in __init__ of your class, and keep"
-            " it in self. Check with `ros2 action list` while the node runs."
-        )
 
 
 @dataclass(eq=False)
@@ -51,11 +43,7 @@ class WrongAction(Fault):
     near: Near
     why = "Client and server meet only when both use the very same name."
     hint = "Look at the name in ActionServer(...). Check with `ros2 action list`."
-
-    @property
-    def expected(self) -> str:
-        """The name."""
-        return f"an action called {self.near.wanted}"
+    expected = "an action called {near.wanted}"
 
     @property
     def measured(self) -> str:
@@ -72,16 +60,8 @@ class WrongActionType(Fault):
     found: str
     why = "The type says what goal, feedback and result hold. Both sides need the same."
     hint = "The type stands in ActionServer(...) before the name, and comes from an import line."
-
-    @property
-    def expected(self) -> str:
-        """The type."""
-        return f"{self.action} has the type {self.wanted}"
-
-    @property
-    def measured(self) -> str:
-        """The type that is there."""
-        return f"its type is {self.found}"
+    expected = "{action} has the type {wanted}"
+    measured = "its type is {found}"
 
 
 # --- a goal is answered ------------------------------------------------------------------------
@@ -98,16 +78,8 @@ class GoalUnanswered(Fault):
         "The goal callback only looks at the goal and returns GoalResponse.ACCEPT or"
         " GoalResponse.REJECT. Driving belongs into the execute callback."
     )
-
-    @property
-    def expected(self) -> str:
-        """An answer."""
-        return f"the goal {self.goal} is accepted or refused"
-
-    @property
-    def measured(self) -> str:
-        """That none came."""
-        return f"no answer came within {self.waited_s:.0f} s"
+    expected = "the goal {goal} is accepted or refused"
+    measured = "no answer came within {waited_s:.0f} s"
 
 
 @dataclass(eq=False)
@@ -116,11 +88,7 @@ class EndedInsteadOfPerforming(GoalUnanswered):
 
     why = "An error in a callback can end the whole node, and nobody gets an answer."
     hint = "Read the last lines below: the last one names the error, the one above it the place."
-
-    @property
-    def measured(self) -> str:
-        """That it ended."""
-        return "the node ended"
+    measured = "the node ended"
 
 
 @dataclass(eq=False)
@@ -134,16 +102,8 @@ class RefusesGoodGoal(Fault):
         "Look at the conditions before GoalResponse.REJECT in the goal callback. Are the numbers"
         " those of the card?"
     )
-
-    @property
-    def expected(self) -> str:
-        """That it is taken."""
-        return f"{self.when}, the goal {self.goal} is accepted"
-
-    @property
-    def measured(self) -> str:
-        """That it was not."""
-        return "it was refused"
+    expected = "{when}, the goal {goal} is accepted"
+    measured = "it was refused"
 
 
 @dataclass(eq=False)
@@ -154,11 +114,7 @@ class AnswersNothing(RefusesGoodGoal):
         "Let the goal callback end with `return GoalResponse.ACCEPT`, on each way through it"
         " that is to accept. Without a return it gives back None."
     )
-
-    @property
-    def measured(self) -> str:
-        """What ROS says."""
-        return "it was refused: your goal callback did not return a GoalResponse"
+    measured = "it was refused: your goal callback did not return a GoalResponse"
 
 
 @dataclass(eq=False)
@@ -170,11 +126,7 @@ class StaysBusy(RefusesGoodGoal):
         "What makes your server refuse a goal while it drives? It must be set back on each way out"
         " of the execute callback: after success, and after a cancel."
     )
-
-    @property
-    def measured(self) -> str:
-        """That it does not get free."""
-        return "it was refused, though nothing was under way any more"
+    measured = "it was refused, though nothing was under way any more"
 
 
 @dataclass(eq=False)
@@ -184,16 +136,8 @@ class AcceptsImpossible(Fault):
     goal: str
     because: str
     why = "A robot that takes an impossible goal drives on for ever, or against the wall."
-
-    @property
-    def expected(self) -> str:
-        """That it is refused."""
-        return f"the goal {self.goal} is refused: {self.because}"
-
-    @property
-    def measured(self) -> str:
-        """That it was not."""
-        return "it was accepted"
+    expected = "the goal {goal} is refused: {because}"
+    measured = "it was accepted"
 
     @property
     def hint(self) -> str:
@@ -227,19 +171,11 @@ class BlocksTheNode(Fault):
         " rclpy.spin(node, executor=MultiThreadedExecutor(num_threads=4)). The threads are what"
         " counts: a callback group alone changes nothing."
     )
-
-    @property
-    def expected(self) -> str:
-        """A node that hears."""
-        return "while a goal is under way, the node's other callbacks run"
-
-    @property
-    def measured(self) -> str:
-        """That it does not."""
-        return (
-            f"while a goal was under way, none of them ran for {self.waited_s:.0f} s: the execute"
-            " callback blocks the node"
-        )
+    expected = "while a goal is under way, the node's other callbacks run"
+    measured = (
+        "while a goal was under way, none of them ran for {waited_s:.0f} s: the execute callback"
+        " blocks the node"
+    )
 
 
 @dataclass(eq=False)
@@ -248,16 +184,8 @@ class ExecuteFailed(Fault):
 
     error: str
     why = "An error in the execute callback ends the goal: ROS calls that aborted."
-
-    @property
-    def expected(self) -> str:
-        """That it runs."""
-        return "the execute callback runs to its end"
-
-    @property
-    def measured(self) -> str:
-        """The error."""
-        return f"it raised an error: {self.error}"
+    expected = "the execute callback runs to its end"
+    measured = "it raised an error: {error}"
 
     @property
     def hint(self) -> str:
@@ -280,16 +208,8 @@ class NoFeedback(Fault):
         "In the loop of the execute callback: fill TYPE.Feedback(), and call"
         " goal_handle.publish_feedback(feedback)."
     )
-
-    @property
-    def expected(self) -> str:
-        """Feedback."""
-        return "feedback while the goal is under way"
-
-    @property
-    def measured(self) -> str:
-        """That there is none."""
-        return f"none came in {self.seconds:.1f} s"
+    expected = "feedback while the goal is under way"
+    measured = "none came in {seconds:.1f} s"
 
 
 @dataclass(eq=False)
@@ -298,14 +218,10 @@ class WrongFeedbackRate(Fault):
 
     rhythm: WrongRate
     why = "Who waits for a robot wants to see that it gets on."
-
-    @property
-    def expected(self) -> str:
-        """The rate and its tolerance."""
-        return (
-            f"feedback at {self.rhythm.wanted_hz:g} Hz (within {self.rhythm.within:.0%}) while the"
-            " goal is under way"
-        )
+    expected = (
+        "feedback at {rhythm.wanted_hz:g} Hz (within {rhythm.within:.0%}) while the goal is under"
+        " way"
+    )
 
     @property
     def measured(self) -> str:
@@ -333,16 +249,8 @@ class NeverRests(Fault):
         "A loop without a pause takes a whole processor. The node's other callbacks hardly run:"
         " it drives by old places, and hears no request to cancel in time."
     )
-
-    @property
-    def expected(self) -> str:
-        """A loop that waits in each turn."""
-        return f"feedback at {self.wanted_hz:g} Hz: the loop waits in each turn"
-
-    @property
-    def measured(self) -> str:
-        """How often it turns."""
-        return f"{self.hz:.0f} times a second: the loop never waits"
+    expected = "feedback at {wanted_hz:g} Hz: the loop waits in each turn"
+    measured = "{hz:.0f} times a second: the loop never waits"
 
     @property
     def hint(self) -> str:
@@ -362,16 +270,8 @@ class WrongFeedback(Fault):
     wanted: str
     found: str
     why = "Who gave the goal sees the robot only through the feedback."
-
-    @property
-    def expected(self) -> str:
-        """What is."""
-        return f"feedback.{self.field_name} tells the truth: {self.wanted}"
-
-    @property
-    def measured(self) -> str:
-        """What is said."""
-        return f"it says {self.found}"
+    expected = "feedback.{field_name} tells the truth: {wanted}"
+    measured = "it says {found}"
 
     @property
     def hint(self) -> str:
@@ -387,18 +287,11 @@ class WrongFeedback(Fault):
 class FrozenFeedback(WrongFeedback):
     """The robot moves, and the feedback says always the same."""
 
-    @property
-    def hint(self) -> str:
-        """Where it is set."""
-        return (
-            f"Look at `feedback.{self.field_name} = ...`. Is it set anew in each turn of the loop,"
-            " from the newest /odom message?"
-        )
-
-    @property
-    def measured(self) -> str:
-        """That it does not change."""
-        return f"it says {self.found} all the time, while the rover moves"
+    measured = "it says {found} all the time, while the rover moves"
+    hint = (
+        "Look at `feedback.{field_name} = ...`. Is it set anew in each turn of the loop, from the"
+        " newest /odom message?"
+    )
 
 
 # --- the end of a goal -------------------------------------------------------------------------
@@ -413,11 +306,7 @@ class NeverArrives(Fault):
     began_m: float
     moved: bool
     why = "An action that never ends keeps everybody waiting who needs the robot there."
-
-    @property
-    def expected(self) -> str:
-        """An end at the goal."""
-        return f"the rover drives to {self.goal}, and the goal ends"
+    expected = "the rover drives to {goal}, and the goal ends"
 
     @property
     def measured(self) -> str:
@@ -460,16 +349,8 @@ class EndsTooFar(Fault):
         "Compare the distance with goal_handle.request.tolerance, not with a number of your own,"
         " and end the loop only where it is smaller."
     )
-
-    @property
-    def expected(self) -> str:
-        """Within the tolerance."""
-        return f"when the goal ends, the rover is within {self.tolerance_m:.2f} m of {self.goal}"
-
-    @property
-    def measured(self) -> str:
-        """How far it was."""
-        return f"it was {self.found_m:.2f} m away"
+    expected = "when the goal ends, the rover is within {tolerance_m:.2f} m of {goal}"
+    measured = "it was {found_m:.2f} m away"
 
 
 @dataclass(eq=False)
@@ -483,11 +364,7 @@ class KeepsDriving(Fault):
     hint = (
         "After the loop, on each way out of it, publish an empty Twist(): all its speeds are zero."
     )
-
-    @property
-    def expected(self) -> str:
-        """Standing still."""
-        return f"{self.when}, the last command is zero: stand still"
+    expected = "{when}, the last command is zero: stand still"
 
     @property
     def measured(self) -> str:
@@ -504,16 +381,8 @@ class StopsLate(Fault):
     found_s: float
     why = "Perhaps a child stands in the robot's way. Then each tenth of a second counts."
     hint = "Look at goal_handle.is_cancel_requested in each turn of the loop, and sleep shortly."
-
-    @property
-    def expected(self) -> str:
-        """The time."""
-        return f"the rover is told to stand still within {self.limit_s:g} s of the cancel"
-
-    @property
-    def measured(self) -> str:
-        """The time that it took."""
-        return f"that took {self.found_s:.2f} s"
+    expected = "the rover is told to stand still within {limit_s:g} s of the cancel"
+    measured = "that took {found_s:.2f} s"
 
 
 @dataclass(eq=False)
@@ -524,16 +393,8 @@ class WrongEnd(Fault):
     wanted: str
     found: str
     why = "Success, cancelled and aborted are the last word of a goal. Others act on it."
-
-    @property
-    def expected(self) -> str:
-        """The state."""
-        return f"{self.when}, the goal's state is {self.wanted!r}"
-
-    @property
-    def measured(self) -> str:
-        """The state that came."""
-        return f"it is {self.found!r}"
+    expected = "{when}, the goal's state is {wanted!r}"
+    measured = "it is {found!r}"
 
     @property
     def hint(self) -> str:
@@ -549,10 +410,7 @@ class WrongEnd(Fault):
 class SucceedForgotten(WrongEnd):
     """No state was set, so ROS took the goal for aborted."""
 
-    @property
-    def measured(self) -> str:
-        """What ROS did."""
-        return f"it is {self.found!r}: your execute callback set no state, and ROS assumes that"
+    measured = "it is {found!r}: your execute callback set no state, and ROS assumes that"
 
 
 @dataclass(eq=False)
@@ -564,16 +422,8 @@ class NoResult(Fault):
         "The execute callback must end with `return result`, where result = TYPE.Result(). Without"
         " a return it gives back None, and ROS cannot send that."
     )
-
-    @property
-    def expected(self) -> str:
-        """A result."""
-        return "the goal ends with a result"
-
-    @property
-    def measured(self) -> str:
-        """That it did not come."""
-        return "the execute callback returned nothing, and no result could be sent"
+    expected = "the goal ends with a result"
+    measured = "the execute callback returned nothing, and no result could be sent"
 
 
 @dataclass(eq=False)
@@ -585,16 +435,8 @@ class WrongResult(Fault):
     wanted: str
     found: str
     why = "Who gave the goal reads in the result what came of it."
-
-    @property
-    def expected(self) -> str:
-        """The value."""
-        return f"{self.when}, result.{self.field_name} is {self.wanted}"
-
-    @property
-    def measured(self) -> str:
-        """The value that came."""
-        return f"it is {self.found}"
+    expected = "{when}, result.{field_name} is {wanted}"
+    measured = "it is {found}"
 
     @property
     def hint(self) -> str:
@@ -619,16 +461,8 @@ class CancelRefused(Fault):
         "ROS refuses each cancel where ActionServer(...) has no cancel_callback=FUNCTION, and where"
         " that function ends without `return CancelResponse.ACCEPT`. Which is it?"
     )
-
-    @property
-    def expected(self) -> str:
-        """That it is taken."""
-        return "a request to cancel is accepted while the rover drives"
-
-    @property
-    def measured(self) -> str:
-        """That it was not."""
-        return "it was refused"
+    expected = "a request to cancel is accepted while the rover drives"
+    measured = "it was refused"
 
 
 @dataclass(eq=False)
@@ -637,11 +471,7 @@ class CancelUnanswered(CancelRefused):
 
     waited_s: float
     hint = "Does your cancel callback return at once? It only says CancelResponse.ACCEPT."
-
-    @property
-    def measured(self) -> str:
-        """That none came."""
-        return f"no answer came within {self.waited_s:.0f} s"
+    measured = "no answer came within {waited_s:.0f} s"
 
 
 @dataclass(eq=False)
@@ -654,16 +484,8 @@ class GoesOnAfterCancel(Fault):
         "ROS does not stop your loop. In each turn, look at goal_handle.is_cancel_requested; where"
         " it is True, leave the loop and call goal_handle.canceled()."
     )
-
-    @property
-    def expected(self) -> str:
-        """An end."""
-        return "after an accepted cancel, the goal ends"
-
-    @property
-    def measured(self) -> str:
-        """That it did not."""
-        return f"{self.waited_s:.1f} s later it was still under way"
+    expected = "after an accepted cancel, the goal ends"
+    measured = "{waited_s:.1f} s later it was still under way"
 
 
 @dataclass(eq=False)
@@ -677,16 +499,8 @@ class CancelsLate(Fault):
         "Look at goal_handle.is_cancel_requested in each turn of the loop. Let a turn take 0.1 s,"
         " and do not sleep in the cancel callback."
     )
-
-    @property
-    def expected(self) -> str:
-        """The time."""
-        return f"the goal ends within {self.limit_s:g} s of the request to cancel"
-
-    @property
-    def measured(self) -> str:
-        """The time that it took."""
-        return f"it ended after {self.found_s:.2f} s"
+    expected = "the goal ends within {limit_s:g} s of the request to cancel"
+    measured = "it ended after {found_s:.2f} s"
 
 
 # --- two goals at once -------------------------------------------------------------------------
@@ -701,16 +515,8 @@ class TakesSecondGoal(Fault):
         "Note in the goal callback that the rover has work (self.busy = True), and refuse a goal"
         " while it has."
     )
-
-    @property
-    def expected(self) -> str:
-        """That it is refused."""
-        return "while the rover drives, another goal is refused"
-
-    @property
-    def measured(self) -> str:
-        """That it was not."""
-        return "it was accepted"
+    expected = "while the rover drives, another goal is refused"
+    measured = "it was accepted"
 
 
 @dataclass(eq=False)
@@ -720,11 +526,7 @@ class FirstGoalDisturbed(Fault):
     found: str
     why = "A goal that was refused must not change anything."
     hint = "Let the goal callback change nothing where it returns GoalResponse.REJECT."
-
-    @property
-    def expected(self) -> str:
-        """That it goes on."""
-        return "after another goal was refused, the first one goes on, and the rover gets there"
+    expected = "after another goal was refused, the first one goes on, and the rover gets there"
 
     @property
     def measured(self) -> str:
@@ -747,16 +549,8 @@ class SentNoGoal(Fault):
         "Does your code wait for the server (wait_for_server), and then come to"
         " send_goal_async(goal)? Write a line to the log right before it, and see."
     )
-
-    @property
-    def expected(self) -> str:
-        """A goal."""
-        return f"{self.executable} sends a goal to {self.action}"
-
-    @property
-    def measured(self) -> str:
-        """That none came."""
-        return f"no goal came; {self.how}"
+    expected = "{executable} sends a goal to {action}"
+    measured = "no goal came; {how}"
 
 
 @dataclass(eq=False)
@@ -764,11 +558,7 @@ class SendsElsewhere(WrongAction):
     """The client sends its goal to an action of another name."""
 
     hint = "Look at the name in ActionClient(...). Check with `ros2 action list`."
-
-    @property
-    def expected(self) -> str:
-        """The name."""
-        return f"a client of {self.near.wanted}"
+    expected = "a client of {near.wanted}"
 
     @property
     def measured(self) -> str:
@@ -785,27 +575,15 @@ class SentAnotherGoal(Fault):
     wanted: str
     found: str
     why = "The rover drives where the goal says, and not where you meant."
-
-    @property
-    def expected(self) -> str:
-        """The goal."""
-        return (
-            f"where the parameter {self.field_name} is {self.wanted}, by -p or by its default,"
-            f" {self.executable} sends a goal with {self.field_name} {self.wanted}"
-        )
-
-    @property
-    def measured(self) -> str:
-        """The goal that came."""
-        return f"the goal had {self.field_name} {self.found}"
-
-    @property
-    def hint(self) -> str:
-        """How a parameter gets into a goal."""
-        return (
-            f"Declare the parameter '{self.field_name}' in __init__, and set"
-            f" goal.{self.field_name} = self.get_parameter('{self.field_name}').value"
-        )
+    expected = (
+        "where the parameter {field_name} is {wanted}, by -p or by its default, {executable} sends"
+        " a goal with {field_name} {wanted}"
+    )
+    measured = "the goal had {field_name} {found}"
+    hint = (
+        "Declare the parameter '{field_name}' in __init__, and set goal.{field_name} ="
+        " self.get_parameter('{field_name}').value"
+    )
 
 
 @dataclass(eq=False)
@@ -817,13 +595,5 @@ class GoalSentAgain(Fault):
     count: int
     why = "A second goal is another journey: the server refuses it, or the rover drives twice."
     hint = "Call send_goal_async(goal) once. Is it in a loop, or in a timer that goes on?"
-
-    @property
-    def expected(self) -> str:
-        """One goal."""
-        return f"{self.executable} sends one goal to {self.action}"
-
-    @property
-    def measured(self) -> str:
-        """How many came."""
-        return f"it sent {self.count} goals"
+    expected = "{executable} sends one goal to {action}"
+    measured = "it sent {count} goals"

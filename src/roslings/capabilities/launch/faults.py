@@ -14,21 +14,9 @@ class LaunchFailed(Fault):
     command: str
     how: str
     why = "A launch file starts the whole robot with one command."
-
-    @property
-    def expected(self) -> str:
-        """Running nodes."""
-        return f"`{self.command}` starts its nodes, and goes on until Ctrl-C"
-
-    @property
-    def measured(self) -> str:
-        """How it ended."""
-        return f"it ended by itself ({self.how})"
-
-    @property
-    def hint(self) -> str:
-        """What to read."""
-        return "Read the last lines below, mend what they name, build again, and launch again."
+    expected = "`{command}` starts its nodes, and goes on until Ctrl-C"
+    measured = "it ended by itself ({how})"
+    hint = "Read the last lines below, mend what they name, build again, and launch again."
 
 
 @dataclass(eq=False)
@@ -37,19 +25,15 @@ class LaunchMissesNode(LaunchFailed):
 
     missing: str
     found: tuple[str, ...]
+    expected = "`{command}` starts {missing}"
 
     @property
-    def expected(self) -> str:
-        """The node."""
-        return f"`{self.command}` starts {self.missing}"
-
-    @property
-    def measured(self) -> str:
+    def measured(self) -> str:  # type: ignore[override]
         """The nodes that are there."""
         return f"the nodes are: {', '.join(self.found) or 'none'}"
 
     @property
-    def hint(self) -> str:
+    def hint(self) -> str:  # type: ignore[override]
         """What to compare."""
         line = "<node pkg=... exec=.../>"
         word = "exec"

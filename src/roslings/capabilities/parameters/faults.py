@@ -16,11 +16,11 @@ class NoParameter(Fault):
     found: tuple[str, ...]
     near: str | None
     why = "ROS gives a node only those parameters that its code has declared."
-
-    @property
-    def expected(self) -> str:
-        """The parameter."""
-        return f"{self.node} has a parameter {self.wanted!r}"
+    expected = "{node} has a parameter {wanted!r}"
+    hint = (
+        "Look at declare_parameter(NAME, DEFAULT) in __init__. Check with `ros2 param list` while"
+        " the node runs."
+    )
 
     @property
     def measured(self) -> str:
@@ -28,14 +28,6 @@ class NoParameter(Fault):
         if self.near:
             return f"it has no {self.wanted!r}, but {self.near!r}: a spelling mistake?"
         return f"its own parameters are: {', '.join(self.found) or 'none'}"
-
-    @property
-    def hint(self) -> str:
-        """The call that makes one."""
-        return (
-            "Look at declare_parameter(NAME, DEFAULT) in __init__. Check with `ros2 param list`"
-            " while the node runs."
-        )
 
 
 @dataclass(eq=False)
@@ -48,24 +40,12 @@ class WrongParameterType(Fault):
     found: str
     was_seen = True
     why = "A parameter takes values of the type of its default, and refuses all others."
-
-    @property
-    def expected(self) -> str:
-        """The type."""
-        return f"the parameter {self.name!r} of {self.node} is of type {self.wanted}"
-
-    @property
-    def measured(self) -> str:
-        """Its own."""
-        return f"it is of type {self.found}"
-
-    @property
-    def hint(self) -> str:
-        """Where the type comes from."""
-        return (
-            f"Look at the default in declare_parameter('{self.name}', ...): 1 is an integer, 1.0"
-            " a double, '1' a string, True a bool."
-        )
+    expected = "the parameter {name!r} of {node} is of type {wanted}"
+    measured = "it is of type {found}"
+    hint = (
+        "Look at the default in declare_parameter('{name}', ...): 1 is an integer, 1.0 a double,"
+        " '1' a string, True a bool."
+    )
 
 
 @dataclass(eq=False)
@@ -73,21 +53,9 @@ class WrongDefault(WrongParameterType):
     """The parameter has another value where nobody set one."""
 
     why = "Who starts the node without a word relies on the defaults of the card."
-
-    @property
-    def expected(self) -> str:
-        """The default."""
-        return f"the parameter {self.name!r} of {self.node} is {self.wanted} when nobody sets it"
-
-    @property
-    def measured(self) -> str:
-        """Its own."""
-        return f"it is {self.found}"
-
-    @property
-    def hint(self) -> str:
-        """Where it stands."""
-        return f"Compare declare_parameter('{self.name}', DEFAULT) with the card."
+    expected = "the parameter {name!r} of {node} is {wanted} when nobody sets it"
+    measured = "it is {found}"
+    hint = "Compare declare_parameter('{name}', DEFAULT) with the card."
 
 
 @dataclass(eq=False)
@@ -99,24 +67,12 @@ class ParameterIgnored(Fault):
     wanted: str
     found: str
     why = "A parameter lets others change the node without changing its code."
-
-    @property
-    def expected(self) -> str:
-        """What the value asks for."""
-        return f"with `--ros-args -p {self.name}:={self.value}`: {self.wanted}"
-
-    @property
-    def measured(self) -> str:
-        """What happened."""
-        return f"{self.found}, as if the parameter were not there"
-
-    @property
-    def hint(self) -> str:
-        """Where the value is to be read."""
-        return (
-            f"Read it with self.get_parameter('{self.name}').value, after declare_parameter,"
-            " and give that value to create_timer. Does main() say rclpy.init(args=args)?"
-        )
+    expected = "with `--ros-args -p {name}:={value}`: {wanted}"
+    measured = "{found}, as if the parameter were not there"
+    hint = (
+        "Read it with self.get_parameter('{name}').value, after declare_parameter, and give that"
+        " value to create_timer. Does main() say rclpy.init(args=args)?"
+    )
 
 
 @dataclass(eq=False)
@@ -125,16 +81,12 @@ class ParameterMisread(ParameterIgnored):
 
     about: str
     why = "Who sets a parameter relies on what it means, and in which unit."
+    hint = "The value of {name} is {about}. What does your code make of it?"
 
     @property
-    def measured(self) -> str:
+    def measured(self) -> str:  # type: ignore[override]
         """What happened."""
         return self.found
-
-    @property
-    def hint(self) -> str:
-        """What the value means."""
-        return f"The value of {self.name} is {self.about}. What does your code make of it?"
 
 
 @dataclass(eq=False)
@@ -144,6 +96,10 @@ class NameStays(Fault):
     wanted: str
     found: tuple[str, ...]
     why = "A robot with two wheels starts one program twice. Each node then needs its own name."
+    hint = (
+        "The words after --ros-args reach the node through rclpy.init(args=args). Does main() give"
+        " it a list of its own, or does the node say use_global_arguments=False?"
+    )
 
     @property
     def expected(self) -> str:
@@ -156,14 +112,6 @@ class NameStays(Fault):
         """The names that are there."""
         return f"the nodes are: {', '.join(self.found) or 'none'}"
 
-    @property
-    def hint(self) -> str:
-        """Where the words of the command line get lost."""
-        return (
-            "The words after --ros-args reach the node through rclpy.init(args=args). Does main()"
-            " give it a list of its own, or does the node say use_global_arguments=False?"
-        )
-
 
 @dataclass(eq=False)
 class TopicStays(Fault):
@@ -173,21 +121,13 @@ class TopicStays(Fault):
     wanted: str
     found: tuple[str, ...]
     why = "Two nodes that publish on one topic mix their messages: nobody knows who said what."
-
-    @property
-    def expected(self) -> str:
-        """The topic in the namespace."""
-        return f"the node {self.node} publishes on {self.wanted}"
+    expected = "the node {node} publishes on {wanted}"
+    hint = (
+        "A topic's name that begins with a slash stays the same in every namespace. Write the name"
+        " in create_publisher without the slash."
+    )
 
     @property
     def measured(self) -> str:
         """The topic that it uses."""
         return f"it publishes on {', '.join(self.found) or 'no topic'}"
-
-    @property
-    def hint(self) -> str:
-        """Why a name does not follow."""
-        return (
-            "A topic's name that begins with a slash stays the same in every namespace. Write the"
-            " name in create_publisher without the slash."
-        )

@@ -18,11 +18,7 @@ class WrongField(Fault):
     found: str
     why = "Other nodes look for these names: with others they do not find what belongs together."
     hint = "Set the field before you call publish(), with exactly the card's word."
-
-    @property
-    def expected(self) -> str:
-        """The field's content."""
-        return f"{self.field_name} of {self.topic} is: {self.wanted}"
+    expected = "{field_name} of {topic} is: {wanted}"
 
     @property
     def measured(self) -> str:
@@ -38,16 +34,8 @@ class LinesAndMessagesDiffer(Fault):
     lines: int
     messages: int
     why = "A robot that misses lines of its wheels does not know how far it went."
-
-    @property
-    def expected(self) -> str:
-        """One each."""
-        return f"one message on {self.topic} for each line of the board ({self.lines} lines)"
-
-    @property
-    def measured(self) -> str:
-        """How many came."""
-        return f"{self.messages} messages"
+    expected = "one message on {topic} for each line of the board ({lines} lines)"
+    measured = "{messages} messages"
 
     @property
     def hint(self) -> str:
@@ -71,16 +59,8 @@ class WrongSpeeds(Fault):
         "In W,SEQ,MS,LEFT,RIGHT the speeds are the last two numbers, in mrad/s."
         " Divide both by 1000."
     )
-
-    @property
-    def expected(self) -> str:
-        """What the board told."""
-        return "velocity: [left, right] in rad/s, as the board told them"
-
-    @property
-    def measured(self) -> str:
-        """The first pair that it did not tell."""
-        return f"[{self.left:.3f}, {self.right:.3f}], and the board never told that"
+    expected = "velocity: [left, right] in rad/s, as the board told them"
+    measured = "[{left:.3f}, {right:.3f}], and the board never told that"
 
 
 @dataclass(eq=False)
@@ -88,11 +68,7 @@ class SpeedsSwapped(WrongSpeeds):
     """Left and right are the wrong way round."""
 
     hint = "The board tells the left wheel first. Your velocity has the right wheel first."
-
-    @property
-    def measured(self) -> str:
-        """That they are exchanged."""
-        return f"[{self.left:.3f}, {self.right:.3f}]: left and right are exchanged"
+    measured = "[{left:.3f}, {right:.3f}]: left and right are exchanged"
 
 
 @dataclass(eq=False)
@@ -100,11 +76,7 @@ class SpeedsInMilliradians(WrongSpeeds):
     """Not divided by 1000."""
 
     hint = "The board tells mrad/s; ROS wants rad/s (REP 103). Divide by 1000."
-
-    @property
-    def measured(self) -> str:
-        """The unit that it has."""
-        return f"[{self.left:.3f}, {self.right:.3f}]: these are mrad/s"
+    measured = "[{left:.3f}, {right:.3f}]: these are mrad/s"
 
 
 @dataclass(eq=False)
@@ -118,16 +90,8 @@ class BadLineUsed(Fault):
         "Compute the checksum of what stands between $ and *, and compare it with the four"
         " digits after *. Use the line only when both are equal."
     )
-
-    @property
-    def expected(self) -> str:
-        """Only whole lines."""
-        return "on a noisy cable, only lines with the right checksum are used"
-
-    @property
-    def measured(self) -> str:
-        """What was made of a spoilt one."""
-        return f"wheel speeds [{self.left:.3f}, {self.right:.3f}] that the board never told"
+    expected = "on a noisy cable, only lines with the right checksum are used"
+    measured = "wheel speeds [{left:.3f}, {right:.3f}] that the board never told"
 
 
 @dataclass(eq=False)
@@ -141,16 +105,8 @@ class SilentAfter(Fault):
         "When a read or a write raises an error, close the port, and try from a timer to open"
         " it again. Keep no half line from before."
     )
-
-    @property
-    def expected(self) -> str:
-        """Messages again."""
-        return f"after {self.what}, messages come on {self.topic}"
-
-    @property
-    def measured(self) -> str:
-        """None did."""
-        return "none came"
+    expected = "after {what}, messages come on {topic}"
+    measured = "none came"
 
 
 @dataclass(eq=False)
@@ -340,16 +296,12 @@ class OtherOdometry(WrongOdometry):
     """The odometry does not reckon with the parameters."""
 
     settings: str
+    hint = "The odometry needs the values of the parameters, too: not the numbers of the card."
 
     @property
     def expected(self) -> str:
         """The true way, of a rover with these measures."""
         return f"started with {self.settings}: {super().expected}"
-
-    @property
-    def hint(self) -> str:
-        """Where the values are needed."""
-        return "The odometry needs the values of the parameters, too: not the numbers of the card."
 
 
 @dataclass(eq=False)
@@ -358,24 +310,12 @@ class PortNotOpened(Fault):
 
     name: str
     why = "The board has another name on each computer: /dev/ttyACM0 here, /dev/ttyUSB0 there."
-
-    @property
-    def expected(self) -> str:
-        """The port of the parameter."""
-        return f"started with `-p {self.name}:=PORT`, the node opens this port"
-
-    @property
-    def measured(self) -> str:
-        """Nothing happened there."""
-        return "nobody opened it, and no message came from it"
-
-    @property
-    def hint(self) -> str:
-        """Where the name is to be read."""
-        return (
-            f"Give self.get_parameter({self.name!r}).value to serial.Serial()."
-            " Does main() say rclpy.init(args=args)?"
-        )
+    expected = "started with `-p {name}:=PORT`, the node opens this port"
+    measured = "nobody opened it, and no message came from it"
+    hint = (
+        "Give self.get_parameter({name!r}).value to serial.Serial(). Does main() say"
+        " rclpy.init(args=args)?"
+    )
 
 
 @dataclass(eq=False)
@@ -386,23 +326,13 @@ class WrongSpeedOfPort(Fault):
     wanted: int
     found: int | None
     why = "Nothing on a cable tells its speed: where the two ends differ, each reads nonsense."
-
-    @property
-    def expected(self) -> str:
-        """The card's speed, or that of the parameter."""
-        return (
-            f"with {self.name} {self.wanted}, the port is opened with {self.wanted} bits a second"
-        )
+    expected = "with {name} {wanted}, the port is opened with {wanted} bits a second"
+    hint = "Give self.get_parameter({name!r}).value to serial.Serial() as the baud rate."
 
     @property
     def measured(self) -> str:
         """Its own."""
         return f"it has {self.found or 'no speed that anybody has set'}"
-
-    @property
-    def hint(self) -> str:
-        """Where the number is to be read."""
-        return f"Give self.get_parameter({self.name!r}).value to serial.Serial() as the baud rate."
 
 
 @dataclass(eq=False)
@@ -416,11 +346,7 @@ class DoesNotStop(Fault):
         "Remember when the last command came. In the timer that sends to the board, send zero"
         " once that is more than half a second ago."
     )
-
-    @property
-    def expected(self) -> str:
-        """A stop in time."""
-        return f"M,SEQ,0,0 within {self.within_s:g} s of the last command on /cmd_vel"
+    expected = "M,SEQ,0,0 within {within_s:g} s of the last command on /cmd_vel"
 
     @property
     def measured(self) -> str:
@@ -441,11 +367,7 @@ class RejectedLine(Fault):
         "$BODY*CRC and a new line. CRC is binascii.crc_hqx(BODY, 0) as four capital"
         " hexadecimal digits: '%04X'. PWM is a whole number from -255 to 255."
     )
-
-    @property
-    def expected(self) -> str:
-        """Good lines."""
-        return "every line to the board is one that it can use, like $M,1,100,-100*7AC2"
+    expected = "every line to the board is one that it can use, like $M,1,100,-100*7AC2"
 
     @property
     def measured(self) -> str:
@@ -460,11 +382,7 @@ class FollowedNonsense(Fault):
     got: tuple[int, int]
     why = "Software has faults: a program divides by zero, and sends its result to your robot."
     hint = "Look at each number with math.isfinite() before you use it."
-
-    @property
-    def expected(self) -> str:
-        """Nothing happens."""
-        return "after a command with NaN the motors stand, and the node goes on"
+    expected = "after a command with NaN the motors stand, and the node goes on"
 
     @property
     def measured(self) -> str:
@@ -478,13 +396,5 @@ class DeafAfterNonsense(FollowedNonsense):
 
     why = "One wrong message must not end the work of the day."
     hint = "Leave the command aside, and nothing else: keep no NaN in what you remember."
-
-    @property
-    def expected(self) -> str:
-        """It goes on."""
-        return "after commands with NaN and infinity, the node follows the next good one"
-
-    @property
-    def measured(self) -> str:
-        """It does not."""
-        return "the motors stood"
+    expected = "after commands with NaN and infinity, the node follows the next good one"
+    measured = "the motors stood"

@@ -16,11 +16,11 @@ class NoService(Fault):
     service: str
     is_client: bool
     why = "Without a server nobody answers: whoever asks waits for ever."
-
-    @property
-    def expected(self) -> str:
-        """The service."""
-        return f"a node that serves {self.service}"
+    expected = "a node that serves {service}"
+    hint = (
+        "Call self.create_service(TYPE, NAME, FUNCTION) in __init__ of your class. Check with"
+        " `ros2 service list` while the node runs."
+    )
 
     @property
     def measured(self) -> str:
@@ -28,14 +28,6 @@ class NoService(Fault):
         if self.is_client:
             return f"the node has a client of {self.service}, and no server"
         return f"no node serves {self.service}, or a name like it"
-
-    @property
-    def hint(self) -> str:
-        """The call that makes a server."""
-        return (
-            "Call self.create_service(TYPE, NAME, FUNCTION) in __init__ of your class. Check with"
-            " `ros2 service list` while the node runs."
-        )
 
 
 @dataclass(eq=False)
@@ -46,16 +38,8 @@ class ServedTwice(Fault):
     servers: int
     why = "Each server answers each call: what is asked for once is done twice."
     hint = "Is self.create_service(...) there twice for this name? Take one of them out."
-
-    @property
-    def expected(self) -> str:
-        """One."""
-        return f"one server of {self.service}"
-
-    @property
-    def measured(self) -> str:
-        """More."""
-        return f"there are {self.servers}"
+    expected = "one server of {service}"
+    measured = "there are {servers}"
 
 
 @dataclass(eq=False)
@@ -64,6 +48,7 @@ class WrongService(Fault):
 
     near: Near
     why = "Client and server meet only when both use the very same name."
+    expected = "a node that serves {near.wanted}"
 
     @property
     def hint(self) -> str:
@@ -72,11 +57,6 @@ class WrongService(Fault):
             f"Look at the name in create_service(...).{look_in_front(self.near)} Check with"
             " `ros2 service list`."
         )
-
-    @property
-    def expected(self) -> str:
-        """The name."""
-        return f"a node that serves {self.near.wanted}"
 
     @property
     def measured(self) -> str:
@@ -93,21 +73,9 @@ class WrongServiceType(Fault):
     found: str
     call: str = "create_service"
     why = "The type says which fields a request and an answer have. Both sides need the same."
-
-    @property
-    def hint(self) -> str:
-        """Where the type is given."""
-        return f"The type is the first word in {self.call}(...), and comes from an import line."
-
-    @property
-    def expected(self) -> str:
-        """The type."""
-        return f"{self.service} has the type {self.wanted}"
-
-    @property
-    def measured(self) -> str:
-        """The type that is there."""
-        return f"its type is {self.found}"
+    expected = "{service} has the type {wanted}"
+    measured = "its type is {found}"
+    hint = "The type is the first word in {call}(...), and comes from an import line."
 
 
 @dataclass(eq=False)
@@ -122,16 +90,8 @@ class NoAnswer(Fault):
         "Does the function that you gave to create_service end with `return response`, on each"
         " way through it?"
     )
-
-    @property
-    def expected(self) -> str:
-        """An answer."""
-        return f"{self.service}{self.asked} is answered"
-
-    @property
-    def measured(self) -> str:
-        """How long nothing came."""
-        return f"no answer came within {self.waited_s:.0f} s"
+    expected = "{service}{asked} is answered"
+    measured = "no answer came within {waited_s:.0f} s"
 
 
 @dataclass(eq=False)
@@ -143,11 +103,7 @@ class EndedInsteadOfAnswering(NoAnswer):
         "Read the last lines below: the last one names the error. `TypeError` without more means"
         " that the function gave back no response: end it with `return response`."
     )
-
-    @property
-    def measured(self) -> str:
-        """That it ended."""
-        return "the node ended, and did not answer"
+    measured = "the node ended, and did not answer"
 
 
 @dataclass(eq=False)
@@ -158,7 +114,7 @@ class StuckInCallback(NoAnswer):
     hint = "Look for a loop without an end, a long sleep or input() in the service's function."
 
     @property
-    def measured(self) -> str:
+    def measured(self) -> str:  # type: ignore[override]
         """That nothing runs any more."""
         return f"{super().measured}, and no other callback of the node runs either"
 
@@ -178,10 +134,10 @@ class Deadlock(StuckInCallback):
     )
 
     @property
-    def measured(self) -> str:
+    def measured(self) -> str:  # type: ignore[override]
         """What it waits for."""
         return (
-            f"{NoAnswer.measured.fget(self)}: the node waits inside a callback,"  # type: ignore[attr-defined]
+            f"{super().measured}: the node waits inside a callback,"
             f" and is itself a client of {', '.join(self.calls)}"
         )
 
@@ -197,16 +153,8 @@ class WrongAnswer(Fault):
     found: str
     case: str = ""
     why = "A client acts on the answer. It must be able to believe it."
-
-    @property
-    def expected(self) -> str:
-        """The value."""
-        return f"{self.service}{self.asked} answers {self.field_name}: {self.wanted}"
-
-    @property
-    def measured(self) -> str:
-        """The value that came."""
-        return f"{self.field_name}: {self.found}"
+    expected = "{service}{asked} answers {field_name}: {wanted}"
+    measured = "{field_name}: {found}"
 
     @property
     def hint(self) -> str:
@@ -235,11 +183,7 @@ class WrongState(Fault):
         "Keep the state in the node (self.NAME). The service's function changes it; the timer's"
         " function publishes it. Do both use the same name?"
     )
-
-    @property
-    def expected(self) -> str:
-        """The state."""
-        return f"after {self.after}, {self.topic} says {self.wanted}"
+    expected = "after {after}, {topic} says {wanted}"
 
     @property
     def measured(self) -> str:
@@ -292,16 +236,8 @@ class DidNotAsk(Fault):
         "Does your code wait for the server (wait_for_service), and then come to"
         " call_async(request)? Write a line to the log right before the call, and see."
     )
-
-    @property
-    def expected(self) -> str:
-        """A request."""
-        return f"{self.executable} calls {self.service}"
-
-    @property
-    def measured(self) -> str:
-        """That none came."""
-        return f"no request came; {self.how}"
+    expected = "{executable} calls {service}"
+    measured = "no request came; {how}"
 
 
 @dataclass(eq=False)
@@ -309,11 +245,7 @@ class AsksElsewhere(WrongService):
     """The client calls a service of another name."""
 
     hint = "Look at the name in create_client(...). Check with `ros2 service list`."
-
-    @property
-    def expected(self) -> str:
-        """The name."""
-        return f"a client of {self.near.wanted}"
+    expected = "a client of {near.wanted}"
 
     @property
     def measured(self) -> str:
@@ -330,16 +262,8 @@ class AskedOtherwise(Fault):
     found: str
     why = "The server does what the request says, and not what you meant."
     hint = "Set the request's field before the call: request = TYPE.Request(), request.data = ..."
-
-    @property
-    def expected(self) -> str:
-        """The request."""
-        return f"{self.executable} asks with {self.wanted}"
-
-    @property
-    def measured(self) -> str:
-        """The request that came."""
-        return f"it asked with {self.found}"
+    expected = "{executable} asks with {wanted}"
+    measured = "it asked with {found}"
 
 
 @dataclass(eq=False)
@@ -350,24 +274,12 @@ class ClientStays(Fault):
     waited_s: float
     when: str = field(default="after the answer", kw_only=True)
     why = "This client has one task. When it is done, the terminal belongs to you again."
-
-    @property
-    def hint(self) -> str:
-        """The call that ends."""
-        return (
-            "rclpy.spin(node) never ends by itself. Use rclpy.spin_until_future_complete(node,"
-            " future), and let main() come to its end."
-        )
-
-    @property
-    def expected(self) -> str:
-        """An end."""
-        return f"{self.when}, {self.executable} ends by itself"
-
-    @property
-    def measured(self) -> str:
-        """That it does not."""
-        return f"it still ran {self.waited_s:.0f} s after its start"
+    expected = "{when}, {executable} ends by itself"
+    measured = "it still ran {waited_s:.0f} s after its start"
+    hint = (
+        "rclpy.spin(node) never ends by itself. Use rclpy.spin_until_future_complete(node,"
+        " future), and let main() come to its end."
+    )
 
 
 @dataclass(eq=False)
@@ -385,7 +297,7 @@ class ClientDeadlock(ClientStays):
     )
 
     @property
-    def measured(self) -> str:
+    def measured(self) -> str:  # type: ignore[override]
         """What stands still."""
         server = "the server answered at once, but " if self.answered else ""
         return f"{server}after {self.waited_s:.0f} s it still waits, and no callback of it runs"
@@ -398,29 +310,18 @@ class NeverGivesUp(ClientStays):
     limit_s: float
     wait: str
     why = "A program that waits for ever looks like one that works. Say what is missing, and end."
-
-    @property
-    def hint(self) -> str:
-        """The wait that has an end."""
-        return (
-            f"Give a time to the wait: client.{self.wait}(timeout_sec=2.0). When no server came, it"
-            " gives back False."
-        )
-
-    @property
-    def expected(self) -> str:
-        """An end in time."""
-        return f"without a server, {self.executable} ends by itself within {self.limit_s:g} s"
+    expected = "without a server, {executable} ends by itself within {limit_s:g} s"
+    hint = (
+        "Give a time to the wait: client.{wait}(timeout_sec=2.0). When no server came, it gives"
+        " back False."
+    )
 
 
 @dataclass(eq=False)
 class GivesUpLate(NeverGivesUp):
     """There is no server, and the client waits long before it says so."""
 
-    @property
-    def measured(self) -> str:
-        """When it ended."""
-        return f"it ended {self.waited_s:.1f} s after its node was there"
+    measured = "it ended {waited_s:.1f} s after its node was there"
 
 
 @dataclass(eq=False)
@@ -432,11 +333,7 @@ class WrongExitCode(Fault):
     wanted: int
     found: str
     why = "Other programs see only the exit code: 0 says that all went well, 1 that it did not."
-
-    @property
-    def expected(self) -> str:
-        """The code."""
-        return f"{self.when}, {self.executable} ends with exit code {self.wanted}"
+    expected = "{when}, {executable} ends with exit code {wanted}"
 
     @property
     def measured(self) -> str:
@@ -460,13 +357,5 @@ class AskedAgain(Fault):
     count: int
     why = "Each request does something: what is asked twice is done twice."
     hint = "Call call_async(request) once. Is it in a loop, or in a timer that goes on?"
-
-    @property
-    def expected(self) -> str:
-        """One request."""
-        return f"{self.executable} calls {self.service} once"
-
-    @property
-    def measured(self) -> str:
-        """How many came."""
-        return f"it called {self.count} times, and each call was answered at once"
+    expected = "{executable} calls {service} once"
+    measured = "it called {count} times, and each call was answered at once"

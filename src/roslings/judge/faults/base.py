@@ -2,13 +2,49 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import ClassVar
+from typing import Any, ClassVar
+
+SENTENCES = ("expected", "measured", "why", "hint")
+
+
+class Sentence:
+    """One that is written in a class as a template: what stands in braces comes from the fault."""
+
+    def __init__(self, template: str) -> None:
+        self.template = template
+
+    def __get__(self, fault: Any, kind: type[Any]) -> str:
+        """Filled in; of the class itself, the template. Raises AttributeError for other names."""
+        return self.template if fault is None else self.template.format_map(_Attributes(fault))
+
+
+class _Attributes(Mapping[str, Any]):
+    """Those of a fault, by their names: its fields, and what its properties make of them."""
+
+    def __init__(self, fault: Any) -> None:
+        self._fault = fault
+
+    def __getitem__(self, name: str) -> Any:
+        return getattr(self._fault, name)
+
+    def __iter__(self) -> Any:
+        return iter(vars(self._fault))
+
+    def __len__(self) -> int:
+        return len(vars(self._fault))
 
 
 @dataclass(eq=False)
 class Fault(Exception):
-    """A failed check. Subclasses carry the numbers and write the sentences."""
+    """A failed check. Subclasses carry the numbers, and have the sentences as templates.
+
+        expected = "a node that serves {service}"
+
+    A sentence in which there is something to decide is a property (where it takes the place of a
+    template, mypy wants `type: ignore[override]`). A brace itself is written twice.
+    """
 
     why: ClassVar[str] = ""
     was_seen: ClassVar[bool] = False
@@ -16,6 +52,14 @@ class Fault(Exception):
     blocks: ClassVar[bool] = True
     """Nothing can be said by the checks that need this one."""
     log: tuple[str, ...] = field(default=(), kw_only=True)
+
+    def __init_subclass__(cls) -> None:
+        """Texts under the names of sentences become templates; a field of such a name stays one."""
+        super().__init_subclass__()
+        fields = vars(cls).get("__annotations__", {})
+        for name in SENTENCES:
+            if name not in fields and isinstance(text := vars(cls).get(name), str):
+                setattr(cls, name, Sentence(text))
 
     @property
     def expected(self) -> str:
@@ -51,13 +95,9 @@ class Unmet(Fault):
     sentence: str
     why = ""
     hint = "Read the lab's card again and compare."
+    measured = "it is not so"
 
     @property
     def expected(self) -> str:
         """The check's own sentence."""
         return self.sentence
-
-    @property
-    def measured(self) -> str:
-        """That it does not hold."""
-        return "it is not so"

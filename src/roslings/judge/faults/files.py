@@ -15,11 +15,7 @@ class InvalidPackageXml(Fault):
     problem: str
     why = "ROS tools read package.xml first. If it is not valid, they do not see a ROS package."
     hint = "Open package.xml and mend the line named above. Compare with the lesson's example."
-
-    @property
-    def expected(self) -> str:
-        """A valid file."""
-        return "a valid package.xml"
+    expected = "a valid package.xml"
 
     @property
     def measured(self) -> str:
@@ -34,21 +30,13 @@ class WrongBuildType(Fault):
     wanted: str
     found: str
     why = "colcon looks at the build type to know how to build the package."
-
-    @property
-    def expected(self) -> str:
-        """The wanted kind."""
-        return f"the build type {self.wanted}"
+    expected = "the build type {wanted}"
+    hint = "Look at <build_type> inside <export> at the end of package.xml."
 
     @property
     def measured(self) -> str:
         """The kind that is there."""
         return f"the build type {self.found}" if self.found else "no build type in package.xml"
-
-    @property
-    def hint(self) -> str:
-        """The line to write."""
-        return "Look at <build_type> inside <export> at the end of package.xml."
 
 
 @dataclass(eq=False)
@@ -57,23 +45,9 @@ class MissingFile(Fault):
 
     path: str
     why = "Each of these files tells ROS one thing: where the code is, and what it is called."
-
-    @property
-    def expected(self) -> str:
-        """The file."""
-        return f"the file {self.path}"
-
-    @property
-    def measured(self) -> str:
-        """That it is missing."""
-        return f"there is no {self.path} in the package"
-
-    @property
-    def hint(self) -> str:
-        """Where it comes from."""
-        return (
-            "`ros2 pkg create` makes this file. Make a package beside yours and see what it holds."
-        )
+    expected = "the file {path}"
+    measured = "there is no {path} in the package"
+    hint = "`ros2 pkg create` makes this file. Make a package beside yours and see what it holds."
 
 
 @dataclass(eq=False)
@@ -82,11 +56,7 @@ class SyntaxErrorInCode(Fault):
 
     place: str
     why = "Python reads a whole file before it runs one line of it."
-
-    @property
-    def expected(self) -> str:
-        """Readable code."""
-        return "Python code that Python can read"
+    expected = "Python code that Python can read"
 
     @property
     def measured(self) -> str:
@@ -110,16 +80,8 @@ class UnlistedDependency(Fault):
     why = (
         "On another machine ROS installs only what package.xml names. There, your node would stop."
     )
-
-    @property
-    def expected(self) -> str:
-        """The package in package.xml."""
-        return f"{self.package} in package.xml, because {self.place} imports it"
-
-    @property
-    def measured(self) -> str:
-        """That it is not named."""
-        return f"package.xml does not name {self.package}"
+    expected = "{package} in package.xml, because {place} imports it"
+    measured = "package.xml does not name {package}"
 
     @property
     def hint(self) -> str:
@@ -139,16 +101,8 @@ class BuildFailed(Fault):
     seconds: float
     why = "What is not built cannot be run with `ros2 run`."
     hint = "Run `colcon build` in your workspace. Read the first error, not the last one."
-
-    @property
-    def expected(self) -> str:
-        """A build."""
-        return "`colcon build` ends without an error"
-
-    @property
-    def measured(self) -> str:
-        """That it failed."""
-        return f"`colcon build` failed after {self.seconds:.1f} s"
+    expected = "`colcon build` ends without an error"
+    measured = "`colcon build` failed after {seconds:.1f} s"
 
 
 @dataclass(eq=False)
@@ -158,11 +112,7 @@ class NotAnAmentPackage(Fault):
     found: str | None
     why = "colcon built it as plain Python. ROS does not find such a package."
     hint = "Mend package.xml: name, e-mail and <build_type>ament_python</build_type>."
-
-    @property
-    def expected(self) -> str:
-        """A ROS package."""
-        return "colcon takes it for a ROS package (ros.ament_python)"
+    expected = "colcon takes it for a ROS package (ros.ament_python)"
 
     @property
     def measured(self) -> str:
@@ -178,19 +128,11 @@ class NoExecutable(Fault):
     found: tuple[str, ...]
     package: str
     why = "`ros2 run` starts what setup.py lists under console_scripts, and nothing else."
-
-    @property
-    def expected(self) -> str:
-        """The executable."""
-        return f"`ros2 run {self.package} {self.wanted}` finds an executable"
+    expected = "`ros2 run {package} {wanted}` finds an executable"
+    hint = "Look at entry_points in setup.py: one text 'name = module:function' for each node."
 
     @property
     def measured(self) -> str:
         """What there is."""
         there = ", ".join(self.found) if self.found else "none"
         return f"the package has these executables: {there}"
-
-    @property
-    def hint(self) -> str:
-        """Where to look."""
-        return "Look at entry_points in setup.py: one text 'name = module:function' for each node."

@@ -15,11 +15,7 @@ class WrongNodeName(Fault):
 
     near: Near
     why = "Other nodes and tools find a node by its name."
-
-    @property
-    def expected(self) -> str:
-        """The full name."""
-        return f"a node {self.near.wanted}"
+    expected = "a node {near.wanted}"
 
     @property
     def measured(self) -> str:
@@ -42,16 +38,8 @@ class NodeTwice(Fault):
     count: int
     why = "ROS cannot tell two nodes of one name apart: settings and commands reach either."
     hint = "How often does your code make this node? Once in main() is enough."
-
-    @property
-    def expected(self) -> str:
-        """One."""
-        return f"one node {self.name}"
-
-    @property
-    def measured(self) -> str:
-        """How many."""
-        return f"{self.count} nodes with this name"
+    expected = "one node {name}"
+    measured = "{count} nodes with this name"
 
 
 @dataclass(eq=False)
@@ -62,11 +50,7 @@ class WrongTopic(Fault):
     verb: str
     type: str
     why = "Publisher and subscription meet only when both use the very same name."
-
-    @property
-    def expected(self) -> str:
-        """The topic."""
-        return f"a node that {self.verb} {self.near.wanted}"
+    expected = "a node that {verb} {near.wanted}"
 
     @property
     def measured(self) -> str:
@@ -93,16 +77,8 @@ class NoTopic(Fault):
     topic: str
     verb: str
     why = "Without a topic, no message can go from one node to another."
-
-    @property
-    def expected(self) -> str:
-        """The topic."""
-        return f"a node that {self.verb} {self.topic}"
-
-    @property
-    def measured(self) -> str:
-        """That there is none."""
-        return f"it {self.verb} no topic of its own"
+    expected = "a node that {verb} {topic}"
+    measured = "it {verb} no topic of its own"
 
     @property
     def hint(self) -> str:
@@ -121,21 +97,9 @@ class WrongType(Fault):
     wanted: str
     found: str
     why = "A topic carries one type of message. Other types are not delivered, without an error."
-
-    @property
-    def expected(self) -> str:
-        """The type."""
-        return f"{self.topic} carries {self.wanted}"
-
-    @property
-    def measured(self) -> str:
-        """The type that is there."""
-        return f"it carries {self.found}"
-
-    @property
-    def hint(self) -> str:
-        """Where the type is given."""
-        return "The type is the first word in create_publisher(...) or create_subscription(...)."
+    expected = "{topic} carries {wanted}"
+    measured = "it carries {found}"
+    hint = "The type is the first word in create_publisher(...) or create_subscription(...)."
 
 
 @dataclass(eq=False)
@@ -147,16 +111,8 @@ class QosCannotMatch(Fault):
     wanted: str
     found: str
     why = "If one side asks for more than the other offers, no message is delivered."
-
-    @property
-    def expected(self) -> str:
-        """What the other side uses."""
-        return f"a QoS on {self.topic} that works with {self.policy} {self.wanted}"
-
-    @property
-    def measured(self) -> str:
-        """What is there."""
-        return f"{self.policy} is {self.found}: the two can never be joined"
+    expected = "a QoS on {topic} that works with {policy} {wanted}"
+    measured = "{policy} is {found}: the two can never be joined"
 
     @property
     def hint(self) -> str:
@@ -177,11 +133,7 @@ class TwoPublishers(Fault):
     nodes: tuple[str, ...]
     why = "Two publishers on one topic mix their messages, and the counting seems to jump."
     hint = "Count the calls of create_publisher in your code. One for each topic is enough."
-
-    @property
-    def expected(self) -> str:
-        """One."""
-        return f"one publisher on {self.topic}"
+    expected = "one publisher on {topic}"
 
     @property
     def measured(self) -> str:

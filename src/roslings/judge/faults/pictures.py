@@ -18,24 +18,16 @@ class BadPicture(Fault):
     why = "The picture shows that you have looked at your own graph."
     again = " --force"
     """What stands there must be replaced."""
-
-    @property
-    def expected(self) -> str:
-        """The picture."""
-        return f"{self.path}: {self.wanted}"
+    expected = "{path}: {wanted}"
+    hint = (
+        "Run your nodes. Then, in one more terminal, in the roslings folder: ./roslings graph"
+        " --for {lab}{again}"
+    )
 
     @property
     def measured(self) -> str:
         """What is there."""
         return self.found
-
-    @property
-    def hint(self) -> str:
-        """How to make it: one command, which finds the package as `check` does."""
-        return (
-            "Run your nodes. Then, in one more terminal, in the roslings folder:"
-            f" ./roslings graph --for {self.lab}{self.again}"
-        )
 
 
 @dataclass(eq=False)

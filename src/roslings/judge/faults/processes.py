@@ -57,16 +57,8 @@ class EndedWithError(Fault):
     was_seen = True
     why = "An error that nobody catches ends the program at once."
     hint = READ_THE_LINES
-
-    @property
-    def expected(self) -> str:
-        """What it should have done."""
-        return f"{self.executable} {self.task}"
-
-    @property
-    def measured(self) -> str:
-        """That it ended."""
-        return f"it ended with an error before that ({self.status})"
+    expected = "{executable} {task}"
+    measured = "it ended with an error before that ({status})"
 
 
 @dataclass(eq=False)
@@ -127,11 +119,7 @@ class DoesNotEnd(Fault):
     was_seen = True
     why = "Who cannot stop a robot's program with Ctrl-C cannot stop the robot."
     hint = "Does your code catch KeyboardInterrupt and go on, or wait in a loop that never ends?"
-
-    @property
-    def expected(self) -> str:
-        """The time that it has."""
-        return f"{self.executable} ends within {self.within_s:g} s of Ctrl-C"
+    expected = "{executable} ends within {within_s:g} s of Ctrl-C"
 
     @property
     def measured(self) -> str:
@@ -156,11 +144,7 @@ class UncleanExit(Fault):
         "Catch KeyboardInterrupt and ExternalShutdownException around rclpy.spin(), and end "
         "with rclpy.try_shutdown()."
     )
-
-    @property
-    def expected(self) -> str:
-        """A clean end."""
-        return f"{self.executable} ends after Ctrl-C with exit code 0 and no traceback"
+    expected = "{executable} ends after Ctrl-C with exit code 0 and no traceback"
 
     @property
     def measured(self) -> str:
@@ -177,13 +161,5 @@ class LeavesProcesses(Fault):
     was_seen = True
     why = "A forgotten process still sends messages, and the next start meets it."
     hint = "End what your node starts (subprocess, multiprocessing) before the node itself ends."
-
-    @property
-    def expected(self) -> str:
-        """Nothing left."""
-        return f"nothing that {self.executable} started outlives it"
-
-    @property
-    def measured(self) -> str:
-        """How many were left."""
-        return f"{self.count} process(es) still ran after it had ended"
+    expected = "nothing that {executable} started outlives it"
+    measured = "{count} process(es) still ran after it had ended"

@@ -18,11 +18,7 @@ class SpeaksOnlyWhenObserved(Fault):
     hint = (
         "Publish in the timer's function each time. Do not look first at who else is in the graph."
     )
-
-    @property
-    def expected(self) -> str:
-        """The same rate, whoever is there."""
-        return f"{self.wanted_hz:g} Hz on {self.topic}, also while only your own nodes run"
+    expected = "{wanted_hz:g} Hz on {topic}, also while only your own nodes run"
 
     @property
     def measured(self) -> str:
@@ -41,11 +37,7 @@ class WritesWhatWasNotSent(Fault):
     hz: float | None
     why = "A line in a log is no message: a robot drives by what arrives."
     hint = "Write a line in the callback alone, once for each message that came."
-
-    @property
-    def expected(self) -> str:
-        """The same rate, whoever is there."""
-        return f"{self.wanted_hz:g} Hz on {self.topic}, also while only your own nodes run"
+    expected = "{wanted_hz:g} Hz on {topic}, also while only your own nodes run"
 
     @property
     def measured(self) -> str:

@@ -54,16 +54,8 @@ class LoggedAgain(Fault):
     why = "Who reads the log counts the lines: two lines mean that two things happened."
     hint = "Is the line logged in two places? One message is one call of get_logger().info(...)."
     was_seen = True
-
-    @property
-    def expected(self) -> str:
-        """Once."""
-        return f"{self.executable} writes each line once for each message"
-
-    @property
-    def measured(self) -> str:
-        """More often."""
-        return f"it wrote {self.line!r} {self.times} times"
+    expected = "{executable} writes each line once for each message"
+    measured = "it wrote {line!r} {times} times"
 
 
 def _are_alike(wanted: str, found: str) -> bool:

@@ -50,11 +50,7 @@ class XAndYSwapped(WrongPlace):
         "numpy counts rows first: picture[row, column]. OpenCV's functions give x first: (column,"
         " row). x is the column."
     )
-
-    @property
-    def measured(self) -> str:
-        """What it looks like."""
-        return f"{self._place}: x and y are exchanged"
+    measured = "{_place}: x and y are exchanged"
 
 
 @dataclass(eq=False)
@@ -62,11 +58,7 @@ class CornerNotCentre(WrongPlace):
     """The corner of the box around the ball."""
 
     hint = "cv2.boundingRect gives the upper left corner. Add half of the width and the height."
-
-    @property
-    def measured(self) -> str:
-        """What it looks like."""
-        return f"{self._place}: the corner of the box around the ball"
+    measured = "{_place}: the corner of the box around the ball"
 
 
 @dataclass(eq=False)
@@ -74,11 +66,7 @@ class FromTheMiddle(WrongPlace):
     """Counted from the centre of the picture."""
 
     hint = "Count from the upper left corner of the picture, to the right and down."
-
-    @property
-    def measured(self) -> str:
-        """What it looks like."""
-        return f"{self._place}: counted from the middle of the picture"
+    measured = "{_place}: counted from the middle of the picture"
 
 
 @dataclass(eq=False)
@@ -104,11 +92,7 @@ class FoundTheDecoy(WrongPlace):
         "There are two balls: take the one whose hue is nearest to ball_hue. Hues are 0 to 179 in"
         " OpenCV, half of the degrees that others count."
     )
-
-    @property
-    def measured(self) -> str:
-        """What it found."""
-        return f"{self._place}: there is a ball of another colour"
+    measured = "{_place}: there is a ball of another colour"
 
 
 @dataclass(eq=False)
@@ -119,11 +103,7 @@ class RedAndBlueExchanged(FoundTheDecoy):
         "Look at image.encoding: rgb8 has red first. Turn it into bgr8 with cv2.cvtColor, before"
         " you make hues of it."
     )
-
-    @property
-    def measured(self) -> str:
-        """What it found."""
-        return f"{self._place}: the other ball, which is yours when red and blue are exchanged"
+    measured = "{_place}: the other ball, which is yours when red and blue are exchanged"
 
 
 @dataclass(eq=False)
@@ -134,16 +114,12 @@ class HueIgnored(FoundTheDecoy):
         "Read the parameter for each picture: self.get_parameter('ball_hue').value. What __init__"
         " read stays as it was then."
     )
+    measured = "{_place}: the ball of the colour before"
 
     @property
     def expected(self) -> str:
         """Where the ball of the new colour is."""
         return f"after ball_hue was set, {super().expected}"
-
-    @property
-    def measured(self) -> str:
-        """What it found."""
-        return f"{self._place}: the ball of the colour before"
 
 
 @dataclass(eq=False)
@@ -154,16 +130,12 @@ class HueAtStartIgnored(FoundTheDecoy):
         "Read the parameter for each picture: self.get_parameter('ball_hue').value. A variable that"
         " only a change sets does not know the value of the start."
     )
+    measured = "{_place}: the ball of the default colour"
 
     @property
     def expected(self) -> str:
         """Where the ball of that colour is."""
         return f"started with another ball_hue, {super().expected}"
-
-    @property
-    def measured(self) -> str:
-        """What it found."""
-        return f"{self._place}: the ball of the default colour"
 
 
 @dataclass(eq=False)
@@ -177,16 +149,8 @@ class NotFound(Fault):
         "Save the mask of this picture (cv2.imwrite) and look at it. Is the ball white in it?"
         " If not: which limit is too narrow, hue (0 to 179 in OpenCV), saturation or value?"
     )
-
-    @property
-    def expected(self) -> str:
-        """A message."""
-        return f"{self.picture}: the ball, on {self.topic}"
-
-    @property
-    def measured(self) -> str:
-        """None."""
-        return "the node looked at the picture and found nothing"
+    expected = "{picture}: the ball, on {topic}"
+    measured = "the node looked at the picture and found nothing"
 
 
 @dataclass(eq=False)
@@ -208,16 +172,8 @@ class Unanswered(Fault):
     picture: str
     why = "Who waits for an answer waits for ever."
     hint = "Is the function of your subscription reached? Log a line in it, and see."
-
-    @property
-    def expected(self) -> str:
-        """An answer."""
-        return f"{self.picture}: a message on {self.topic}"
-
-    @property
-    def measured(self) -> str:
-        """None."""
-        return "the node published nothing"
+    expected = "{picture}: a message on {topic}"
+    measured = "the node published nothing"
 
 
 @dataclass(eq=False)
@@ -225,11 +181,7 @@ class TooSlowForPictures(Unanswered):
     """It works on one picture for seconds."""
 
     hint = "Do not go through the pixels in a Python loop: numpy and cv2 do all of them at once."
-
-    @property
-    def measured(self) -> str:
-        """That it works still."""
-        return "the node still worked on it after many seconds"
+    measured = "the node still worked on it after many seconds"
 
 
 @dataclass(eq=False)
@@ -237,11 +189,7 @@ class EndedByPicture(Unanswered):
     """The node ended when the picture came."""
 
     hint = "Read the last lines below: the last one says what went wrong, the one above where."
-
-    @property
-    def measured(self) -> str:
-        """That it ended."""
-        return "the node ended with an error"
+    measured = "the node ended with an error"
 
 
 @dataclass(eq=False)
@@ -255,7 +203,7 @@ class RowsNotCut(EndedByPicture):
     )
 
     @property
-    def measured(self) -> str:
+    def measured(self) -> str:  # type: ignore[override]
         """What it did with them."""
         ended = "the node ended with an error: " if self.log else ""
         return f"{ended}the idle bytes at the end of each row were taken for pixels"
@@ -269,6 +217,7 @@ class FoundWhereNothingIs(Fault):
     picture: str
     found: tuple[float, float]
     why = "The robot drives to a ball that is not there."
+    expected = "{picture}: nothing on {topic}"
 
     @property
     def hint(self) -> str:
@@ -279,11 +228,6 @@ class FoundWhereNothingIs(Fault):
             "Noise has every hue, but grey has little saturation: ask for more of it. Take single"
             " dots away (MORPH_OPEN), and ask for a least size."
         )
-
-    @property
-    def expected(self) -> str:
-        """No message."""
-        return f"{self.picture}: nothing on {self.topic}"
 
     @property
     def measured(self) -> str:
@@ -304,11 +248,7 @@ class StampNotCarried(Fault):
         " robot was when the picture was made."
     )
     hint = "Copy the whole header: ANSWER.header = image.header"
-
-    @property
-    def expected(self) -> str:
-        """That of the picture."""
-        return f"on {self.topic}, {self.what} of the picture: {self.wanted}"
+    expected = "on {topic}, {what} of the picture: {wanted}"
 
     @property
     def measured(self) -> str:
@@ -328,11 +268,7 @@ class WrongDrawing(Fault):
         "Draw with cv2.circle on the picture in bgr8, and publish that: its width, its height,"
         " step = width x 3, and all its bytes."
     )
-
-    @property
-    def expected(self) -> str:
-        """The same picture, with a ring."""
-        return f"{self.picture}: on {self.topic} the same picture, with a ring around the ball"
+    expected = "{picture}: on {topic} the same picture, with a ring around the ball"
 
     @property
     def measured(self) -> str:
@@ -352,11 +288,7 @@ class SilentAboutPicture(Fault):
         "Compare len(image.data) with image.step * image.height before you use the bytes, and log"
         " the line of the card."
     )
-
-    @property
-    def expected(self) -> str:
-        """The line."""
-        return f"{self.picture}: a line {self.line!r}"
+    expected = "{picture}: a line {line!r}"
 
     @property
     def measured(self) -> str:
@@ -373,16 +305,8 @@ class AnsweredTwice(Fault):
     count: int
     why = "Who hears an answer takes it for news: one ball becomes two."
     hint = "Call publish() once for each picture, in the function that hears it, and in no timer."
-
-    @property
-    def expected(self) -> str:
-        """One."""
-        return f"{self.picture}: one message on {self.topic}"
-
-    @property
-    def measured(self) -> str:
-        """Several."""
-        return f"{self.count} messages"
+    expected = "{picture}: one message on {topic}"
+    measured = "{count} messages"
 
 
 @dataclass(eq=False)
@@ -393,16 +317,8 @@ class AnswersBadPicture(Fault):
     topic: str
     why = "Who gets the answer believes it, and cannot know that the picture was broken."
     hint = "After the line in the log, return: no place, and no drawing."
-
-    @property
-    def expected(self) -> str:
-        """Silence."""
-        return f"{self.picture}: nothing on {self.topic}"
-
-    @property
-    def measured(self) -> str:
-        """That something came."""
-        return "a message came"
+    expected = "{picture}: nothing on {topic}"
+    measured = "a message came"
 
 
 @dataclass(eq=False)
@@ -414,13 +330,5 @@ class HasDepth(Fault):
     found: float
     why = "A place in a picture has a column and a row. z is free, so it stays 0."
     hint = "Fill point.x and point.y only. The radius of the ball is no part of its place."
-
-    @property
-    def expected(self) -> str:
-        """A place in the picture."""
-        return f"{self.picture}: on {self.topic} z 0"
-
-    @property
-    def measured(self) -> str:
-        """What came."""
-        return f"z {self.found:g}"
+    expected = "{picture}: on {topic} z 0"
+    measured = "z {found:g}"

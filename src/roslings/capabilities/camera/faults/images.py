@@ -24,16 +24,8 @@ class NotThisQos(Fault):
     hint = (
         "Give qos_profile_sensor_data, from rclpy.qos, to create_publisher in place of the number."
     )
-
-    @property
-    def expected(self) -> str:
-        """The asked one."""
-        return f"{self.topic} is published as {self.wanted}"
-
-    @property
-    def measured(self) -> str:
-        """The one that is there."""
-        return f"it is published as {self.found}"
+    expected = "{topic} is published as {wanted}"
+    measured = "it is published as {found}"
 
 
 @dataclass(eq=False)
@@ -45,11 +37,7 @@ class WrongStep(Fault):
     found: int
     why = "Who reads the picture goes on by `step` bytes to find the next row."
     hint = "step is the bytes of one row: width x channels. bgr8 has 3 channels, each one byte."
-
-    @property
-    def expected(self) -> str:
-        """Bytes a row."""
-        return f"on {self.topic}, step is {self.wanted}"
+    expected = "on {topic}, step is {wanted}"
 
     @property
     def measured(self) -> str:
@@ -71,16 +59,8 @@ class NotAllBytes(Fault):
     found: int
     why = "Who reads the picture believes its header, and reads beyond the end of the bytes."
     hint = "data holds step x height bytes: all rows of the picture, one behind the other."
-
-    @property
-    def expected(self) -> str:
-        """Step times height."""
-        return f"on {self.topic}, data has step x height = {self.wanted} bytes"
-
-    @property
-    def measured(self) -> str:
-        """How many there are."""
-        return f"it has {self.found} bytes"
+    expected = "on {topic}, data has step x height = {wanted} bytes"
+    measured = "it has {found} bytes"
 
 
 @dataclass(eq=False)
@@ -94,11 +74,7 @@ class WrongPicture(Fault):
         "Publish what camera.read() gave: all rows, all columns, in their order."
         f" {OPEN_THE_PAGE} there is your picture."
     )
-
-    @property
-    def expected(self) -> str:
-        """What the camera saw."""
-        return f"on {self.topic}, the pictures of the camera"
+    expected = "on {topic}, the pictures of the camera"
 
     @property
     def measured(self) -> str:
@@ -116,11 +92,7 @@ class RedAndBlueSwapped(WrongPicture):
         "OpenCV has blue first, and so has the camera: that is bgr8. Take cv2.cvtColor away, or"
         " let the encoding say what the bytes are."
     )
-
-    @property
-    def measured(self) -> str:
-        """What is the matter."""
-        return "the right picture, with red and blue exchanged"
+    measured = "the right picture, with red and blue exchanged"
 
 
 @dataclass(eq=False)
@@ -133,16 +105,8 @@ class PictureTwice(Fault):
     hint = (
         "Call camera.read() each time before you publish. Keep no old picture and no old message."
     )
-
-    @property
-    def expected(self) -> str:
-        """Each once."""
-        return f"on {self.topic}, a new picture each time"
-
-    @property
-    def measured(self) -> str:
-        """How many repeat."""
-        return f"{self.share:.0%} of the messages show the same picture as the one before"
+    expected = "on {topic}, a new picture each time"
+    measured = "{share:.0%} of the messages show the same picture as the one before"
 
 
 @dataclass(eq=False)
@@ -153,16 +117,8 @@ class PicturesLost(Fault):
     share: float
     why = "Each picture that is read costs time. A lost one may be the one with the ball."
     hint = "Call camera.read() once for each message, and publish what it gave."
-
-    @property
-    def expected(self) -> str:
-        """All."""
-        return f"on {self.topic}, each picture that the node reads from the camera"
-
-    @property
-    def measured(self) -> str:
-        """How many are missing."""
-        return f"{self.share:.0%} of the pictures that the node read were not published"
+    expected = "on {topic}, each picture that the node reads from the camera"
+    measured = "{share:.0%} of the pictures that the node read were not published"
 
 
 @dataclass(eq=False)
@@ -175,11 +131,7 @@ class ParameterNotSet(Fault):
     reason: str
     why = "Who tunes a robot does so while it runs, and watches what happens."
     hint = "Call self.declare_parameter(NAME, DEFAULT) in __init__, with the name of the card."
-
-    @property
-    def expected(self) -> str:
-        """That it can be set."""
-        return f"`ros2 param set {self.node} {self.name} {self.value}` works"
+    expected = "`ros2 param set {node} {name} {value}` works"
 
     @property
     def measured(self) -> str:
@@ -200,16 +152,8 @@ class ParameterAccepted(Fault):
         "Give limits to declare_parameter: ParameterDescriptor(integer_range=[IntegerRange("
         "from_value=..., to_value=..., step=1)]). The type is that of the default."
     )
-
-    @property
-    def expected(self) -> str:
-        """A refusal."""
-        return f"{self.node} refuses {self.name} = {self.value} ({self.span})"
-
-    @property
-    def measured(self) -> str:
-        """That there was none."""
-        return "the value was taken"
+    expected = "{node} refuses {name} = {value} ({span})"
+    measured = "the value was taken"
 
 
 @dataclass(eq=False)
@@ -217,11 +161,7 @@ class EndedByParameter(ParameterAccepted):
     """The node ended when a wrong value came."""
 
     hint = "Read the last lines below. Raise nothing for a wrong value: let ROS refuse it."
-
-    @property
-    def measured(self) -> str:
-        """That it ended."""
-        return "the node ended"
+    measured = "the node ended"
 
 
 @dataclass(eq=False)
@@ -285,15 +225,11 @@ class LightAtStartIgnored(WrongBrightness):
 class BrightnessIgnored(WrongBrightness):
     """Nothing happens."""
 
-    @property
-    def measured(self) -> str:
-        """That nothing changed."""
-        return "the pictures stayed as they were"
-
     hint = (
         "Read the parameter for each picture: self.get_parameter(NAME).value. What __init__ read"
         " stays as it was then."
     )
+    measured = "the pictures stayed as they were"
 
 
 @dataclass(eq=False)
@@ -304,11 +240,7 @@ class BrightnessGoesRound(WrongBrightness):
         "A value of 8 bits goes round: 250 + 10 is 4. Use cv2.add(picture, (n, n, n, 0)), which"
         " stops at 0 and at 255. cv2.convertScaleAbs makes -20 to 20."
     )
-
-    @property
-    def measured(self) -> str:
-        """What it looks like."""
-        return "values beyond 255 began again at 0, or values below 0 at 255"
+    measured = "values beyond 255 began again at 0, or values below 0 at 255"
 
 
 @dataclass(eq=False)
@@ -324,11 +256,7 @@ class SilentAboutCamera(Fault):
         "except OSError as error: log the line of the card with str(error) in it, each time."
         " It names the device and the reason."
     )
-
-    @property
-    def expected(self) -> str:
-        """The line."""
-        return f"{self.when}: a line {self.line!r} with the device and {self.reason!r} in it"
+    expected = "{when}: a line {line!r} with the device and {reason!r} in it"
 
     @property
     def measured(self) -> str:
@@ -344,11 +272,7 @@ class EndedWithoutCamera(SilentAboutCamera):
         "Read the last lines below. Catch OSError where you open the camera and where you read"
         " it. Then try again from a timer."
     )
-
-    @property
-    def measured(self) -> str:
-        """That it ended."""
-        return "the node ended"
+    measured = "the node ended"
 
 
 @dataclass(eq=False)
@@ -362,16 +286,8 @@ class NoPictureAfter(Fault):
         "After an OSError, close the camera and set self.camera to None. A timer opens it again"
         " where it is None."
     )
-
-    @property
-    def expected(self) -> str:
-        """Pictures."""
-        return f"pictures on {self.topic} {self.when}"
-
-    @property
-    def measured(self) -> str:
-        """None."""
-        return "none came"
+    expected = "pictures on {topic} {when}"
+    measured = "none came"
 
 
 @dataclass(eq=False)
@@ -384,13 +300,5 @@ class TriesSeldom(Fault):
     took_s: float
     why = "A robot that stands for want of a picture stands in somebody's way."
     hint = "Open the camera from a timer of its own, with a period below two seconds."
-
-    @property
-    def expected(self) -> str:
-        """How soon somebody looks again."""
-        return f"{self.when}: a new try within {self.within_s:g} s, so pictures on {self.topic}"
-
-    @property
-    def measured(self) -> str:
-        """When the first one came."""
-        return f"the first one came after {self.took_s:.1f} s"
+    expected = "{when}: a new try within {within_s:g} s, so pictures on {topic}"
+    measured = "the first one came after {took_s:.1f} s"

@@ -16,16 +16,8 @@ class NoMessages(Fault):
     seconds: float
     why = "A publisher sends nothing by itself: something must call publish() again and again."
     hint = "Is there a timer (create_timer) whose function calls publish()?"
-
-    @property
-    def expected(self) -> str:
-        """Messages."""
-        return f"messages on {self.topic} all the time"
-
-    @property
-    def measured(self) -> str:
-        """How many came."""
-        return f"{self.count} message(s) in {self.seconds:.1f} s"
+    expected = "messages on {topic} all the time"
+    measured = "{count} message(s) in {seconds:.1f} s"
 
 
 @dataclass(eq=False)
@@ -37,16 +29,8 @@ class WrongText(Fault):
     was_seen = True
     why = "Who reads these messages expects exactly this text."
     hint = "Compare letter by letter: capitals, spaces, and the number at the end."
-
-    @property
-    def expected(self) -> str:
-        """The text."""
-        return f"texts like {self.wanted!r}"
-
-    @property
-    def measured(self) -> str:
-        """The first text that differs."""
-        return f"{self.found!r}"
+    expected = "texts like {wanted!r}"
+    measured = "{found!r}"
 
 
 @dataclass(eq=False)
@@ -56,21 +40,13 @@ class WrongCount(Fault):
     before: int
     after: int
     why = "With a number that goes up by one, a lost message is noticed."
+    measured = "{after} after {before}"
+    hint = "Add 1 to your counter once for each message, right after publish()."
 
     @property
     def expected(self) -> str:
         """The next number."""
         return f"{self.before + 1} after {self.before}"
-
-    @property
-    def measured(self) -> str:
-        """The number that came."""
-        return f"{self.after} after {self.before}"
-
-    @property
-    def hint(self) -> str:
-        """Where to look."""
-        return "Add 1 to your counter once for each message, right after publish()."
 
 
 @dataclass(eq=False)

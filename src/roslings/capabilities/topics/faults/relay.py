@@ -16,24 +16,11 @@ class WrongField(Fault):
     wanted: str
     found: str
     why = "Who uses a sensor's messages knows the sensor only by these fields."
-
-    @property
-    def expected(self) -> str:
-        """The value."""
-        return f"on {self.topic}, the field {self.name} is {self.wanted}"
-
-    @property
-    def measured(self) -> str:
-        """The value that came."""
-        return f"it is {self.found}"
-
-    @property
-    def hint(self) -> str:
-        """Where it is filled."""
-        return (
-            f"Fill it before you publish: MESSAGE.{self.name} = ... A field that nobody fills is 0"
-            " or empty."
-        )
+    expected = "on {topic}, the field {name} is {wanted}"
+    measured = "it is {found}"
+    hint = (
+        "Fill it before you publish: MESSAGE.{name} = ... A field that nobody fills is 0 or empty."
+    )
 
 
 @dataclass(eq=False)
@@ -43,16 +30,8 @@ class NoStamp(Fault):
     topic: str
     why = "A distance or a picture without its time is of no use to a robot that moves."
     hint = "Fill it in each message: MESSAGE.header.stamp = self.get_clock().now().to_msg()"
-
-    @property
-    def expected(self) -> str:
-        """A stamp."""
-        return f"on {self.topic}, header.stamp is the time at which the message is made"
-
-    @property
-    def measured(self) -> str:
-        """That it is empty."""
-        return "header.stamp is 0: nobody filled it"
+    expected = "on {topic}, header.stamp is the time at which the message is made"
+    measured = "header.stamp is 0: nobody filled it"
 
 
 @dataclass(eq=False)
@@ -66,7 +45,7 @@ class OldStamp(NoStamp):
     )
 
     @property
-    def measured(self) -> str:
+    def measured(self) -> str:  # type: ignore[override]
         """How far it is off."""
         return f"header.stamp is {abs(self.behind_s):.1f} s away from the time of sending"
 
@@ -86,11 +65,7 @@ class WrongReaction(Fault):
         "Take this one case, with the numbers of the card, and go through your code with it by"
         " hand, line by line."
     )
-
-    @property
-    def expected(self) -> str:
-        """The value."""
-        return f"after {self.heard}: {self.field_name} {self.wanted} on {self.topic}"
+    expected = "after {heard}: {field_name} {wanted} on {topic}"
 
     @property
     def measured(self) -> str:
@@ -130,11 +105,7 @@ class EndedWhileHearing(WrongReaction):
         "Read the last lines below. Python cannot make an int of NaN or of an infinity: ask"
         " math.isfinite(VALUE) first."
     )
-
-    @property
-    def measured(self) -> str:
-        """That it ended."""
-        return "the node ended with an error"
+    measured = "the node ended with an error"
 
 
 @dataclass(eq=False)
@@ -143,11 +114,7 @@ class WrongAtFirst(WrongReaction):
 
     why = "A number means that something was measured. Before that, the sensor knows nothing."
     hint = "What do you put into your variable in __init__? It is published until a value comes."
-
-    @property
-    def expected(self) -> str:
-        """The value for nothing."""
-        return f"before anything was heard: {self.field_name} {self.wanted} on {self.topic}"
+    expected = "before anything was heard: {field_name} {wanted} on {topic}"
 
 
 @dataclass(eq=False)
@@ -159,13 +126,5 @@ class MoreThanAsked(Fault):
     came: int
     why = "Who hears a message takes it for news: twice the same message is a wrong one."
     hint = "Call publish() once, in the function that hears a message, and in no timer."
-
-    @property
-    def expected(self) -> str:
-        """One for each."""
-        return f"one message on {self.topic} for each that is heard ({self.told} were told)"
-
-    @property
-    def measured(self) -> str:
-        """More."""
-        return f"{self.came} messages came"
+    expected = "one message on {topic} for each that is heard ({told} were told)"
+    measured = "{came} messages came"

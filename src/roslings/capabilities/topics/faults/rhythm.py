@@ -41,11 +41,7 @@ class WrongRate(Fault):
     rate: Rate
     was_seen = True
     why = "Other nodes rely on the rate: a slow sensor is like a robot with closed eyes."
-
-    @property
-    def expected(self) -> str:
-        """The rate and its tolerance."""
-        return f"{self.wanted_hz:g} Hz on {self.topic} (within {self.within:.0%})"
+    expected = "{wanted_hz:g} Hz on {topic} (within {within:.0%})"
 
     @property
     def measured(self) -> str:
@@ -82,7 +78,7 @@ class Bursts(WrongRate):
     hint = "Publish one message in each call of the timer's function, not several in a loop."
 
     @property
-    def expected(self) -> str:
+    def expected(self) -> str:  # type: ignore[override]
         """Even spacing."""
         return f"one message every {1 / self.wanted_hz:g} s on {self.topic}, evenly"
 
@@ -98,27 +94,18 @@ class SentAgain(TooFast):
     """Each message is sent several times, one right after the other."""
 
     why = "Who counts messages, or waits for the next one, is told the same again."
+    measured = (
+        "{rate.hz:.1f} messages a second: each time {times} of them, one right after the other"
+    )
+    hint = (
+        "The period is right, and publish() runs {times} times in it. Look for a second publish(),"
+        " a loop around it, or a function that is called twice."
+    )
 
     @property
     def times(self) -> int:
         """How often each comes."""
         return max(2, round(self.rate.hz / self.wanted_hz))
-
-    @property
-    def measured(self) -> str:
-        """How many come at once."""
-        return (
-            f"{self.rate.hz:.1f} messages a second: each time {self.times} of them, one right"
-            " after the other"
-        )
-
-    @property
-    def hint(self) -> str:
-        """One call for each."""
-        return (
-            f"The period is right, and publish() runs {self.times} times in it. Look for a second"
-            " publish(), a loop around it, or a function that is called twice."
-        )
 
 
 @dataclass(eq=False)
@@ -149,6 +136,8 @@ class SleepsAfterWorking(TooSlow):
 class StallsNowAndThen(TooSlow):
     """The usual period is right, but now and then there is a long pause."""
 
+    hint = "What does your node do only now and then, and takes long? Look for loops and sleep."
+
     @property
     def measured(self) -> str:
         """The usual period, and the longest one."""
@@ -157,15 +146,15 @@ class StallsNowAndThen(TooSlow):
             f" {max(self.rate.periods_s):.2f} s"
         )
 
-    @property
-    def hint(self) -> str:
-        """What takes long now and then."""
-        return "What does your node do only now and then, and takes long? Look for loops and sleep."
-
 
 @dataclass(eq=False)
 class StartsLate(TooSlow):
     """The first message is alone; only after a pause the others come, at the right rate."""
+
+    hint = (
+        "Start the timer in __init__, and publish only in its function. What waits between your"
+        " first publish() and the timer?"
+    )
 
     @property
     def measured(self) -> str:
@@ -175,34 +164,22 @@ class StartsLate(TooSlow):
             f" every {self.rate.median_s:.2f} s"
         )
 
-    @property
-    def hint(self) -> str:
-        """What stands between the first message and the timer."""
-        return (
-            "Start the timer in __init__, and publish only in its function. What waits between"
-            " your first publish() and the timer?"
-        )
-
 
 @dataclass(eq=False)
 class Drifts(WrongRate):
     """The period grows or shrinks from message to message."""
 
     why = "A rate that changes by itself ends up anywhere."
+    hint = (
+        "Something grows with every message: a list, a sleep, a number of timers. Is"
+        " create_timer(...) called more than once?"
+    )
 
     @property
     def measured(self) -> str:
         """The period at the beginning and at the end."""
         first_s, last_s = thirds(self.rate)
         return f"one message every {first_s:.2f} s at first, every {last_s:.2f} s at the end"
-
-    @property
-    def hint(self) -> str:
-        """What grows."""
-        return (
-            "Something grows with every message: a list, a sleep, a number of timers. Is"
-            " create_timer(...) called more than once?"
-        )
 
 
 def rate_fault(rate: Rate, low_hz: float, high_hz: float) -> type[WrongRate] | None:
