@@ -42,7 +42,7 @@ def _figure(seen: ExperimentSeen) -> Markup:
     words = f"{counted(len(goals), 'goal')}: {told}."
     heading = tag("h3", f"in {seen.name}")
     return tag("figure", heading, timeline(lines, words), tag("figcaption", words),
-               table(HEAD, rows))  # fmt: skip
+               table("goals of actions", HEAD, rows))  # fmt: skip
 
 
 def _line(seen: ExperimentSeen, goal: GoalSeen, goals: Sequence[GoalSeen]) -> Line:

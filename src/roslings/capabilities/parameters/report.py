@@ -24,7 +24,7 @@ def sections(evidence: Evidence) -> Iterator[Markup]:
 def _figure(seen: ExperimentSeen) -> Markup:
     sets = seen.part(ParametersSeen).sets[:MOST_ROWS]
     rows = [(said.node, said.name, fields_text(said.value), _outcome(said)) for said in sets]
-    return tag("figure", tag("h3", f"in {seen.name}"), table(SET, rows))
+    return tag("figure", tag("h3", f"in {seen.name}"), table("parameters that were set", SET, rows))
 
 
 def _outcome(said: ParameterSet) -> str:

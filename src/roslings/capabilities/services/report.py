@@ -35,7 +35,7 @@ def _calls_of(seen: ExperimentSeen) -> list[CallSeen]:
 def _figure(seen: ExperimentSeen) -> Markup:
     calls = _calls_of(seen)
     groups = [(label, list(each)) for label, each in groupby(calls, key=_label)][:MOST_ROWS]
-    lines = [_line(label, each, calls) for label, each in groups]
+    lines = [_line(each, calls) for _, each in groups]
     rows = [row for label, each in groups for row in _rows(label, each)]
     open_ = sum(call.answered_ns is None for call in calls)
     words = (
@@ -43,17 +43,19 @@ def _figure(seen: ExperimentSeen) -> Markup:
     )
     heading = tag("h3", f"in {seen.name}")
     return tag("figure", heading, timeline(lines, words), tag("figcaption", words),
-               table(HEAD, rows))  # fmt: skip
+               table("calls of services", HEAD, rows))  # fmt: skip
 
 
 def _label(call: CallSeen) -> str:
     return call.service if call.part in ("", call.service) else f"{call.service}, {call.part}"
 
 
-def _line(label: str, calls: Sequence[CallSeen], of: Sequence[CallSeen]) -> Line:
+def _line(calls: Sequence[CallSeen], of: Sequence[CallSeen]) -> Line:
     began_ns = of[0].sent_ns
     ended_ns = max(call.answered_ns or call.sent_ns for call in of)
-    return Line(label, tuple(_bar(call, began_ns, ended_ns) for call in calls))
+    return Line(
+        calls[0].part or calls[0].service, tuple(_bar(call, began_ns, ended_ns) for call in calls)
+    )
 
 
 def _bar(call: CallSeen, began_ns: int, ended_ns: int) -> Bar:

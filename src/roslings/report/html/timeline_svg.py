@@ -6,15 +6,17 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from roslings.report.html.markup import Markup, tag
+from roslings.report.html.markup import Markup, joined, tag
 from roslings.report.html.scale import Axis, unit_for
 
-WIDTH, ROW, LABEL, FOOT = 720.0, 26.0, 190.0, 34.0
+ROW, FOOT, MARGIN = 26.0, 34.0, 14.0
 LEAST_PX = 3.0
 """A bar that is shorter would not be seen."""
-ABOUT_TICKS = 6
-LONGEST_LABEL = 26
 LONGEST_TEXT = 90
+
+PER_TICK_PX, PER_LETTER_PX = 80.0, 7.8
+SCREENS = {"wide": (720.0, 190.0), "narrow": (340.0, 110.0)}
+"""How wide the paper is, and how much of it is for what stands before a row."""
 
 Look = Literal["answered", "working", "missing"]
 
@@ -38,50 +40,69 @@ class Line:
 
 
 def timeline(lines: Sequence[Line], words: str) -> Markup:
-    """The picture of at least one line; `words` say the same to who does not see it."""
-    ends = [time_s for line in lines for time_s in _times(line)]
-    axis = Axis(max(ends, default=0.0) or 1.0, LABEL, WIDTH - 14.0)
-    bottom = ROW * len(lines) + 8.0
-    return tag(
-        "svg",
-        *_grid(axis, bottom),
-        *(part for row, line in enumerate(lines) for part in _row(line, axis, ROW * row + ROW / 2)),
-        role="img",
-        aria_label=words,
-        viewBox=f"0 0 {WIDTH:.0f} {bottom + FOOT:.0f}",
-        class_="plot",
-    )  # fmt: skip
+    """The picture of at least one line, for wide and narrow screens.
+
+    `words` say the same to who does not see it.
+    """
+    return joined(
+        *(
+            tag("div", _Paper(width, label, _last_s(lines)).picture(lines, words), class_=screen)
+            for screen, (width, label) in SCREENS.items()
+        )
+    )
 
 
-def _times(line: Line) -> Iterator[float]:
-    yield from (bar.to_s for bar in line.bars)
-    yield from line.dots_s
+def _last_s(lines: Sequence[Line]) -> float:
+    bars = (bar.to_s for line in lines for bar in line.bars)
+    return max((*bars, *(time_s for line in lines for time_s in line.dots_s)), default=0.0) or 1.0
 
 
-def _grid(axis: Axis, bottom: float) -> Iterator[Markup]:
-    unit = unit_for(axis.top)
-    for time_s in axis.ticks(ABOUT_TICKS):
-        x = axis.at(time_s)
-        yield tag("line", x1=x, x2=x, y1=0.0, y2=bottom, class_="grid")
-        yield tag("text", unit.number(time_s), x=x, y=bottom + 15.0, text_anchor="middle")
-    yield tag("text", unit.name, x=WIDTH - 14.0, y=bottom + 30.0, text_anchor="end")
+class _Paper:
+    """One size of the picture."""
+
+    def __init__(self, width: float, label: float, last_s: float) -> None:
+        self.width, self.label = width, label
+        self.axis = Axis(last_s, label, width - MARGIN)
+
+    def picture(self, lines: Sequence[Line], words: str) -> Markup:
+        bottom = ROW * len(lines) + 8.0
+        rows = (self._row(line, ROW * row + ROW / 2) for row, line in enumerate(lines))
+        return tag(
+            "svg",
+            *self._grid(bottom),
+            *(part for row in rows for part in row),
+            role="img",
+            aria_label=words,
+            viewBox=f"0 0 {self.width:.0f} {bottom + FOOT:.0f}",
+            class_="plot",
+        )
+
+    def _grid(self, bottom: float) -> Iterator[Markup]:
+        unit = unit_for(self.axis.top)
+        for time_s in self.axis.ticks(int((self.width - self.label) / PER_TICK_PX)):
+            x = self.axis.at(time_s)
+            yield tag("line", x1=x, x2=x, y1=0.0, y2=bottom, class_="grid")
+            yield tag("text", unit.number(time_s), x=x, y=bottom + 15.0, text_anchor="middle")
+        yield tag("text", unit.name, x=self.width - MARGIN, y=bottom + 30.0, text_anchor="end")
+
+    def _row(self, line: Line, y: float) -> Iterator[Markup]:
+        label = cut(line.label, int(self.label / PER_LETTER_PX))
+        yield tag("text", label, x=self.label - 10.0, y=y + 4.0, text_anchor="end")
+        for bar in line.bars:
+            x, end = self.axis.at(bar.from_s), self.axis.at(bar.to_s)
+            yield tag("rect", x=x, y=y - 6.0, width=max(LEAST_PX, end - x), height=12.0,
+                      class_=f"bar-{bar.look}")  # fmt: skip
+        for time_s in line.dots_s:
+            x = self.axis.at(time_s)
+            yield tag("line", x1=x, x2=x, y1=y, y2=y, class_="dots")
 
 
-def _row(line: Line, axis: Axis, y: float) -> Iterator[Markup]:
-    yield tag("text", cut(line.label, LONGEST_LABEL), x=LABEL - 10.0, y=y + 4.0, text_anchor="end")
-    for bar in line.bars:
-        x, end = axis.at(bar.from_s), axis.at(bar.to_s)
-        yield tag("rect", x=x, y=y - 6.0, width=max(LEAST_PX, end - x), height=12.0,
-                  class_=f"bar-{bar.look}")  # fmt: skip
-    for time_s in line.dots_s:
-        yield tag("line", x1=axis.at(time_s), x2=axis.at(time_s), y1=y, y2=y, class_="dots")
-
-
-def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> Markup:
-    """A table whose cells break where there is little room."""
+def table(name: str, head: Sequence[str], rows: Sequence[Sequence[str]]) -> Markup:
+    """A table whose cells break; where there is too little room for that, it scrolls by itself."""
     top = tag("tr", *(tag("th", name, scope="col") for name in head))
     body = [tag("tr", *(tag("td", cell) for cell in row)) for row in rows]
-    return tag("table", tag("thead", top), tag("tbody", *body), class_="exchange")
+    whole = tag("table", tag("thead", top), tag("tbody", *body), class_="exchange")
+    return tag("div", whole, class_="scroll", tabindex="0", role="group", aria_label=name)
 
 
 def counted(number: int, thing: str) -> str:
