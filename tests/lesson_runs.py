@@ -26,7 +26,7 @@ from roslings.lessons.document import read
 from roslings.lessons.path import Day
 from roslings.lessons.path import Path as DayPath
 from roslings.lessons.rules import Lesson, read_lesson
-from roslings.notebook.quiz import ON_THE_SITE
+from roslings.notebook.place import ON_THE_SITE
 
 CELL_S = 60
 IN_LESSONS = (87, 88)

@@ -25,7 +25,7 @@ from roslings.drills import Drill, all_drills
 from roslings.workspace.progress_file import DrillProgress, LabProgress, Progress, as_json
 
 sys.path.append(str(root() / "tests" / "cli"))
-from watching import Watched, watching
+from watch_terminal import Watched, watching
 
 
 def main() -> None:

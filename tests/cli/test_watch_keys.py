@@ -8,7 +8,7 @@ import signal
 from pathlib import Path
 
 import pytest
-from watching import watching
+from watch_terminal import watching
 
 from roslings.commands.editing import Place, editor_for, first_to_do
 from roslings.course import lab, root

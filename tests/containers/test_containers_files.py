@@ -12,7 +12,7 @@ from images import CONTAINERFILE, DEVCONTAINER, dev_container
 
 from roslings.course import root
 
-NOT_IN_THE_IMAGE = {"tests", "site", "setup.bash", "build"}
+NOT_IN_THE_IMAGE = {"tests", "site", "setup.bash", "build", "example-course"}
 BINDER = root() / ".binder"
 
 

@@ -99,7 +99,7 @@ def test_the_front_page_begins_and_tells_where_the_reader_is(visit: Visit) -> No
     page.evaluate("roslings.finishDay('01-install')")
     assert here.get_attribute("data-day") == "02-nodes"
     page.get_by_role("link", name="Drive a robot in 15 minutes").click()
-    assert page.locator("h1").first.is_visible()
+    page.locator("h1").first.wait_for()
 
 
 def test_a_lesson_tells_how_to_open_it(visit: Visit) -> None:
