@@ -53,7 +53,6 @@ from roslings.judge import (
     be_named,
     be_the_only_one,
     be_there,
-    be_well_formed,
     carry_its_type,
     check,
     come_up,
@@ -65,6 +64,7 @@ from roslings.judge import (
     match_qos,
     outlast_the_soak,
     stay_up,
+    well_formed,
 )
 
 CARD = lab("pi-camera").card
@@ -267,10 +267,7 @@ def spoiled(scene: Scene) -> None:
 # --- the package -------------------------------------------------------------------------------
 
 
-@check()
-def test_well_formed(package: PackageView) -> None:
-    """The package has all its files, and ROS and Python can read them."""
-    package.must(be_well_formed(CARD.build_type))
+test_well_formed = well_formed(CARD.build_type)
 
 
 @check()

@@ -39,18 +39,18 @@ from roslings.judge import (
     be_named,
     be_the_only_one,
     be_there,
-    be_well_formed,
     carry_its_type,
     check,
     come_up,
+    depends,
     during,
     end_within,
     exit_cleanly,
     install,
-    list_what_it_imports,
     match_qos,
     outlast_the_soak,
     stay_up,
+    well_formed,
 )
 
 CARD = lab("serial-bridge").card
@@ -181,16 +181,8 @@ def unset(scene: Scene) -> None:
 # --- the package -------------------------------------------------------------------------------
 
 
-@check()
-def test_well_formed(package: PackageView) -> None:
-    """The package has all its files, and ROS and Python can read them."""
-    package.must(be_well_formed(CARD.build_type))
-
-
-@check()
-def test_depends(package: PackageView) -> None:
-    """package.xml names every ROS package that the code imports."""
-    package.must(list_what_it_imports)
+test_well_formed = well_formed(CARD.build_type)
+test_depends = depends
 
 
 @check(needs=["well_formed"])

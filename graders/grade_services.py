@@ -28,16 +28,16 @@ from roslings.judge import (
     be_built_as,
     be_named,
     be_there,
-    be_well_formed,
     carry_its_type,
     check,
     come_up,
+    depends,
     end_within,
     exit_cleanly,
     install,
-    list_what_it_imports,
     match_qos,
     outlast_the_soak,
+    well_formed,
 )
 from roslings.judge.demands import written
 
@@ -88,16 +88,8 @@ def nobody(scene: Scene) -> None:
 # --- the package -------------------------------------------------------------------------------
 
 
-@check()
-def test_well_formed(package: PackageView) -> None:
-    """The package has all its files, and ROS and Python can read them."""
-    package.must(be_well_formed(CARD.build_type))
-
-
-@check()
-def test_depends(package: PackageView) -> None:
-    """package.xml names every ROS package that the code imports."""
-    package.must(list_what_it_imports)
+test_well_formed = well_formed(CARD.build_type)
+test_depends = depends
 
 
 @check(needs=["well_formed"])

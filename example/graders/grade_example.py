@@ -14,16 +14,16 @@ from roslings.judge import (
     be_named,
     be_the_only_one,
     be_there,
-    be_well_formed,
     carry_its_type,
     check,
     come_up,
+    depends,
     end_within,
     install,
-    list_what_it_imports,
     match_qos,
     outlast_the_soak,
     stay_up,
+    well_formed,
 )
 
 CARD = lab("example").card
@@ -44,16 +44,8 @@ def telling(scene: Scene) -> None:
 # --- checks: look at what was seen -------------------------------------------------------------
 
 
-@check()
-def test_well_formed(package: PackageView) -> None:
-    """The package has all its files, and ROS and Python can read them."""
-    package.must(be_well_formed(CARD.build_type))
-
-
-@check()
-def test_depends(package: PackageView) -> None:
-    """package.xml names every ROS package that the code imports."""
-    package.must(list_what_it_imports)
+test_well_formed = well_formed(CARD.build_type)
+test_depends = depends
 
 
 @check(needs=["well_formed"])

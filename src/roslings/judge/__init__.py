@@ -25,6 +25,7 @@ from roslings.judge.demands import (
     repeat,
     stay_up,
 )
+from roslings.judge.every_package import depends, well_formed
 from roslings.judge.faults import Fault, Inconclusive, NothingToJudge
 from roslings.judge.judge import BadGrader, judge
 from roslings.judge.unobserved import speak_unobserved
@@ -46,6 +47,7 @@ __all__ = [
     "carry_its_type",
     "check",
     "come_up",
+    "depends",
     "during",
     "end_within",
     "exit_cleanly",
@@ -59,4 +61,5 @@ __all__ = [
     "repeat",
     "speak_unobserved",
     "stay_up",
+    "well_formed",
 ]
