@@ -39,6 +39,9 @@ SETTLES_LINES = 10
 SPEAKS_WITHIN_S = 8.0
 """A complete node's own time until its first message: some wait until the board has started."""
 
+COMMANDS_WITHIN_S = 1.0
+"""Who sends a command without being told does so by a timer, several times a second."""
+
 COMES_BACK_WITHIN_S = 40.0
 ACTS_WITHIN_S = 0.3
 """Of the board's time; a node repeats its command twice a second at least."""
@@ -156,8 +159,12 @@ class Cable:
         self.mark(part)
 
     def begin(self, counted: TopicContract) -> None:
-        """Wait until the node tells what the board says; marks the start."""
+        """Wait until the node tells what the board says, and says something itself.
+
+        Marks the start. A node may be silent until it is told something: it has its time, no more.
+        """
         self.await_messages(counted, SETTLES_LINES)
+        self._scene.until_own(lambda: bool(self.board.heard), COMMANDS_WITHIN_S)
         self._never_heard = self._lines() - self._heard(counted)
         self._scene.seen.recording(RobotSeen).ways.append(self._way)
         self.mark("start")
