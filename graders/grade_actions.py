@@ -349,9 +349,9 @@ def test_client_sends(sending: ExperimentView, refused: ExperimentView) -> None:
 
 
 @check(needs=["client_sends"])
-def test_client_name(nobody: ExperimentView) -> None:
+def test_client_name(sending: ExperimentView) -> None:
     """The client's node is called {CLIENT.node}."""
-    nobody.node(CLIENT).must(be_named)
+    sending.node(CLIENT).must(be_named)
 
 
 @check(needs=["client_sends"])

@@ -1,4 +1,4 @@
-"""What processes of a crew do in these tests, in place of a grading: answer, hang, break off."""
+"""What processes of a worker pool do in these tests: answer, hang, break off."""
 
 from __future__ import annotations
 

@@ -16,9 +16,9 @@ from roslings.batch.capacity import Capacity, Look
 from roslings.batch.errors import BadGradebook
 from roslings.batch.gradebook import Gradebook, gradebook, lab_of
 from roslings.batch.result import Result
-from roslings.batch.scheduler import Shift, Standing, Wish
+from roslings.batch.scheduler import GradingRequest, Scheduler, Standing
 from roslings.batch.submissions import Submission
-from roslings.batch.worker_pool import Limits, crew
+from roslings.batch.worker_pool import Limits, worker_pool
 
 HERE = Path(__file__).parent
 
@@ -52,10 +52,10 @@ def run(
     """One run; what it told on its way."""
     told: list[Standing] = []
     with held_lock(folder) as lock:
-        wish = Wish(
+        request = GradingRequest(
             "topics", folder / "scratch", lock, limits=Limits(limit_s, 0.5), life="lives:by_name"
         )
-        Shift(wish, book, Capacity(fixed=jobs), told.append).run(submissions)
+        Scheduler(request, book, Capacity(fixed=jobs), told.append).run(submissions)
     assert not any((folder / "scratch" / "rooms").glob("*"))
     return told
 
@@ -120,9 +120,9 @@ def test_leaving_the_block_ends_all(tmp_path: Path) -> None:
     """Ctrl-C, or anything else that ends it."""
     (submission,) = submitted(tmp_path, "hang-1")
     with held_lock(tmp_path) as lock, pytest.raises(KeyboardInterrupt):
-        wish = Wish("topics", tmp_path / "scratch", lock)
-        with crew(lock, Limits(ending_s=0.5), "lives:by_name") as workers:
-            workers.start(wish.order(submission, "d", 1))
+        request = GradingRequest("topics", tmp_path / "scratch", lock)
+        with worker_pool(lock, Limits(ending_s=0.5), "lives:by_name") as workers:
+            workers.start(request.order(submission, "d", 1))
             until(lambda: (tmp_path / "hangs").exists())
             raise KeyboardInterrupt
     until(lambda: none_of_them_lives(tmp_path))

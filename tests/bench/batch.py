@@ -38,7 +38,7 @@ from roslings.batch.capacity import Capacity
 from roslings.batch.gradebook import Gradebook, gradebook
 from roslings.batch.grading import unpacked
 from roslings.batch.result import Result
-from roslings.batch.scheduler import Shift, Standing, Wish
+from roslings.batch.scheduler import GradingRequest, Scheduler, Standing
 from roslings.batch.submissions import find_submissions
 from roslings.course.soak import soak_seconds
 from roslings.evidence import SoakSeen
@@ -92,7 +92,7 @@ class Watcher:
     _over: threading.Event = field(default_factory=threading.Event)
 
     def __call__(self, standing: Standing) -> None:
-        """What the shift tells."""
+        """What the scheduler tells."""
         self.working = standing.working
         self.most_at_once = max(self.most_at_once, standing.working)
 
@@ -208,9 +208,11 @@ def grade(lab: course.Lab, count: int) -> Run:
         handed_in = hand_in(lab, count, Path(name) / "in")
         with run_folder() as scratch, gradebook(Path(name), lab.name) as book, watcher.looking():
             began_s, began_cpu_s, began_idle_s = time.monotonic(), cpu_s(), idle_s()
-            wish = Wish(lab.name, scratch, scratch / LOCK, soak_s=soak_seconds(lab.card))
+            request = GradingRequest(
+                lab.name, scratch, scratch / LOCK, soak_s=soak_seconds(lab.card)
+            )
             with yardstick.measuring() as between_s:
-                Shift(wish, book, Capacity(), watcher).run(find_submissions(handed_in))
+                Scheduler(request, book, Capacity(), watcher).run(find_submissions(handed_in))
                 seconds = time.monotonic() - began_s
                 idle = (idle_s() - began_idle_s) / (seconds * cores())
             used_s = cpu_s() - began_cpu_s - sum(between_s)

@@ -29,7 +29,7 @@ from roslings.evidence import HeldUp, ProcessSeen, StageMark
 from roslings.experiment.own_time import PATIENCE_S
 from roslings.judge import ExperimentView, Inconclusive
 from roslings.judge.demands import require_its_time
-from roslings.judge.faults import Fault
+from roslings.judge.faults import Fault, NothingToJudge
 
 S = 10**9
 LAMP = ServiceContract.model_validate(
@@ -136,6 +136,30 @@ def test_a_late_stop(held_s: float, is_told: bool) -> None:
     demand = stop_by_itself("on")
     late = board(stops_at_s=2.5)
     assert told("on", held_s, demand, cable_faults.DoesNotStop, board=late) is is_told
+
+
+def slow_board(passed_s: float) -> BoardSeen:
+    """Its motors stop after 0.8 s of its own clock; for one second of it, `passed_s` passed."""
+    seen = board(stops_at_s=1.8)
+    end = seen.marks[0].model_copy(
+        update={"part": "on, over", "board_s": 2.0, "arrival_ns": round(passed_s * S)}
+    )
+    return seen.model_copy(update={"marks": [*seen.marks, end]})
+
+
+def test_a_stop_that_is_in_time_only_by_the_clock_of_a_slow_board() -> None:
+    """1.2 s had passed for the node: nobody can tell whether it stops in time."""
+    view("on", 0.0, board=slow_board(1.0)).must(stop_by_itself("on"))
+    with pytest.raises(Inconclusive, match=r"1\.20 s had passed"):
+        view("on", 0.0, board=slow_board(1.5)).must(stop_by_itself("on"))
+
+
+@pytest.mark.parametrize(("stall_s", "is_told"), [(0.1, True), (0.9, False)])
+def test_a_node_that_nobody_saw(stall_s: float, is_told: bool) -> None:
+    """A client that ends soon is gone before a computer that stands still has seen it."""
+    with pytest.raises((NothingToJudge, Inconclusive)) as raised:
+        view("on", 0.0, stall_s=stall_s).node(NODE)
+    assert isinstance(raised.value, NothingToJudge) is is_told
 
 
 @pytest.mark.parametrize(("held_s", "is_told"), [(1.0, True), (PATIENCE_S + 1, False)])

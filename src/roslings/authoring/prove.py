@@ -15,7 +15,7 @@ from typing import Protocol
 from roslings.batch.capacity import Capacity
 from roslings.batch.gradebook import gradebook
 from roslings.batch.result import Order, Result
-from roslings.batch.scheduler import Shift, Watcher, Wish, always
+from roslings.batch.scheduler import GradingRequest, Scheduler, Watcher, always
 from roslings.batch.submissions import Submission
 from roslings.batch.worker_pool import GRADING
 from roslings.course import Lab, Mutant
@@ -258,7 +258,7 @@ def mixed(packages: Iterable[Package]) -> list[Package]:
 
 
 @dataclass(frozen=True)
-class _ManyLabs(Wish):
+class _ManyLabs(GradingRequest):
     """Grade each submission for its own lab, by its own clock."""
 
     packages: Mapping[str, Package] = field(default_factory=dict)
@@ -292,16 +292,16 @@ def graded(
 ) -> dict[str, Result]:
     """Package's name to what came of it; the gradebook lies in `scratch`, a run's folder."""
     submissions = [Submission(each.name, each.make(scratch / "made")) for each in packages]
-    wish = _ManyLabs(
+    request = _ManyLabs(
         "", scratch, scratch / LOCK, keeps_evidence=keeps_evidence, life=life,
         packages={each.name: each for each in packages},
     )  # fmt: skip
     (scratch / book).mkdir(exist_ok=True)  # a place outside of the scratch keeps what it has
     with gradebook(scratch / book, "labs") as results:
-        shift = Shift(wish, results, Capacity(fixed=jobs), watcher, still)
-        shift.run(submissions)
+        scheduler = Scheduler(request, results, Capacity(fixed=jobs), watcher, still)
+        scheduler.run(submissions)
         if not all(result.is_conclusive for result in results.latest().values()):
-            shift.run(submissions)
+            scheduler.run(submissions)
         return results.latest()
 
 

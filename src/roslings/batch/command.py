@@ -10,7 +10,7 @@ from roslings import course
 from roslings.arena import Isolation
 from roslings.batch.alone import alone_in
 from roslings.batch.capacity import Capacity
-from roslings.batch.dask_pool import FarCrew, far_crew
+from roslings.batch.dask_pool import DaskPool, dask_pool
 from roslings.batch.downloads import submissions_at
 from roslings.batch.errors import BatchError
 from roslings.batch.export import Settings, hand_out, keep
@@ -18,7 +18,7 @@ from roslings.batch.gradebook import Gradebook, gradebook
 from roslings.batch.grades import LateRule
 from roslings.batch.messages import soak_line, standing_line, summary_lines
 from roslings.batch.roster import insist_on_owners
-from roslings.batch.scheduler import Shift, Standing, Wish
+from roslings.batch.scheduler import GradingRequest, Scheduler, Standing
 from roslings.batch.submissions import Submission
 from roslings.batch.worker_pool import Limits
 from roslings.course import Lab
@@ -138,7 +138,7 @@ def _grade_all(
     choices: Choices, submissions: list[Submission], book: Gradebook, soak_s: float
 ) -> None:
     with run_folder() as scratch, Progress() as progress:
-        wish = Wish(
+        request = GradingRequest(
             lab=choices.lab, scratch=scratch, lock=scratch / LOCK, clock=choices.clock,
             hidden=choices.hidden.absolute() if choices.hidden else None,
             strangers=not choices.trust, keeps_evidence=choices.keeps_evidence,
@@ -147,23 +147,23 @@ def _grade_all(
         teller = Teller(progress)
         if choices.dask is None:
             capacity = Capacity(fixed=choices.jobs, alone=choices.alone)
-            Shift(wish, book, capacity, teller).run(submissions)
+            Scheduler(request, book, capacity, teller).run(submissions)
         else:
-            lab = course.lab(choices.lab, wish.hidden)
-            with far_crew(choices.dask, lab, choices.trust, wish.limits) as hands:
-                Shift(wish, book, FarCapacity(hands), teller).run(submissions, hands)
+            lab = course.lab(choices.lab, request.hidden)
+            with dask_pool(choices.dask, lab, choices.trust, request.limits) as workers:
+                Scheduler(request, book, ClusterCapacity(workers), teller).run(submissions, workers)
 
 
 @dataclass
-class FarCapacity:
+class ClusterCapacity:
     """As many as the cluster has threads, workers that come later too."""
 
-    hands: FarCrew
+    workers: DaskPool
     fixed: int | None = None
 
     def now(self, working: int, soaking: int = 0) -> int:
         """One more than there are threads waits on its way."""
-        return self.hands.threads() + 1
+        return self.workers.threads() + 1
 
 
 @dataclass

@@ -21,7 +21,7 @@ from roslings.arena import choose_isolation
 from roslings.batch.errors import BatchError
 from roslings.batch.result import Order, Result, broken
 from roslings.batch.version import version_of
-from roslings.batch.worker_pool import Ended, Limits, crew
+from roslings.batch.worker_pool import Ended, Limits, worker_pool
 from roslings.experiment.run_folder import LOCK, run_folder
 from roslings.workspace.errors import WorkspaceError
 from roslings.workspace.sources import files
@@ -89,7 +89,7 @@ def grade_parcel(parcel: Parcel) -> tuple[str, bytes | None]:
     order = Order.model_validate(parcel.order)
     if reason := fitness(order.lab, parcel.version, parcel.hidden, parcel.trust):
         return broken(order, reason).model_dump_json(by_alias=True), None
-    with run_folder() as scratch, crew(scratch / LOCK, parcel.limits) as workers:
+    with run_folder() as scratch, worker_pool(scratch / LOCK, parcel.limits) as workers:
         workers.start(_at_home(order, parcel, scratch))
         while True:
             for ended in workers.wait(5.0):
@@ -125,8 +125,8 @@ def _unpacked_hidden(content: bytes | None, room: Path) -> Path | None:
 
 
 @dataclass
-class FarCrew:
-    """Those that are graded on the cluster now; it is used as a crew on this machine is."""
+class DaskPool:
+    """Those that are graded on the cluster now; used as the worker pool of this machine is."""
 
     client: Any
     version: str
@@ -208,8 +208,8 @@ def _ended(future: Any, order: Order, seconds: float) -> Ended:
 
 
 @contextmanager
-def far_crew(address: str, lab: course.Lab, trust: bool, limits: Limits) -> Iterator[FarCrew]:
-    """A crew on the cluster at `address`. Raises NoCluster and UnfitWorkers."""
+def dask_pool(address: str, lab: course.Lab, trust: bool, limits: Limits) -> Iterator[DaskPool]:
+    """A pool of workers on the cluster at `address`. Raises NoCluster and UnfitWorkers."""
     from distributed import Client
 
     try:
@@ -223,7 +223,7 @@ def far_crew(address: str, lab: course.Lab, trust: bool, limits: Limits) -> Iter
             raise NoCluster(address, "the scheduler has no worker.")
         if unfit := {worker: str(reason) for worker, reason in told.items() if reason != FIT}:
             raise UnfitWorkers(unfit)
-        made = FarCrew(client, version_of(lab), trust, limits)
+        made = DaskPool(client, version_of(lab), trust, limits)
         try:
             yield made
         finally:

@@ -36,7 +36,7 @@ Life = Callable[[Order], None]
 KILLED_WITHIN_S = 5.0
 
 
-class Nursery:
+class ForkServer:
     """Forks a process for each order, and tells how each ended."""
 
     def __init__(self, life: Life, lock: Path, patience_s: float) -> None:
@@ -99,7 +99,7 @@ class Nursery:
             os._exit(status)
 
     def _let_go(self, order: Order) -> None:
-        """Hold nothing of the nursery's, hear no Ctrl-C, and end with it."""
+        """Hold nothing of the fork server's, hear no Ctrl-C, and end with it."""
         os.setsid()
         kernel.die_with_parent()
         signal.set_wakeup_fd(-1)
@@ -156,7 +156,7 @@ def main(life: str, lock: str, patience_s: str) -> None:
         signal.signal(number, signal.SIG_IGN)
     module, _, name = life.partition(":")
     function = getattr(import_module(module), name)
-    Nursery(function, Path(lock), float(patience_s)).run()
+    ForkServer(function, Path(lock), float(patience_s)).run()
 
 
 if __name__ == "__main__":

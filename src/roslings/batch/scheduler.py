@@ -14,14 +14,14 @@ from roslings.batch.capacity import Capacity
 from roslings.batch.gradebook import Gradebook
 from roslings.batch.result import Order, Result
 from roslings.batch.submissions import Submission, digest_of
-from roslings.batch.worker_pool import GRADING, Ended, Limits, crew
+from roslings.batch.worker_pool import GRADING, Ended, Limits, worker_pool
 
 SEEDS = 10**9
 TURN_S = 0.5
 
 
 @dataclass(frozen=True)
-class Wish:
+class GradingRequest:
     """How to grade, the same for all."""
 
     lab: str
@@ -83,8 +83,8 @@ class _Todo:
     unclear: set[str]
 
 
-class Hands(Protocol):
-    """Who grades: a crew of this machine, or of a cluster."""
+class Workers(Protocol):
+    """Who grades: a pool of this machine, or of a cluster."""
 
     @property
     def workers(self) -> Sized:
@@ -110,25 +110,25 @@ class HowMany(Protocol):
         """Of whom `working` do already, and of these `soaking` only wait."""
 
 
-class Shift:
+class Scheduler:
     """One run of the command over all submissions."""
 
     def __init__(
         self,
-        wish: Wish,
+        request: GradingRequest,
         book: Gradebook,
         capacity: HowMany,
         watcher: Watcher,
         still: Callable[[], bool] = always,
     ) -> None:
         """Nothing is begun any more once `still()` is false."""
-        self._wish, self._book, self._still = wish, book, still
+        self._request, self._book, self._still = request, book, still
         self._capacity, self._watcher = capacity, watcher
         self._began_s = time.monotonic()
         self._graded = 0
         self._standing = Standing(0, 0, 0, 0, None)
 
-    def run(self, submissions: Iterable[Submission], hands: Hands | None = None) -> None:
+    def run(self, submissions: Iterable[Submission], workers: Workers | None = None) -> None:
         """Grade what the gradebook has not; what stays unclear is tried once more, alone."""
         known = {each.name: (each, digest_of(each.path)) for each in submissions}
         latest = self._book.latest()
@@ -140,13 +140,13 @@ class Shift:
         fresh = [name for name in known if name not in done | unclear]
         self._standing = Standing(len(known), len(done), 0, len(unclear), None)
         todo = _Todo([known[name] for name in fresh], known, unclear)
-        if hands:
-            self._all(hands, todo)
+        if workers:
+            self._all(workers, todo)
             return
-        with crew(self._wish.lock, self._wish.limits, self._wish.life) as workers:
+        with worker_pool(self._request.lock, self._request.limits, self._request.life) as workers:
             self._all(workers, todo)
 
-    def _all(self, workers: Hands, todo: _Todo) -> None:
+    def _all(self, workers: Workers, todo: _Todo) -> None:
         for ended in self._work(workers, todo.fresh, self._capacity):
             if not ended.result.is_conclusive:
                 todo.unclear.add(ended.order.submission)
@@ -155,7 +155,7 @@ class Shift:
             pass
 
     def _work(
-        self, workers: Hands, todo: Iterable[tuple[Submission, str]], capacity: HowMany
+        self, workers: Workers, todo: Iterable[tuple[Submission, str]], capacity: HowMany
     ) -> Iterator[Ended]:
         waiting = deque(todo)
         while waiting or len(workers.workers):
@@ -164,7 +164,7 @@ class Shift:
             while waiting and self._has_room(workers, capacity):
                 submission, digest = waiting.popleft()
                 attempt = self._book.attempts(submission.name, digest) + 1
-                workers.start(self._wish.order(submission, digest, attempt))
+                workers.start(self._request.order(submission, digest, attempt))
                 if not capacity.fixed:
                     break  # look at the machine again before the next one
             self._tell(len(workers.workers))
@@ -173,7 +173,7 @@ class Shift:
                 self._count(ended.result)
                 yield ended
 
-    def _has_room(self, workers: Hands, capacity: HowMany) -> bool:
+    def _has_room(self, workers: Workers, capacity: HowMany) -> bool:
         working = len(workers.workers)
         return working < capacity.now(working, workers.soaking)
 

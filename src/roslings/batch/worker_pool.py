@@ -43,7 +43,7 @@ class Ended:
     evidence: bytes | None
 
 
-class NurseryGone(RoslingsError):
+class ForkServerGone(RoslingsError):
     """The process that forks the gradings has ended: killed from outside, or no memory is left."""
 
     exit_status = INCONCLUSIVE
@@ -71,12 +71,12 @@ class Worker:
         return time.monotonic() - self.began_s
 
 
-class Crew:
+class WorkerPool:
     """Those that grade now."""
 
-    def __init__(self, nursery: subprocess.Popen[bytes], limits: Limits) -> None:
+    def __init__(self, fork_server: subprocess.Popen[bytes], limits: Limits) -> None:
         self.workers: list[Worker] = []
-        self._nursery, self._limits = nursery, limits
+        self._fork_server, self._limits = fork_server, limits
         self._unfinished = b""
 
     @property
@@ -85,13 +85,13 @@ class Crew:
         return sum(worker.order.soaking.exists() for worker in self.workers)
 
     def start(self, order: Order) -> None:
-        """Begin to grade one more. Raises NurseryGone."""
+        """Begin to grade one more. Raises ForkServerGone."""
         order.room.mkdir(mode=0o700, parents=True)
         self._send({"start": order.model_dump(mode="json")})
         self.workers.append(Worker(order, 0, time.monotonic()))
 
     def wait(self, most_s: float) -> Iterator[Ended]:
-        """Those that end within `most_s`, as soon as there is one. Raises NurseryGone."""
+        """Those that end within `most_s`, as soon as there is one. Raises ForkServerGone."""
         for worker in self.workers:
             self._insist_on_limits(worker)
         for event in self._events(most_s):
@@ -103,22 +103,22 @@ class Crew:
                 yield self._ended(worker, event["ended"])
 
     def _events(self, most_s: float) -> Iterator[dict[str, Any]]:
-        assert self._nursery.stdout is not None
-        ready, _, _ = select.select([self._nursery.stdout], [], [], most_s)
+        assert self._fork_server.stdout is not None
+        ready, _, _ = select.select([self._fork_server.stdout], [], [], most_s)
         if ready:
-            chunk = self._nursery.stdout.read1(65536)  # type: ignore[attr-defined]
+            chunk = self._fork_server.stdout.read1(65536)  # type: ignore[attr-defined]
             if not chunk:
-                raise NurseryGone
+                raise ForkServerGone
             *whole, self._unfinished = (self._unfinished + chunk).split(b"\n")
             yield from map(json.loads, whole)
 
     def _send(self, words: dict[str, Any]) -> None:
-        assert self._nursery.stdin is not None
+        assert self._fork_server.stdin is not None
         try:
-            self._nursery.stdin.write(json.dumps(words).encode() + b"\n")
-            self._nursery.stdin.flush()
+            self._fork_server.stdin.write(json.dumps(words).encode() + b"\n")
+            self._fork_server.stdin.flush()
         except OSError as error:
-            raise NurseryGone from error
+            raise ForkServerGone from error
 
     def _insist_on_limits(self, worker: Worker) -> None:
         now_s = time.monotonic()
@@ -150,28 +150,28 @@ class Crew:
 
 
 @contextmanager
-def crew(lock: Path, limits: Limits, life: str = GRADING) -> Iterator[Crew]:
-    """A crew that has ended when the block ends: each process, and all that it started."""
+def worker_pool(lock: Path, limits: Limits, life: str = GRADING) -> Iterator[WorkerPool]:
+    """A pool that has ended when the block ends: each process, and all that it started."""
     command = [sys.executable, "-m", "roslings.batch.fork_server", life]
     words = [str(lock), str(limits.ending_s)]
     with subprocess.Popen(
         [*command, *words], stdin=subprocess.PIPE, stdout=subprocess.PIPE, start_new_session=True,
         cwd=lock.parent, env={**os.environ, **NO_THREADS},
-    ) as nursery:  # fmt: skip
-        made = Crew(nursery, limits)
+    ) as fork_server:  # fmt: skip
+        made = WorkerPool(fork_server, limits)
         try:
             yield made
         finally:
-            _end(nursery, limits.ending_s + ENDS_WITHIN_S)
+            _end(fork_server, limits.ending_s + ENDS_WITHIN_S)
 
 
-def _end(nursery: subprocess.Popen[bytes], within_s: float) -> None:
+def _end(fork_server: subprocess.Popen[bytes], within_s: float) -> None:
     """When its input ends, it ends all in order; the kernel ends them where it cannot."""
-    assert nursery.stdin is not None
+    assert fork_server.stdin is not None
     with suppress(OSError):
-        nursery.stdin.close()
+        fork_server.stdin.close()
     try:
-        nursery.wait(within_s)
+        fork_server.wait(within_s)
     except BaseException:  # a second Ctrl-C does not wait
-        nursery.kill()
+        fork_server.kill()
         raise

@@ -21,9 +21,16 @@ from roslings.evidence import (
     Qos,
     TopicSeen,
 )
-from roslings.judge.faults import NothingToJudge
+from roslings.judge.faults import Inconclusive, NothingToJudge
 from roslings.matching import Near, nearest, nearest_endpoint, own_endpoints
-from roslings.rates import Rate, in_the_watch, measure_rate, measure_simulated_rate, own_rate
+from roslings.rates import (
+    LONGEST_STALL_S,
+    Rate,
+    in_the_watch,
+    measure_rate,
+    measure_simulated_rate,
+    own_rate,
+)
 
 LAST_LINES = 40
 V = TypeVar("V", bound="View")
@@ -250,8 +257,17 @@ class ExperimentView(View):
         return ProcessView(seen, self.seen, before, doubted, self.soaked.get(seen.executable))
 
     def node(self, node: NodeContract) -> NodeView:
-        """The node, or the nearest to it. Raises NothingToJudge where there is none."""
+        """The node, or the nearest to it. Raises NothingToJudge where there is none.
+
+        Raises Inconclusive where this computer stood still: a node that ends soon may be gone before
+        it is seen.
+        """
         near = nearest(node.node, self.seen.graph.nodes)
+        if near is None and self.seen.stall_s > LONGEST_STALL_S:
+            raise Inconclusive(
+                f"no node was seen, and this computer stood still for {self.seen.stall_s:.1f} s;"
+                " close other programs and check again"
+            )
         if near is None:
             raise NothingToJudge("no node was seen in the graph")
         return NodeView(near, self.seen.graph.nodes.count(near.found))

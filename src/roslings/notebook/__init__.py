@@ -8,8 +8,8 @@ errors short (see `errors`), and raises NoRos in a kernel without ROS.
 
 from __future__ import annotations
 
-from roslings.notebook.errors import install
-from roslings.notebook.trouble import require_ros
+from roslings.notebook.errors import require_ros
+from roslings.notebook.tracebacks import install
 
 install()
 require_ros()  # before all that needs more than plain Python: a wrong kernel may have no more

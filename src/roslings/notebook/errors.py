@@ -1,94 +1,123 @@
-"""Errors below a cell: short, and ending in the student's own lines.
-
-An assertion of a cell is a task that is not done yet: it is told in a line. It stays an error, so
-that whoever runs the notebook sees that the cell failed.
-"""
+"""What a cell cannot do, said in words that name the next step."""
 
 from __future__ import annotations
 
-import linecache
-import traceback
-from types import TracebackType
-from typing import Any
-
-from roslings.notebook.trouble import NoRos, Trouble
-
-RED, BOLD, PLAIN = "\x1b[31m", "\x1b[1m", "\x1b[0m"
-NOT_YET = "Not yet"
-ROS_PACKAGES = ("rclpy", "std_msgs", "geometry_msgs", "sensor_msgs", "nav_msgs", "std_srvs")
+from collections.abc import Iterable, Sequence
+from importlib.util import find_spec
 
 
-def install() -> None:
-    """Show errors so from now on, where this is a notebook. Once is enough, twice does no harm."""
-    from roslings.notebook.picture import notebook_shell
-
-    shell = notebook_shell()
-    if shell is not None:
-        shell.set_custom_exc((Exception, KeyboardInterrupt), _show)
+class Trouble(Exception):
+    """A cell cannot go on. Its text is all that the student needs to see."""
 
 
-def _show(
-    shell: Any,
-    kind: type[BaseException],
-    error: BaseException,
-    trace: TracebackType | None,
-    tb_offset: int | None = None,
-) -> list[str]:
-    lines = told(shell, error)
-    shell._showtraceback(kind, error, lines)
-    return lines
+class NoRos(Trouble):
+    """This kernel's Python has no rclpy."""
+
+    def __init__(self) -> None:
+        super().__init__(
+            "This notebook's kernel has no ROS 2. Close JupyterLab."
+            " Then type in a terminal, in the roslings folder: ./roslings lab"
+        )
 
 
-def told(shell: Any, error: BaseException) -> list[str]:
-    """The lines that the student sees."""
-    frames = [
-        frame for frame in traceback.extract_tb(error.__traceback__) if _is_cell(shell, frame)
-    ]
-    if isinstance(error, KeyboardInterrupt):
-        return [f"{BOLD}Stopped.{PLAIN} All that this cell started has ended."]
-    if isinstance(error, AssertionError) and _ends_in_a_cell(shell, error):
-        return [f"{RED}{BOLD}{NOT_YET}:{PLAIN} {_asserted(error, frames)}"]
-    if isinstance(error, ModuleNotFoundError) and error.name in ROS_PACKAGES:
-        error = NoRos()
-    if isinstance(error, Trouble) or _is_problem(error):
-        return [*map(_where, frames[-1:]), f"{RED}{BOLD}{type(error).__name__}:{PLAIN} {error}"]
-    return [*map(_where, frames or _last(error)), _named(error)]
+def require_ros() -> None:
+    """Raises NoRos where this Python has no rclpy."""
+    if find_spec("rclpy") is None:
+        raise NoRos
 
 
-def _named(error: BaseException) -> str:
-    """Python's own last lines. Only the kind is red: long red text is hard to read on pink."""
-    said = "".join(traceback.format_exception_only(type(error), error)).rstrip()
-    kind, colon, rest = said.partition(":")
-    if "\n" in kind:  # a SyntaxError shows its place first
-        return said
-    return f"{RED}{BOLD}{kind}{colon}{PLAIN}{rest}"
+class NoSession(Trouble):
+    """Something that needs a session was asked for outside of one."""
+
+    def __init__(self, what: str) -> None:
+        super().__init__(f"{what} needs a session. Put it inside: with session() as ros:")
 
 
-def _is_problem(error: BaseException) -> bool:
-    from roslings.ros2.problem import Problem
+class SessionEnded(Trouble):
+    """The session is over, or ROS was shut down in it."""
 
-    return isinstance(error, Problem)
-
-
-def _is_cell(shell: Any, frame: traceback.FrameSummary) -> bool:
-    return frame.filename in getattr(shell.compile, "_filename_map", {})
-
-
-def _ends_in_a_cell(shell: Any, error: BaseException) -> bool:
-    frames = traceback.extract_tb(error.__traceback__)
-    return bool(frames) and _is_cell(shell, frames[-1])
+    def __init__(self) -> None:
+        super().__init__(
+            "This session is over: its nodes have ended. Begin a new one: with session() as ros:"
+        )
 
 
-def _last(error: BaseException) -> list[traceback.FrameSummary]:
-    return list(traceback.extract_tb(error.__traceback__))[-1:]
+class StillWaiting(Trouble):
+    """A condition did not come true in time."""
+
+    def __init__(self, what: str, seconds: float, hint: str = "") -> None:
+        after = f" {hint}" if hint else ""
+        super().__init__(f"Waited {seconds:g} s for {what}. It did not come.{after}")
 
 
-def _asserted(error: BaseException, frames: list[traceback.FrameSummary]) -> str:
-    """Its message; without one, the line that was not true."""
-    line = frames[-1].line if frames else ""
-    return str(error) or f"this is not true: {(line or '').removeprefix('assert').strip()}"
+class NothingHeard(Trouble):
+    """Fewer messages came than were asked for."""
+
+    def __init__(self, topic: str, came: int, wanted: int, seconds: float, hint: str) -> None:
+        self.topic, self.came, self.wanted, self.seconds = topic, came, wanted, seconds
+        super().__init__(f"{came} of {wanted} messages on {topic} in {seconds:g} s. {hint}")
 
 
-def _where(frame: traceback.FrameSummary) -> str:
-    line = linecache.getline(frame.filename, frame.lineno or 0).strip()
-    return f"Line {frame.lineno} of the cell, in {frame.name}:\n    {line}"
+class OtherType(Trouble):
+    """A topic is used with two types."""
+
+    def __init__(self, topic: str, wanted: str, there: Iterable[str]) -> None:
+        super().__init__(
+            f"{topic} has the type {listed(there)} here, and {wanted} was given."
+            " A topic has one type: use the same on both sides."
+        )
+
+
+class NobodyListens(Trouble):
+    """A message has no subscription to go to."""
+
+    def __init__(self, topic: str, type_name: str, seconds: float, hint: str) -> None:
+        super().__init__(
+            f"In {seconds:g} s no node subscribed to {topic} with the type {type_name}. {hint}"
+        )
+
+
+class NoInit(Trouble):
+    """A node's class did not reach rclpy's Node in the usual way."""
+
+    def __init__(self, kind: str) -> None:
+        super().__init__(
+            f"{kind} took no ros_args. Its __init__ needs the line: super().__init__('a_name')"
+        )
+
+
+class NotANode(Trouble):
+    """Something else than a class of nodes was given."""
+
+    def __init__(self, given: object) -> None:
+        name = getattr(given, "__name__", type(given).__name__)
+        super().__init__(
+            f"{name} is no class of nodes. Give the class itself, without brackets:"
+            " ros.start(Talker)"
+        )
+
+
+class ProgramEnded(Trouble):
+    """A program ended before it said what was awaited."""
+
+    def __init__(self, command: str, code: int, text: str, lines: Sequence[str]) -> None:
+        said = "\n".join(lines[-5:]) or "(nothing)"
+        super().__init__(
+            f"'{command}' ended with exit code {code}, and never said {text!r}."
+            f" Its last lines:\n{said}"
+        )
+
+
+class NeverSaid(Trouble):
+    """A program goes on, and does not say what is awaited."""
+
+    def __init__(self, command: str, text: str, seconds: float, lines: Sequence[str]) -> None:
+        said = "\n".join(lines[-5:]) or "(nothing)"
+        super().__init__(
+            f"In {seconds:g} s '{command}' did not say {text!r}. Its last lines:\n{said}"
+        )
+
+
+def listed(names: Iterable[str]) -> str:
+    """`/a, /b`, or the word `none`."""
+    return ", ".join(sorted(names)) or "none"

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from roslings.matching import nearest
-from roslings.notebook.trouble import NothingHeard, OtherType, listed
+from roslings.notebook.errors import NothingHeard, OtherType, listed
 
 TURN_S = 0.05
 DEPTH = 1000

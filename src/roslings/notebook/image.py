@@ -6,8 +6,8 @@ import io
 from collections.abc import Iterator
 from typing import Any
 
+from roslings.notebook.errors import Trouble
 from roslings.notebook.picture import Picture, show
-from roslings.notebook.trouble import Trouble
 
 CHANNELS = {"rgb8": "RGB", "bgr8": "BGR", "rgba8": "RGBA", "bgra8": "BGRA", "mono8": "L"}
 """Encoding to the order of its bytes."""

@@ -6,12 +6,12 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import Literal
 
+from roslings.notebook.errors import Trouble
 from roslings.notebook.hearing import Heard
 from roslings.notebook.picture import Picture, show, svg_picture
 from roslings.notebook.place import on_the_site
 from roslings.notebook.session import any_session
 from roslings.notebook.simulated import simulated_times_s
-from roslings.notebook.trouble import Trouble
 
 WIDTH, HEIGHT = 640.0, 260.0
 USUALLY = 20

@@ -12,8 +12,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from types import TracebackType
 
+from roslings.notebook.errors import NeverSaid, ProgramEnded
 from roslings.notebook.place import LOGS_ON_STDOUT, settle_in
-from roslings.notebook.trouble import NeverSaid, ProgramEnded
 
 LAUNCH = Path(__file__).with_name("launch.py")
 USUALLY_S = 10.0

@@ -11,8 +11,8 @@ from roslings.devices.rover.moving_map import moving_map
 from roslings.devices.rover.rover import Moment
 from roslings.models.differential_drive import Body, Pose
 from roslings.models.world import default_world
+from roslings.notebook.errors import Trouble
 from roslings.notebook.picture import Picture, show
-from roslings.notebook.trouble import Trouble
 
 if TYPE_CHECKING:
     from roslings.devices.rover.notebook import LiveRover

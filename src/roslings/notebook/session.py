@@ -17,8 +17,8 @@ from contextlib import ExitStack, contextmanager
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
+from roslings.notebook.errors import NobodyListens, NoSession, StillWaiting, listed
 from roslings.notebook.place import settle_in
-from roslings.notebook.trouble import NobodyListens, NoSession, StillWaiting, listed
 
 if TYPE_CHECKING:
     from roslings.devices.rover.notebook import LiveRover

@@ -6,7 +6,7 @@ import ctypes
 import threading
 from typing import Any
 
-from roslings.notebook.trouble import SessionEnded
+from roslings.notebook.errors import SessionEnded
 
 END_WITHIN_S = 2.0
 """A callback that takes longer than this when the session ends is cut short."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from roslings.notebook.trouble import NoInit, NotANode
+from roslings.notebook.errors import NoInit, NotANode
 
 
 def made(kind: Any, given: Sequence[Any], named: dict[str, Any], ros_args: Sequence[str]) -> Any:

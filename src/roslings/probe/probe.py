@@ -365,12 +365,12 @@ def fullness(graph: GraphSeen) -> tuple[int, int]:
     return len(graph.nodes), len(graph.endpoints)
 
 
-def offering(qos: Qos) -> Any:
+def offering(qos: Qos, depth: int = 100) -> Any:
     """An rclpy QoSProfile for a publisher that a subscription with `qos` accepts."""
     from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
     return QoSProfile(
-        depth=100,
+        depth=depth,
         reliability=ReliabilityPolicy.RELIABLE,
         durability=DurabilityPolicy[qos.durability.upper()],
     )

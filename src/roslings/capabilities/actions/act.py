@@ -100,7 +100,19 @@ class Director:
             cancels_within_s=CANCELS_WITHIN_S,
         )
         await_action(self.scene)
-        self._turned()
+        if self._turned():
+            self._await_news()
+            self._turned()
+
+    def _await_news(self) -> None:
+        """Wait until the robot has told once more where it is.
+
+        A node of several threads may answer while the thread that is to hear the robot still waits
+        for a processor.
+        """
+        told = self.robot.told
+        if told:
+            self.scene.until(lambda: self.robot.told > told, FIRST_MESSAGE_WITHIN_S)
 
     @contextmanager
     def giving(self) -> Iterator[GoalGiver | None]:

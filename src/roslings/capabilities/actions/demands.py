@@ -526,7 +526,7 @@ def keep_to_the_first(node: NodeContract, part: str) -> Demand[ExperimentView]:
     """A second goal is refused while the first is under way, which is then reached."""
 
     def demand(experiment: ExperimentView) -> None:
-        first = trip(experiment, node, part)
+        first = _accepted_again(experiment, node, part, "after goals that were refused")
         second = trip(experiment, node, f"{part}: another")
         require_answer(experiment, second)
         if second.goal.accepted:

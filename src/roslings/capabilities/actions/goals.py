@@ -105,11 +105,8 @@ class Goal:
 
     def await_answer(self, within_s: float, while_true: Callable[[], bool]) -> bool:
         """Wait until the goal is accepted or refused; whether it was accepted."""
-        self._sent.wait(within_s, while_true)
-        call = self._sent.seen
-        self.seen.answered_ns = call.answered_ns
-        if call.response is not None:
-            self.seen.accepted = bool(call.response["accepted"])
+        if self._sent.wait(within_s, while_true):
+            self._note_answer(self._sent.seen)
         if self.seen.accepted:
             self._result = self._ask_result(self.seen)
         return bool(self.seen.accepted)
@@ -139,6 +136,11 @@ class Goal:
             call = self._cancel.seen
             self.seen.cancel_answered_ns = call.answered_ns
             self.seen.cancel_accepted = bool((call.response or {}).get("goals_canceling"))
+
+    def _note_answer(self, call: CallSeen) -> None:
+        self.seen.answered_ns = call.answered_ns
+        if call.response is not None:
+            self.seen.accepted = bool(call.response["accepted"])
 
     def _note_result(self, call: CallSeen) -> None:
         self.seen.ended_ns = call.answered_ns

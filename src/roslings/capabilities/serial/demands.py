@@ -17,6 +17,7 @@ from roslings.judge.demands import require_its_time, require_steady
 from roslings.judge.views import Demand, ExperimentView, TopicView
 from roslings.models.board_lines import BadLine, Drive, Speeds, unframed
 from roslings.models.differential_drive import Body, Motion, Wheels
+from roslings.rates import NS_PER_S
 
 MOST_LINES_LOST = 0.15
 """Part of the board's lines that may be without a message: those that a busy node still works on
@@ -355,7 +356,9 @@ def stop_by_itself(after: str) -> Demand[ExperimentView]:
             raise faults.NothingToJudge("the motors were not running")
         stops = (at for at, d in _commands(experiment) if at > begun_s and not _runs(d))
         stop_s = next(stops, None)
-        if stop_s is None or stop_s - begun_s > STOPS_WITHIN_S:
+        if stop_s is not None and stop_s - begun_s <= STOPS_WITHIN_S:
+            _require_real_time(experiment, begun_s, stop_s)
+        else:
             require_steady(experiment.seen.stall_s)
             waited_s = experiment.seen.part(SerialSeen).limits.stands_within_s
             late_s = (stop_s - begun_s if stop_s else waited_s) - STOPS_WITHIN_S
@@ -363,6 +366,33 @@ def stop_by_itself(after: str) -> Demand[ExperimentView]:
             raise cable_faults.DoesNotStop(STOPS_WITHIN_S, stop_s and stop_s - begun_s)
 
     return demand
+
+
+def _require_real_time(experiment: ExperimentView, from_s: float, to_s: float) -> None:
+    """A stop in time by the board's clock was so by the node's, too. Raises Inconclusive.
+
+    Where this computer has no time for the board, its clock runs slower than the node's.
+    """
+    took_s = _real_s(experiment, to_s) - _real_s(experiment, from_s)
+    if took_s > STOPS_WITHIN_S:
+        raise faults.Inconclusive(
+            f"the stop came in time for the board, but this computer ran the board so slowly that"
+            f" {took_s:.2f} s had passed; close other programs and check again"
+        )
+
+
+def _real_s(experiment: ExperimentView, board_s: float) -> float:
+    """When it was, in seconds of the observer, that the board's clock showed this.
+
+    Between two marks in proportion; before the first and after the last as if the clock ran true.
+    """
+    marks = sorted(_board(experiment).marks, key=lambda mark: mark.board_s)
+    before = [mark for mark in marks if mark.board_s <= board_s] or marks[:1]
+    after = [mark for mark in marks if mark.board_s > board_s] or marks[-1:]
+    begin, end = before[-1], after[0]
+    passed_s, way_s = (end.arrival_ns - begin.arrival_ns) / NS_PER_S, end.board_s - begin.board_s
+    speed = passed_s / way_s if way_s > 0 else 1.0
+    return begin.arrival_ns / NS_PER_S + (board_s - begin.board_s) * speed
 
 
 def send_good_lines(experiment: ExperimentView) -> None:

@@ -78,10 +78,15 @@ class Call:
         return self._answered.is_set()
 
     def take(self, future: Any) -> None:
-        """The answer came: note when, and what it says."""
-        self.seen.answered_ns = time.monotonic_ns()
+        """The answer came: note what it says, and when.
+
+        In this order: who has given up waiting may look at this very moment, and must not see an
+        answer that says nothing.
+        """
+        came_ns = time.monotonic_ns()
         with suppress(Exception):  # an answer that cannot be read is none
             self.seen.response = to_plain(future.result())
+        self.seen.answered_ns = came_ns
         self._answered.set()
 
     def wait(self, within_s: float, while_true: Callable[[], bool] = lambda: True) -> bool:
