@@ -23,7 +23,7 @@ class OwnTime:
         self._before = {process: process.waits_ns() for process in arena.processes}
         self._devices_before = arena.devices_waits_ns()
         self._asking_s = time.monotonic() - self._began_s
-        """On a busy computer the kernel's account is seconds late, and holds what was waited then."""
+        """On a busy computer the account comes seconds late, and holds what was waited then."""
 
     def is_past(self, limit_s: float) -> bool:
         """So much of it has passed. The kernel is asked where it matters."""
