@@ -259,8 +259,8 @@ class ExperimentView(View):
     def node(self, node: NodeContract) -> NodeView:
         """The node, or the nearest to it. Raises NothingToJudge where there is none.
 
-        Raises Inconclusive where this computer stood still: a node that ends soon may be gone before
-        it is seen.
+        Raises Inconclusive where this computer stood still: a node that ends soon may be gone
+        before it is seen.
         """
         near = nearest(node.node, self.seen.graph.nodes)
         if near is None and self.seen.stall_s > LONGEST_STALL_S:
