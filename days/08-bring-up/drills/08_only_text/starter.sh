@@ -1,0 +1,18 @@
+# Starts a talker. The listener must start only with ear:=true, and not here.
+
+cat > "$HOME/pair.launch.py" <<'END'
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    ear = LaunchConfiguration("ear")
+    nodes = [Node(package="demo_nodes_py", executable="talker")]
+    if ear:
+        nodes.append(Node(package="demo_nodes_py", executable="listener"))
+    return LaunchDescription([DeclareLaunchArgument("ear", default_value="true"), *nodes])
+END
+
+ros2 launch "$HOME/pair.launch.py" ear:=false
