@@ -108,7 +108,7 @@ def test_who_is_done_goes_on_with_what_is_next(tmp_path: Path) -> None:
         watch.press("g")
         watch.shows("/minimal_publisher")
         watch.press("r")
-        watch.shows(r"(?s)1 of 7.*100 of 100.*Save a file")
+        watch.shows(rf"(?s)1 of {len(all_labs())}.*100 of 100.*Save a file")
         watch.press("n")
         watch.shows(r"(?s)Drill 1 of .*Save a file to check again")
         watch.press("q")
