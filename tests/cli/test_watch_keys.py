@@ -11,7 +11,7 @@ import pytest
 from watch_terminal import watching
 
 from roslings.commands.editing import Place, editor_for, first_to_do
-from roslings.course import lab, root
+from roslings.course import all_labs, lab, root
 from roslings.drills import all_drills
 
 EDITOR = """#!/bin/sh

@@ -1,4 +1,5 @@
-"""Foretell: which speed does this program print? Write the number, then check."""
+"""Foretell: what does this program print? Write it between quotes, for example
+"the speed is 0.5", then check."""
 
 from pathlib import Path
 from tempfile import mkdtemp
@@ -27,7 +28,7 @@ class Fan(Node):
 
 def main():
     rclpy.init(args=["fan", "--ros-args", "--params-file", str(FILE)])
-    print(Fan().get_parameter("speed").value)
+    print("the speed is", Fan().get_parameter("speed").value)
 
 
 main()

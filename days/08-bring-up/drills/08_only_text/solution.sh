@@ -1,9 +1,9 @@
-# Starts a talker. The listener must start only with ear:=true, and not here.
+# Starts a talker. A listener only comes with ear:=true; else launch says "no listener today".
 
 cat > "$HOME/pair.launch.py" <<'END'
 from launch import LaunchDescription
-from launch.actions import DeclareLaunchArgument
-from launch.conditions import IfCondition
+from launch.actions import DeclareLaunchArgument, LogInfo
+from launch.conditions import IfCondition, UnlessCondition
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 
@@ -14,6 +14,7 @@ def generate_launch_description():
         DeclareLaunchArgument("ear", default_value="true"),
         Node(package="demo_nodes_py", executable="talker"),
         Node(package="demo_nodes_py", executable="listener", condition=IfCondition(ear)),
+        LogInfo(msg="no listener today", condition=UnlessCondition(ear)),
     ])
 END
 
