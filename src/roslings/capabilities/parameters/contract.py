@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from pydantic import Field
 
 from roslings.capability import Row, Words
-from roslings.course.contract import Contract, Expected, Plain, Promise, Stimulus
+from roslings.course.contract import Contract, Expected, Plain, Promise, Stimulus, as_typed
 from roslings.course.kinds import Kind
 
 if TYPE_CHECKING:
@@ -33,6 +33,12 @@ class ParameterContract(Contract):
     )
     live: Annotated[bool, Expected] = Field(
         default=False, description="A change acts at once, while the node runs"
+    )
+    read_only: Annotated[bool, Expected] = Field(
+        default=False, description="It is chosen at the start, and each change is refused"
+    )
+    not_above: Annotated[str | None, Expected] = Field(
+        default=None, description="The parameter of the node that it is never larger than"
     )
 
     @property
@@ -65,10 +71,13 @@ def rows(node: NodeContract) -> Iterable[Row]:
 
 
 def _row_of(parameter: ParameterContract) -> str:
-    default = f"`{parameter.default}` when nobody sets it"
+    default = f"`{as_typed(parameter.default)}` when nobody sets it"
     limits = "" if parameter.most is None else f"; {_span(parameter)}, all else is refused"
     live = "; a change acts at once" if parameter.live else ""
-    return f"`{parameter.name}`, {parameter.about}; type {parameter.type}; {default}{limits}{live}"
+    rule = f"; never above `{parameter.not_above}`" if parameter.not_above else ""
+    fixed = "; nobody can change it while the node runs" if parameter.read_only else ""
+    words = f"`{parameter.name}`, {parameter.about}; type {parameter.type}; {default}"
+    return f"{words}{limits}{rule}{live}{fixed}"
 
 
 def _span(parameter: ParameterContract) -> str:
