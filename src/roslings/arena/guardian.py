@@ -4,7 +4,8 @@
 
 FD is one end of a stream socket pair; the arena holds the other. It first sends the number of
 bytes of an `Order` on a line, and the bytes, of `marshal`; later a signal's name, `WAITS`,
-`OWN_WAITS` or `STATE`, a line. The guardian answers one line of JSON an event:
+`OWN_WAITS`, `STATE`, `COMMANDS` or `KILL:PID`, a line. The guardian answers one line of JSON an
+event:
 
     {"started": PID}                       {"said": TEXT, "at": NS}
     {"exited": STATUS, "at": NS, ...}      {"refused": REASON}
@@ -12,6 +13,8 @@ bytes of an `Order` on a line, and the bytes, of `marshal`; later a signal's nam
                                            it began; to OWN_WAITS: without its children
     {"answer": LETTER, "to": "STATE"}      to STATE: of its main thread, as in proc(5); empty where
                                            it has ended
+    {"answer": {PID: COMMAND}, "to": ...}  to COMMANDS: all that descend from it, with the words
+                                           of each command behind one another, NUL between them
 
 Where the order says `namespaces`, the process lives in a pid namespace whose first process is
 this guardian: when the guardian goes, the kernel ends all that the process started. So it is
@@ -42,6 +45,8 @@ LATEST_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGQUIT, signal.SIGPIPE,
 GRACE_S = 0.2
 TEMPORARY = ("/tmp", "/dev/shm")
 LOOK_EVERY_S = 0.2
+KILL = "KILL:"
+LONGEST_COMMAND = 4096
 NEARLY = 0.95
 """The kernel keeps it from reaching its bound, or ends one process only."""
 
@@ -228,6 +233,10 @@ class Guardian:
                 self.tell({"answer": kernel.waits([self.pid]), "to": name})
             elif name == "STATE":
                 self.tell({"answer": state(self.pid), "to": name})
+            elif name == "COMMANDS":
+                self.tell({"answer": commands(descendants()), "to": name})
+            elif name.startswith(KILL):
+                kill_own(int(name.removeprefix(KILL)))
             elif self.exited is None:
                 self.spout.begin_ending()
                 os.kill(self.pid, getattr(signal, name))
@@ -384,6 +393,18 @@ def state(pid: int) -> str:
         return ""
 
 
+def commands(pids: list[int]) -> dict[str, str]:
+    """Pid to the words of its command, as in proc(5); those that are gone are left out."""
+    found: dict[str, str] = {}
+    for pid in pids:
+        try:
+            words: bytes = kernel.read(f"/proc/{pid}/cmdline")
+        except OSError:
+            continue
+        found[str(pid)] = words[:LONGEST_COMMAND].decode("latin-1")
+    return found
+
+
 def living() -> list[tuple[int, int]]:
     """Pid and parent's pid of every process that is no zombie, as /proc has them."""
     pairs = []
@@ -438,6 +459,12 @@ def kill_all(pids: list[int]) -> None:
     if os.getpid() == 1:
         kill(-1)
     for pid in pids:
+        kill(pid)
+
+
+def kill_own(pid: int) -> None:
+    """End one process as a crash would, where it descends from this one."""
+    if pid in descendants():
         kill(pid)
 
 

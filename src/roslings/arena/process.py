@@ -215,6 +215,18 @@ class Process:
         """Its main thread waits for something, as a node's does between its callbacks."""
         return self._ask("STATE") == "S"
 
+    def commands(self) -> dict[int, list[str]]:
+        """Pid to the words of its command, for it and each process that it has started.
+
+        The pids count where the process lives. Empty when it is gone.
+        """
+        found: dict[str, str] = self._ask("COMMANDS") or {}  # type: ignore[assignment]  # as above
+        return {int(pid): words.rstrip("\0").split("\0") for pid, words in found.items()}
+
+    def kill(self, pid: int) -> None:
+        """End a process that it has started, as a crash would: SIGKILL."""
+        self._send(f"KILL:{pid}")
+
     def _ask(self, what: str) -> object:
         """The guardian's answer; None when the process is gone."""
         with self._changed:

@@ -146,6 +146,16 @@ class Scene:
                 self._end(processes)
         self._over += own
 
+    @contextmanager
+    def starting(self) -> Iterator[None]:
+        """A stretch in which nodes start by another way than `run`: a launch file, say."""
+        with self._turns.busy(), self._noted("starting"):
+            yield
+
+    def ending(self) -> AbstractContextManager[None]:
+        """A stretch in which what was started so is asked to end, and waited for."""
+        return self._noted("ending")
+
     def _noted(self, part: Part) -> AbstractContextManager[None]:
         return noted(self._timeline, part, self.seen.name)
 

@@ -54,6 +54,19 @@ class ParameterContract(Contract):
         least, most = self.ends
         return least - 1, most + 1
 
+    @property
+    def span(self) -> str:
+        """From where to where it goes; empty where it has no limits."""
+        if self.least is None or self.most is None:
+            return ""
+        return f"{self.least:g} to {self.most:g}"
+
+    def allows(self, value: Plain) -> bool:
+        """Whether a value lies within the limits, where there are some."""
+        if self.least is None or self.most is None or isinstance(value, str):
+            return True
+        return self.least <= value <= self.most
+
 
 class ParameterWords(Contract):
     """What a card may say of a node."""
@@ -72,16 +85,12 @@ def rows(node: NodeContract) -> Iterable[Row]:
 
 def _row_of(parameter: ParameterContract) -> str:
     default = f"`{as_typed(parameter.default)}` when nobody sets it"
-    limits = "" if parameter.most is None else f"; {_span(parameter)}, all else is refused"
+    limits = f"; {parameter.span}, all else is refused" if parameter.span else ""
     live = "; a change acts at once" if parameter.live else ""
     rule = f"; never above `{parameter.not_above}`" if parameter.not_above else ""
     fixed = "; nobody can change it while the node runs" if parameter.read_only else ""
     words = f"`{parameter.name}`, {parameter.about}; type {parameter.type}; {default}"
     return f"{words}{limits}{rule}{live}{fixed}"
-
-
-def _span(parameter: ParameterContract) -> str:
-    return f"{parameter.least:g} to {parameter.most:g}"
 
 
 WORDS = Words(node=ParameterWords, settings=rows)
