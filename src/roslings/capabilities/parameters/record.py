@@ -30,6 +30,9 @@ class ParameterSet(Record):
     reason: str = Field(default="", description="Why it was refused, in the node's words")
 
 
+GIVEN_BY_ROS = ("use_sim_time", "start_type_description_service")
+"""Parameters that every node of Jazzy has."""
+
 Values = dict[str, bool | int | float | str | None]
 """Name to value; None where it is of a type that no card has."""
 
