@@ -403,7 +403,7 @@ class Scene:
         limit = contract.rate
         periods_s = FIRST_PERIODS / limit.hz if limit else 0.0
         return self._until_there(
-            lambda: self._heard(contract) >= count, says(contract), max(grace_s, periods_s)
+            lambda: self.heard(contract) >= count, says(contract), max(grace_s, periods_s)
         )
 
     def _until_there(
@@ -420,7 +420,8 @@ class Scene:
     def _publisher(self, contract: TopicContract) -> Endpoint | None:
         return nearest_endpoint(self.seen.graph, "publisher", contract.topic, contract.type)
 
-    def _heard(self, contract: TopicContract) -> int:
+    def heard(self, contract: TopicContract) -> int:
+        """How many messages came on a topic so far, or on the one nearest to it."""
         publisher = self._publisher(contract)
         return self._probe.count(publisher.topic) if publisher else 0
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from statistics import median
 from typing import Any
 
 from roslings.capabilities.parameters import faults
@@ -22,8 +21,8 @@ from roslings.matching import nearest_endpoint
 TYPES: Mapping[type, str] = {bool: "bool", int: "integer", float: "double", str: "string"}
 FIRST = "first"
 """The part of an experiment before anything was set."""
-BESIDE_PACE = 0.25
-"""So far from the asked time between two messages the middle one of some may be."""
+BESIDE_PACE = 0.15
+"""So far from the asked time the time of some messages may be, as a part of it."""
 
 FEWEST_BEATS = 4
 Wanted = Callable[[Values, dict[str, Any]], Any]
@@ -222,9 +221,9 @@ def _insist_on_pace(
     if trial.part not in experiment.seen.held_up or not isinstance(beat, int | float) or beat <= 0:
         return False
     gaps = _gaps_s(experiment, topic, trial.answered_ns or 0, end_ns)
-    found_s = median(gaps) if len(gaps) >= FEWEST_BEATS else None
+    found_s = sum(gaps) / len(gaps) if len(gaps) >= FEWEST_BEATS else None
     if found_s is None or abs(found_s * beat - 1) > BESIDE_PACE:
-        late_s = None if found_s is None else abs(found_s - 1 / beat)
+        late_s = None if found_s is None else abs(found_s - 1 / beat) * len(gaps)
         require_its_time(experiment.seen, trial.part, late_s, f"what {topic.topic} says")
         found = "hardly any message came" if found_s is None else f"{1 / found_s:.1f} a second"
         wanted = f"{beat:g} messages a second on {topic.topic}"
@@ -235,11 +234,14 @@ def _insist_on_pace(
 def _gaps_s(
     experiment: ExperimentView, topic: TopicContract, begin_ns: float, end_ns: float
 ) -> list[float]:
-    """From message to message between two moments, by when they were sent."""
+    """From message to message between two moments, by when they were sent.
+
+    The first one may have been under way before.
+    """
     publisher = nearest_endpoint(experiment.seen.graph, "publisher", topic.topic, topic.type)
     heard = experiment.seen.topics.get(publisher.topic) if publisher else None
     sent = [
         each.source_ns or each.arrival_ns for each in (heard.messages if heard else [])
         if begin_ns < each.arrival_ns < end_ns
     ]  # fmt: skip
-    return [(after - before) / 1e9 for before, after in pairwise(sent)]
+    return [(after - before) / 1e9 for before, after in pairwise(sent[1:])]
