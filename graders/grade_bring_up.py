@@ -70,12 +70,22 @@ MAX, SLOW = LIMITER.parameter("max_speed"), LIMITER.parameter("slow_speed")
 CAREFUL = LIMITER.parameter("careful")
 NAME, RATE = BEACON.parameter("rover_name"), BEACON.parameter("beat_rate")
 LAUNCH = written(CARD.launch, "the package")
-FILE, CAREFULLY = LAUNCH.argument("params_file"), LAUNCH.argument("careful")
-SECOND = LAUNCH.argument("blue")
+FILE, CAREFULLY, SECOND = LAUNCH.arguments
 SPEED = Shown(LIMITER, "linear.x", ALLOWED, "linear.x")
 TURN = Shown(LIMITER, "angular.z", ALLOWED, "angular.z")
 FORWARD, BACKWARD, SLOWLY = 2.0, -2.0, 0.07
 """Metres a second: faster than any limit, both ways, and slower than the usual one."""
+
+SAID = [
+    BEAT.model_copy(
+        update={
+            "topic": each.namespace + BEAT.topic,
+            "fields": {"data": each.values[f"{BEACON.executable}.{NAME.name}"]},
+        }
+    )
+    for each in LAUNCH.namespaces
+]
+"""What the beacons of the rovers say."""
 
 BEATS = 13
 """Messages to wait for at a new rate: enough to see that an old timer goes on beside it."""
@@ -217,6 +227,8 @@ def brought_up(scene: Scene) -> None:
     """Both rovers, by the launch file alone."""
     with launched(scene, CARD.package, LAUNCH):
         read_all(scene)
+        for beat in SAID:
+            scene.hear(beat)
 
 
 @experiment
@@ -405,10 +417,12 @@ def test_alike(brought_up: ExperimentView) -> None:
     brought_up.must(be_alike(LAUNCH))
 
 
-@check(needs=["launch"], explained_by=NO_PARAMETERS)
+@check(needs=["launch"], explained_by={**NO_PARAMETERS, "alike": "TopicOutside"})
 def test_values(brought_up: ExperimentView) -> None:
     """After the launch, each parameter is what the card says for its namespace."""
     brought_up.must(give_its_values(LAUNCH, CARD.node))
+    for beat in SAID:
+        brought_up.topic(beat).must(hold_its_fields)
 
 
 @check(needs=["builds"], explained_by={"launch": "LaunchFailed"})

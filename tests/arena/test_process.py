@@ -326,7 +326,7 @@ def test_a_process_that_waits_is_told_from_one_that_works(tmp_path: Path, namesp
 
 def test_what_it_has_started_is_known_and_can_be_killed(tmp_path: Path, namespaces: bool) -> None:
     """By the words of its command; the process itself lives on, and no stranger is killed."""
-    shell = 'sleep 1000 & echo ready; wait; echo woken; exec sleep 2000'
+    shell = "sleep 1000 & echo ready; wait; echo woken; exec sleep 2000"
     with Process("it", launch(tmp_path, namespaces, "sh", "-c", shell)) as process:
         assert process.wait_until(lambda: bool(process.seen.lines), LONG_S)
         wait_for(lambda: ["sleep", "1000"] in process.commands().values())

@@ -45,6 +45,7 @@ LATEST_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGQUIT, signal.SIGPIPE,
 GRACE_S = 0.2
 TEMPORARY = ("/tmp", "/dev/shm")
 LOOK_EVERY_S = 0.2
+QUESTIONS = ("WAITS", "OWN_WAITS", "STATE", "COMMANDS")
 KILL = "KILL:"
 LONGEST_COMMAND = 4096
 NEARLY = 0.95
@@ -221,26 +222,32 @@ class Guardian:
         self.say(rest)
 
     def obey(self) -> bool:
-        """Pass a signal on to the process. False when the arena closed its end."""
+        """Do what the arena says. False when it closed its end."""
         try:
             orders = os.read(self.channel, 4096)
         except ConnectionResetError:  # it went without reading all that we said
             return False
         for name in orders.decode().split():
-            if name == "WAITS":
-                self.tell({"answer": kernel.waits(descendants()), "to": name})
-            elif name == "OWN_WAITS":
-                self.tell({"answer": kernel.waits([self.pid]), "to": name})
-            elif name == "STATE":
-                self.tell({"answer": state(self.pid), "to": name})
-            elif name == "COMMANDS":
-                self.tell({"answer": commands(descendants()), "to": name})
-            elif name.startswith(KILL):
-                kill_own(int(name.removeprefix(KILL)))
-            elif self.exited is None:
-                self.spout.begin_ending()
-                os.kill(self.pid, getattr(signal, name))
+            self.follow(name)
         return bool(orders)
+
+    def follow(self, name: str) -> None:
+        """Answer a question, end one process, or pass a signal on to the process itself."""
+        if name in QUESTIONS:
+            self.tell({"answer": self.answer_to(name), "to": name})
+        elif name.startswith(KILL):
+            kill_own(int(name.removeprefix(KILL)))
+        elif self.exited is None:
+            self.spout.begin_ending()
+            os.kill(self.pid, getattr(signal, name))
+
+    def answer_to(self, name: str) -> object:
+        """What one of the questions wants to know."""
+        if name == "WAITS":
+            return kernel.waits(descendants())
+        if name == "OWN_WAITS":
+            return kernel.waits([self.pid])
+        return state(self.pid) if name == "STATE" else commands(descendants())
 
     def reap(self) -> None:
         """Collect ended children: the process itself, and orphans that came to us."""

@@ -121,7 +121,7 @@ class Process:
         self._on_line = on_line
         self._changed = threading.Condition()
         self._unfinished = b""
-        self._asked_to_end = False
+        self._asked_to_end = self._waits_for_children = False
         self._started = False
         self._gone = False
         self._refused: str | None = None
@@ -179,8 +179,13 @@ class Process:
         """Has not ended yet, as far as we were told."""
         return not self._gone and self.seen.ended_ns is None
 
-    def interrupt(self, within_s: float) -> bool:
-        """Press Ctrl-C: SIGINT to the process itself. True when it ended within `within_s`."""
+    def interrupt(self, within_s: float, and_children: bool = False) -> bool:
+        """Press Ctrl-C: SIGINT to the process itself. True when it ended within `within_s`.
+
+        Where it has to wait for its children (`and_children`), what these wait for a processor
+        counts as what its own threads do.
+        """
+        self._waits_for_children = and_children
         self._asked_to_end = True
         return self._signal("SIGINT", within_s)
 
@@ -266,8 +271,8 @@ class Process:
         )  # fmt: skip
 
     def _own_waits_ns(self) -> dict[str, int] | None:
-        """As `waits_ns`, of the process itself without its children; None when it is gone."""
-        return self._ask("OWN_WAITS")  # type: ignore[return-value]  # the guardian's own
+        """As `waits_ns`, of those whose end is waited for; None when it is gone."""
+        return self._ask("WAITS" if self._waits_for_children else "OWN_WAITS")  # type: ignore[return-value]  # the guardian's own
 
     def _waited_since(self, before: dict[str, int]) -> float:
         """How long its main thread waited for a processor, to its end; 0 where nobody knows."""

@@ -59,7 +59,7 @@ def launched(
         seen.running = dict(Counter(_programs(process, package).values()))
         yield process
         with scene.ending():
-            process.interrupt(CREW_ENDS_WITHIN_S)
+            process.interrupt(CREW_ENDS_WITHIN_S, and_children=True)
 
 
 @contextmanager

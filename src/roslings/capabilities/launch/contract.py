@@ -65,10 +65,6 @@ class LaunchContract(Contract):
         """What stands behind `ros2 launch PACKAGE`."""
         return self.file.rpartition("/")[2]
 
-    def argument(self, name: str) -> ArgumentContract:
-        """An argument of the card. Raises KeyError where there is none of this name."""
-        return {each.name: each for each in self.arguments}[name]
-
 
 class LaunchWords(Contract):
     """What a card may say of the package."""

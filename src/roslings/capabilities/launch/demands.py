@@ -65,9 +65,7 @@ def run_on(experiment: ExperimentView) -> None:
         raise faults.LaunchFailed(process.seen.executable, how, log=log)
 
 
-def _missing(
-    process: ProcessView, name: str, there: tuple[str, ...]
-) -> faults.LaunchMissesNode:
+def _missing(process: ProcessView, name: str, there: tuple[str, ...]) -> faults.LaunchMissesNode:
     """Its namespace is wrong where another node of this name is there, and no such namespace."""
     space, _, plain = name.rpartition("/")
     elsewhere = any(each.rpartition("/")[2] == plain for each in there)

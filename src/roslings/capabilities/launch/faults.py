@@ -154,7 +154,9 @@ class WrongArguments(Fault):
     found: tuple[str, ...]
     why = "Nobody reads a launch file to learn what can be chosen: --show-args tells."
     expected = "`{command}` shows {wanted}"
-    hint = "DeclareLaunchArgument(NAME, default_value=TEXT, description=...), with the card's names."
+    hint = (
+        "DeclareLaunchArgument(NAME, default_value=TEXT, description=...), with the card's names."
+    )
 
     @property
     def measured(self) -> str:

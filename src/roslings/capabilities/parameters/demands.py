@@ -29,6 +29,7 @@ from roslings.judge.views import Demand, ExperimentView, TopicView
 from roslings.matching import nearest_endpoint, own_endpoints
 from roslings.rates import Rate
 
+
 def has_parameter(node: NodeContract, parameter: ParameterContract) -> Demand[ExperimentView]:
     """The node lists the parameter among its own."""
 

@@ -214,7 +214,11 @@ def _with_ends(
 
 
 def _insist_on_pace(
-    experiment: ExperimentView, topic: TopicContract, name: str, trial: ParameterTrial, end_ns: float
+    experiment: ExperimentView,
+    topic: TopicContract,
+    name: str,
+    trial: ParameterTrial,
+    end_ns: float,
 ) -> bool:
     """Whether it could be judged: nobody waits for messages after each request."""
     beat = trial.after.get(name)

@@ -1,6 +1,6 @@
 """Start the nodes of two rovers, each rover in a namespace of its own."""
 
-import os
+from pathlib import Path
 
 from ament_index_python.packages import get_package_share_directory
 from launch import LaunchDescription
@@ -10,7 +10,7 @@ from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node, PushRosNamespace
 
 PACKAGE = 'rover_bringup'
-VALUES = os.path.join(get_package_share_directory(PACKAGE), 'config', 'rovers.yaml')
+VALUES = str(Path(get_package_share_directory(PACKAGE)) / 'config' / 'rovers.yaml')
 
 
 def rover(name, condition=None):

@@ -4,7 +4,7 @@ Do the TODOs in the order of their numbers. The names and the values that you ne
 stand on the card, in labs/bring-up/task.md.
 """
 
-import os
+from pathlib import Path
 
 from ament_index_python.packages import get_package_share_directory
 from launch import LaunchDescription
@@ -15,7 +15,7 @@ from launch import LaunchDescription
 #          launch_ros.actions.
 
 PACKAGE = 'rover_bringup'
-VALUES = os.path.join(get_package_share_directory(PACKAGE), 'config', 'rovers.yaml')
+VALUES = str(Path(get_package_share_directory(PACKAGE)) / 'config' / 'rovers.yaml')
 
 
 def rover(name, condition=None):
