@@ -107,6 +107,14 @@ DONE_BY: dict[str, dict[str, Words]] = {
         "ball_finder:BallFinder.message": {18: ("",)},
         "ball_finder:main": {19: ("",)},
     },
+    "bring-up": {
+        "speed_limiter:SpeedLimiter.__init__": {2: ("declare_parameter",), 4: ("add_on_set",)},
+        "speed_limiter:SpeedLimiter.limit": {3: ("",)},
+        "beacon:Beacon.__init__": {
+            7: ("declare_parameter", "fixed", "whole", "limits"), 9: ("add_post_set",),
+        },
+        "beacon:Beacon.tell": {8: ("",)},
+    },
 }  # fmt: skip
 
 
