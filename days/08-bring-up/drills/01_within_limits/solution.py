@@ -1,4 +1,4 @@
-"""A fan whose speed goes from 0.0 to 2.0. Write the range: 1.5 must be taken, 5.0 refused.
+"""A fan whose speed goes from 0.0 to 2.0. Write its range: 1.5 is good, 5.0 is not.
 
 It must print "1.5 True", "5.0 False" and "the speed is 1.5".
 """
