@@ -192,7 +192,9 @@ def limiting(scene: Scene) -> None:
         teller = Teller(scene, process, WANTED, ALLOWED)
         for speed in (FORWARD, BACKWARD, SLOWLY):
             teller.tell(command(scene, speed))
-        for number, step in enumerate(steps() if setter else ()):
+        if setter is None:
+            return
+        for number, step in enumerate(steps()):
             step.carry_out(setter)
             teller.tell(command(scene, BACKWARD if number % 2 else FORWARD))
 
