@@ -28,7 +28,7 @@ NEXT_NODE_S = 4.0
 CREW_ENDS_WITHIN_S = 8.0
 """The launch waits 5 s for its nodes before it becomes stern with them."""
 
-BACK_WITHIN_S = 8.0
+BACK_WITHIN_S = 10.0
 """A node that was killed is not waited for any longer."""
 
 TELLS_WITHIN_S = 20.0
@@ -76,7 +76,9 @@ def _wait_up(scene: Scene, count: int, spaces: Sequence[str]) -> None:
     """Until all nodes are there, and their topics: they are as many in each namespace."""
     scene.until(lambda: bool(scene.seen.graph.nodes), COMES_UP_WITHIN_S)
     if scene.appears(lambda: len(scene.seen.graph.nodes) >= count, f"{count} nodes", NEXT_NODE_S):
-        scene.appears(lambda: are_alike(scene.seen.graph, spaces), "one graph in each namespace")
+        scene.appears(
+            lambda: are_alike(scene.seen.graph, spaces), "one graph in each namespace", NEXT_NODE_S
+        )
 
 
 def ask_for_arguments(scene: Scene, package: str, contract: LaunchContract) -> None:
