@@ -272,7 +272,8 @@ class Process:
 
     def _own_waits_ns(self) -> dict[str, int] | None:
         """As `waits_ns`, of those whose end is waited for; None when it is gone."""
-        return self._ask("WAITS" if self._waits_for_children else "OWN_WAITS")  # type: ignore[return-value]  # the guardian's own
+        question = "WAITS" if self._waits_for_children else "OWN_WAITS"
+        return self._ask(question)  # type: ignore[return-value]  # the guardian's own
 
     def _waited_since(self, before: dict[str, int]) -> float:
         """How long its main thread waited for a processor, to its end; 0 where nobody knows."""

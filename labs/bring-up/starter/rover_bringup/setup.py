@@ -9,7 +9,7 @@ setup(
     data_files=[
         ('share/ament_index/resource_index/packages', ['resource/' + package_name]),
         ('share/' + package_name, ['package.xml']),
-        # TODO 15: add one line for the launch file, and one for the YAML file.
+        # TODO 16: add one line for the launch file, and one for the YAML file.
         #          The form of a line: ('share/PACKAGE/FOLDER', ['FOLDER/FILE'])
     ],
     install_requires=['setuptools'],
@@ -21,8 +21,8 @@ setup(
     license='Apache-2.0',
     entry_points={
         'console_scripts': [
-            'speed_limiter = rover_bringup.speed_limiter:main',
-            'beacon = rover_bringup.beacon:main',
+            # TODO 2: add one line for each executable of the card.
+            #         The form of a line: 'NAME = PACKAGE.FILE:FUNCTION',
         ],
     },
 )

@@ -28,7 +28,7 @@ NEXT_NODE_S = 4.0
 CREW_ENDS_WITHIN_S = 8.0
 """The launch waits 5 s for its nodes before it becomes stern with them."""
 
-BACK_WITHIN_S = 8.0
+BACK_WITHIN_S = 10.0
 """A node that was killed is not waited for any longer."""
 
 TELLS_WITHIN_S = 20.0
@@ -55,7 +55,8 @@ def launched(
     with ExitStack() as running:
         with scene.starting():
             process = running.enter_context(_started(scene, [package, contract.name, *words]))
-            _wait_up(scene, len(contract.starts) * max(1, len(spaces)), spaces)
+            _wait_up(scene, process, package, len(contract.starts) * max(1, len(spaces)))
+            _wait_alike(scene, spaces)
         seen.running = dict(Counter(_programs(process, package).values()))
         yield process
         with scene.ending():
@@ -72,11 +73,22 @@ def _started(scene: Scene, words: Sequence[str]) -> Iterator[Process]:
         yield process
 
 
-def _wait_up(scene: Scene, count: int, spaces: Sequence[str]) -> None:
-    """Until all nodes are there, and their topics: they are as many in each namespace."""
+def _wait_up(scene: Scene, process: Process, package: str, count: int) -> None:
+    """Until so many nodes are there, and as many as there are programs."""
+
+    def all_there() -> bool:
+        nodes = len(scene.seen.graph.nodes)
+        return nodes >= count and nodes >= len(_programs(process, package))
+
     scene.until(lambda: bool(scene.seen.graph.nodes), COMES_UP_WITHIN_S)
-    if scene.appears(lambda: len(scene.seen.graph.nodes) >= count, f"{count} nodes", NEXT_NODE_S):
-        scene.appears(lambda: are_alike(scene.seen.graph, spaces), "one graph in each namespace")
+    scene.appears(all_there, f"{count} nodes", NEXT_NODE_S)
+
+
+def _wait_alike(scene: Scene, spaces: Sequence[str]) -> None:
+    """Until the topics are there: as many in each namespace."""
+    scene.appears(
+        lambda: are_alike(scene.seen.graph, spaces), "one graph in each namespace", NEXT_NODE_S
+    )
 
 
 def ask_for_arguments(scene: Scene, package: str, contract: LaunchContract) -> None:

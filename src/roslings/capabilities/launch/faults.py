@@ -140,8 +140,8 @@ class ArgumentIgnored(WrongValueAfterLaunch):
 
     why = "What somebody types is newer than what stands in a file: it wins."
     hint = (
-        "parameters=[FILE, {{NAME: LaunchConfiguration(NAME)}}]: the later one of the list wins. Does"
-        " each node that has the parameter get it?"
+        "parameters=[FILE, {{NAME: LaunchConfiguration(NAME)}}]: the later one of the list wins."
+        " Does each node that has the parameter get it?"
     )
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from ament_index_python.packages import get_package_share_directory
 from launch import LaunchDescription
 
-# TODO 12: import what you need: DeclareLaunchArgument and GroupAction from
+# TODO 13: import what you need: DeclareLaunchArgument and GroupAction from
 #          launch.actions, IfCondition from launch.conditions, LaunchConfiguration
 #          from launch.substitutions, Node and PushRosNamespace from
 #          launch_ros.actions.
@@ -20,7 +20,7 @@ VALUES = str(Path(get_package_share_directory(PACKAGE)) / 'config' / 'rovers.yam
 
 def rover(name, condition=None):
     """All nodes of one rover."""
-    # TODO 13: return a GroupAction with a list and with this condition. The list
+    # TODO 14: return a GroupAction with a list and with this condition. The list
     #          pushes the namespace, and starts both nodes of the package. One of
     #          them comes back when it was killed: the card says which. Both get
     #          parameters: a list with the file that the argument names, and behind
@@ -31,7 +31,7 @@ def generate_launch_description():
     """Declare the arguments, and start both rovers."""
     return LaunchDescription(
         [
-            # TODO 14: declare the three arguments of the card, with their defaults.
+            # TODO 15: declare the three arguments of the card, with their defaults.
             #          The default of the first one is VALUES. Then call rover()
             #          twice; the second time with an IfCondition.
         ]

@@ -9,7 +9,7 @@ from geometry_msgs.msg import Twist
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 
-# TODO 1: import FloatingPointRange, ParameterDescriptor and SetParametersResult
+# TODO 3: import FloatingPointRange, ParameterDescriptor and SetParametersResult
 #         from rcl_interfaces.msg.
 
 
@@ -17,21 +17,21 @@ class SpeedLimiter(Node):
     """Hears the speed that somebody wants, and publishes the one that is allowed."""
 
     def __init__(self):
-        super().__init__('speed_limiter')
-        # TODO 2: declare the three parameters of the card, with their defaults.
-        #         Two of them have a range: describe it.
-        # TODO 4: let ROS ask self.judge before it sets parameters.
+        # TODO 4: give the node the name from the card. Declare its three parameters,
+        #         with their defaults. Two of them have a range: describe it.
+        super().__init__('change_me')
+        # TODO 6: let ROS ask self.judge before it sets parameters.
         self.publisher = self.create_publisher(Twist, 'cmd_vel', 10)
         self.create_subscription(Twist, 'cmd_vel_in', self.limit, 10)
 
     def judge(self, parameters):
         """Say whether new values may be set; nothing is set here."""
-        # TODO 5: return a SetParametersResult. It says no where slow_speed would
+        # TODO 7: return a SetParametersResult. It says no where slow_speed would
         #         be above max_speed. What is not in the list keeps its value.
 
     def limit(self, command):
         """Publish a command with its speed cut to the limit."""
-        # TODO 3: read the limit from the parameter that counts now.
+        # TODO 5: read the limit from the parameter that counts now.
         limit = 0.5  # m/s
         command.linear.x = max(-limit, min(command.linear.x, limit))
         self.publisher.publish(command)
