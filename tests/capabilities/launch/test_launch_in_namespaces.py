@@ -99,6 +99,13 @@ def test_two_namespaces_are_alike() -> None:
     view(*names, ends=(*both,)).must(be_alike(TWO))
     with pytest.raises(faults.NamespacesDiffer, match="only in /right: it publishes out"):
         view(*names, ends=(both[1],)).must(be_alike(TWO))
+    differ = view(*names, ends=(both[1],))
+    differ.must(be_alike(TWO, view(*names, ends=(*both,))))
+    with pytest.raises(faults.NamespacesDiffer):
+        differ.must(be_alike(TWO, view(), differ))
+    busy = {"launch": HeldUp(cpu_wait_s=5.0, stall_s=0.0)}
+    with pytest.raises(Inconclusive, match="a topic of the launch came late"):
+        view(*names, ends=(both[1],), held_up=busy).must(be_alike(TWO))
     with pytest.raises(faults.TopicOutside, match="it uses /out"):
         view(*names, ends=(end("/left/it", "/out"), end("/right/it", "/out"))).must(be_alike(TWO))
 

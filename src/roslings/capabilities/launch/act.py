@@ -12,7 +12,7 @@ from pathlib import Path
 from roslings.arena import Process
 from roslings.capabilities.launch.contract import LaunchContract
 from roslings.capabilities.launch.graph import are_alike
-from roslings.capabilities.launch.record import LABEL, LaunchSeen, ProgramKilled
+from roslings.capabilities.launch.record import LABEL, UP, LaunchSeen, ProgramKilled
 from roslings.capabilities.parameters.answering import Asked, asked_again
 from roslings.course import NodeContract
 from roslings.course.contract import Plain, as_typed
@@ -49,14 +49,15 @@ def launched(
     card where nobody says so.
     """
     seen = scene.seen.recording(LaunchSeen)
-    seen.given = dict(given or {})
+    seen.given, seen.patience_s = dict(given or {}), NEXT_NODE_S
     spaces = [each.namespace for each in contract.namespaces] if namespaces is None else namespaces
     words = [f"{name}:={value}" for name, value in seen.given.items()]
     with ExitStack() as running:
         with scene.starting():
             process = running.enter_context(_started(scene, [package, contract.name, *words]))
-            _wait_up(scene, process, package, len(contract.starts) * max(1, len(spaces)))
-            _wait_alike(scene, spaces)
+            with accounting(scene, UP):
+                _wait_up(scene, process, package, len(contract.starts) * max(1, len(spaces)))
+                _wait_alike(scene, spaces)
         seen.running = dict(Counter(_programs(process, package).values()))
         yield process
         with scene.ending():

@@ -9,6 +9,9 @@ from roslings.record import PartSeen, Record
 LABEL = "ros2 launch"
 """The name of the process that launches the others."""
 
+UP = "launch"
+"""The timed stretch until all that was launched is there."""
+
 
 class ProgramKilled(Record):
     """One program that was killed, as a crash would do it, and whether its node came back."""
@@ -41,3 +44,6 @@ class LaunchSeen(PartSeen):
         description="Executable to how many of it ran when all nodes were there",
     )
     killed: list[ProgramKilled] = Field(default_factory=list)
+    patience_s: float = Field(
+        default=4.0, description="So long a node or a topic that is missing was waited for"
+    )
