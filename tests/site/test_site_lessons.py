@@ -117,7 +117,7 @@ BAD = {
     "unknown see": (WORDS, "see: [terminal, ssh]", "see: [terminal, shh]", "'shh'", "'ssh'", 0),
     "unknown day": (
         WORDS, "    day: 3\n", "    day: 99\n", "no day 99", f"1 to {len(LESSONS.days)}", 0,
-    ),  # fmt: skip
+    ),
     "no definition": (
         WORDS, "    definition: tmux is a program that shows several terminals in one window"
         " and keeps them alive.\n", "", "'definition' is missing", "definition: ...", None,
