@@ -31,7 +31,7 @@ class Hero(SphinxDirective):
         self.env.note_dependency(str(VERDICT))
         first = next(page for page in FIRST_PAGES if page in self.env.found_docs)
         return [html(
-            '<div class="hero"><div class="hero-words"><p class="lead">Seven days, from the first'
+            '<div class="hero"><div class="hero-words"><p class="lead">Day by day, from the first'
             " two programs that talk to a robot that sees. You build each part yourself. The"
             " course runs what you built, and says what to do next.</p>"
             f'<p class="actions"><a class="button" href="{first}.html">Drive a robot in 15 minutes'

@@ -324,6 +324,21 @@ def test_a_process_that_waits_is_told_from_one_that_works(tmp_path: Path, namesp
         assert not any(process.asleep() for _ in range(20))
 
 
+def test_what_it_has_started_is_known_and_can_be_killed(tmp_path: Path, namespaces: bool) -> None:
+    """By the words of its command; the process itself lives on, and no stranger is killed."""
+    shell = "sleep 1000 & echo ready; wait; echo woken; exec sleep 2000"
+    with Process("it", launch(tmp_path, namespaces, "sh", "-c", shell)) as process:
+        assert process.wait_until(lambda: bool(process.seen.lines), LONG_S)
+        wait_for(lambda: ["sleep", "1000"] in process.commands().values())
+        process.kill(os.getpid() if not namespaces else 1)
+        (child,) = (pid for pid, words in process.commands().items() if words[-1] == "1000")
+        process.kill(child)
+        wait_for(lambda: ["sleep", "2000"] in process.commands().values())
+        assert process.alive
+    assert texts(process.seen) == ["ready", "woken"]
+    assert process.commands() == {}
+
+
 def test_the_time_without_a_processor_is_known_by_thread(tmp_path: Path, namespaces: bool) -> None:
     """It never shrinks, and grows where several busy threads of one process share the cores."""
     source = f"""

@@ -107,6 +107,20 @@ DONE_BY: dict[str, dict[str, Words]] = {
         "ball_finder:BallFinder.message": {18: ("",)},
         "ball_finder:main": {19: ("",)},
     },
+    "bring-up": {
+        "speed_limiter:SpeedLimiter.__init__": {
+            4: ("super().__init__", "declare_parameter"), 6: ("add_on_set",),
+        },
+        "speed_limiter:SpeedLimiter.limit": {5: ("",)},
+        "beacon:Beacon.__init__": {
+            9: (
+                "super().__init__", "declare_parameter", "fixed", "whole", "limits",
+                "create_publisher",
+            ),
+            11: ("add_post_set",),
+        },
+        "beacon:Beacon.tell": {10: ("",)},
+    },
 }  # fmt: skip
 
 

@@ -115,7 +115,9 @@ BAD = {
     "not YAML": (QUIZ, "    kind: one", "    kind: 'one", "not YAML", "line", 0),
     "doubled key": (QUIZ, "    kind: one", "    kind: one\n    kind: one", "twice", "Delete", 1),
     "unknown see": (WORDS, "see: [terminal, ssh]", "see: [terminal, shh]", "'shh'", "'ssh'", 0),
-    "unknown day": (WORDS, "    day: 3\n", "    day: 9\n", "no day 9", "1 to 7", 0),
+    "unknown day": (
+        WORDS, "    day: 3\n", "    day: 99\n", "no day 99", f"1 to {len(LESSONS.days)}", 0,
+    ),
     "no definition": (
         WORDS, "    definition: tmux is a program that shows several terminals in one window"
         " and keeps them alive.\n", "", "'definition' is missing", "definition: ...", None,

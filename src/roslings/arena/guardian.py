@@ -4,7 +4,8 @@
 
 FD is one end of a stream socket pair; the arena holds the other. It first sends the number of
 bytes of an `Order` on a line, and the bytes, of `marshal`; later a signal's name, `WAITS`,
-`OWN_WAITS` or `STATE`, a line. The guardian answers one line of JSON an event:
+`OWN_WAITS`, `STATE`, `COMMANDS` or `KILL:PID`, a line. The guardian answers one line of JSON an
+event:
 
     {"started": PID}                       {"said": TEXT, "at": NS}
     {"exited": STATUS, "at": NS, ...}      {"refused": REASON}
@@ -12,6 +13,8 @@ bytes of an `Order` on a line, and the bytes, of `marshal`; later a signal's nam
                                            it began; to OWN_WAITS: without its children
     {"answer": LETTER, "to": "STATE"}      to STATE: of its main thread, as in proc(5); empty where
                                            it has ended
+    {"answer": {PID: COMMAND}, "to": ...}  to COMMANDS: all that descend from it, with the words
+                                           of each command behind one another, NUL between them
 
 Where the order says `namespaces`, the process lives in a pid namespace whose first process is
 this guardian: when the guardian goes, the kernel ends all that the process started. So it is
@@ -42,6 +45,9 @@ LATEST_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGQUIT, signal.SIGPIPE,
 GRACE_S = 0.2
 TEMPORARY = ("/tmp", "/dev/shm")
 LOOK_EVERY_S = 0.2
+QUESTIONS = ("WAITS", "OWN_WAITS", "STATE", "COMMANDS")
+KILL = "KILL:"
+LONGEST_COMMAND = 4096
 NEARLY = 0.95
 """The kernel keeps it from reaching its bound, or ends one process only."""
 
@@ -216,22 +222,32 @@ class Guardian:
         self.say(rest)
 
     def obey(self) -> bool:
-        """Pass a signal on to the process. False when the arena closed its end."""
+        """Do what the arena says. False when it closed its end."""
         try:
             orders = os.read(self.channel, 4096)
         except ConnectionResetError:  # it went without reading all that we said
             return False
         for name in orders.decode().split():
-            if name == "WAITS":
-                self.tell({"answer": kernel.waits(descendants()), "to": name})
-            elif name == "OWN_WAITS":
-                self.tell({"answer": kernel.waits([self.pid]), "to": name})
-            elif name == "STATE":
-                self.tell({"answer": state(self.pid), "to": name})
-            elif self.exited is None:
-                self.spout.begin_ending()
-                os.kill(self.pid, getattr(signal, name))
+            self.follow(name)
         return bool(orders)
+
+    def follow(self, name: str) -> None:
+        """Answer a question, end one process, or pass a signal on to the process itself."""
+        if name in QUESTIONS:
+            self.tell({"answer": self.answer_to(name), "to": name})
+        elif name.startswith(KILL):
+            kill_own(int(name.removeprefix(KILL)))
+        elif self.exited is None:
+            self.spout.begin_ending()
+            os.kill(self.pid, getattr(signal, name))
+
+    def answer_to(self, name: str) -> object:
+        """What one of the questions wants to know."""
+        if name == "WAITS":
+            return kernel.waits(descendants())
+        if name == "OWN_WAITS":
+            return kernel.waits([self.pid])
+        return state(self.pid) if name == "STATE" else commands(descendants())
 
     def reap(self) -> None:
         """Collect ended children: the process itself, and orphans that came to us."""
@@ -384,6 +400,18 @@ def state(pid: int) -> str:
         return ""
 
 
+def commands(pids: list[int]) -> dict[str, str]:
+    """Pid to the words of its command, as in proc(5); those that are gone are left out."""
+    found: dict[str, str] = {}
+    for pid in pids:
+        try:
+            words: bytes = kernel.read(f"/proc/{pid}/cmdline")
+        except OSError:
+            continue
+        found[str(pid)] = words[:LONGEST_COMMAND].decode("latin-1")
+    return found
+
+
 def living() -> list[tuple[int, int]]:
     """Pid and parent's pid of every process that is no zombie, as /proc has them."""
     pairs = []
@@ -438,6 +466,12 @@ def kill_all(pids: list[int]) -> None:
     if os.getpid() == 1:
         kill(-1)
     for pid in pids:
+        kill(pid)
+
+
+def kill_own(pid: int) -> None:
+    """End one process as a crash would, where it descends from this one."""
+    if pid in descendants():
         kill(pid)
 
 

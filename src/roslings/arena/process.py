@@ -121,7 +121,7 @@ class Process:
         self._on_line = on_line
         self._changed = threading.Condition()
         self._unfinished = b""
-        self._asked_to_end = False
+        self._asked_to_end = self._waits_for_children = False
         self._started = False
         self._gone = False
         self._refused: str | None = None
@@ -179,8 +179,13 @@ class Process:
         """Has not ended yet, as far as we were told."""
         return not self._gone and self.seen.ended_ns is None
 
-    def interrupt(self, within_s: float) -> bool:
-        """Press Ctrl-C: SIGINT to the process itself. True when it ended within `within_s`."""
+    def interrupt(self, within_s: float, and_children: bool = False) -> bool:
+        """Press Ctrl-C: SIGINT to the process itself. True when it ended within `within_s`.
+
+        Where it has to wait for its children (`and_children`), what these wait for a processor
+        counts as what its own threads do.
+        """
+        self._waits_for_children = and_children
         self._asked_to_end = True
         return self._signal("SIGINT", within_s)
 
@@ -214,6 +219,18 @@ class Process:
     def asleep(self) -> bool:
         """Its main thread waits for something, as a node's does between its callbacks."""
         return self._ask("STATE") == "S"
+
+    def commands(self) -> dict[int, list[str]]:
+        """Pid to the words of its command, for it and each process that it has started.
+
+        The pids count where the process lives. Empty when it is gone.
+        """
+        found: dict[str, str] = self._ask("COMMANDS") or {}  # type: ignore[assignment]  # as above
+        return {int(pid): words.rstrip("\0").split("\0") for pid, words in found.items()}
+
+    def kill(self, pid: int) -> None:
+        """End a process that it has started, as a crash would: SIGKILL."""
+        self._send(f"KILL:{pid}")
 
     def _ask(self, what: str) -> object:
         """The guardian's answer; None when the process is gone."""
@@ -254,8 +271,9 @@ class Process:
         )  # fmt: skip
 
     def _own_waits_ns(self) -> dict[str, int] | None:
-        """As `waits_ns`, of the process itself without its children; None when it is gone."""
-        return self._ask("OWN_WAITS")  # type: ignore[return-value]  # the guardian's own
+        """As `waits_ns`, of those whose end is waited for; None when it is gone."""
+        question = "WAITS" if self._waits_for_children else "OWN_WAITS"
+        return self._ask(question)  # type: ignore[return-value]  # the guardian's own
 
     def _waited_since(self, before: dict[str, int]) -> float:
         """How long its main thread waited for a processor, to its end; 0 where nobody knows."""

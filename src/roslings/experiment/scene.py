@@ -146,6 +146,16 @@ class Scene:
                 self._end(processes)
         self._over += own
 
+    @contextmanager
+    def starting(self) -> Iterator[None]:
+        """A stretch in which nodes start by another way than `run`: a launch file, say."""
+        with self._turns.busy(), self._noted("starting"):
+            yield
+
+    def ending(self) -> AbstractContextManager[None]:
+        """A stretch in which what was started so is asked to end, and waited for."""
+        return self._noted("ending")
+
     def _noted(self, part: Part) -> AbstractContextManager[None]:
         return noted(self._timeline, part, self.seen.name)
 
@@ -393,7 +403,7 @@ class Scene:
         limit = contract.rate
         periods_s = FIRST_PERIODS / limit.hz if limit else 0.0
         return self._until_there(
-            lambda: self._heard(contract) >= count, says(contract), max(grace_s, periods_s)
+            lambda: self.heard(contract) >= count, says(contract), max(grace_s, periods_s)
         )
 
     def _until_there(
@@ -410,7 +420,8 @@ class Scene:
     def _publisher(self, contract: TopicContract) -> Endpoint | None:
         return nearest_endpoint(self.seen.graph, "publisher", contract.topic, contract.type)
 
-    def _heard(self, contract: TopicContract) -> int:
+    def heard(self, contract: TopicContract) -> int:
+        """How many messages came on a topic so far, or on the one nearest to it."""
         publisher = self._publisher(contract)
         return self._probe.count(publisher.topic) if publisher else 0
 

@@ -1,6 +1,49 @@
-"""What an experiment with a launch file marks in the record that every experiment has."""
+"""What is seen of a launch, beside the record that every experiment has."""
 
 from __future__ import annotations
 
+from pydantic import Field
+
+from roslings.record import PartSeen, Record
+
 LABEL = "ros2 launch"
 """The name of the process that launches the others."""
+
+UP = "launch"
+"""The timed stretch until all that was launched is there."""
+
+
+class ProgramKilled(Record):
+    """One program that was killed, as a crash would do it, and whether its node came back."""
+
+    executable: str
+    node: str = Field(description="Full name of the node that must answer again")
+    killed_ns: int = Field(description="Observer's monotonic clock")
+    back_ns: int | None = Field(default=None, description="It answered again; None: it did not")
+
+    @property
+    def back_after_s(self) -> float | None:
+        """From the kill to its first answer; None where none came."""
+        return None if self.back_ns is None else (self.back_ns - self.killed_ns) / 1e9
+
+
+class LaunchSeen(PartSeen):
+    """All that was seen of a launch in an experiment."""
+
+    NAME = "launch"
+
+    given: dict[str, str] = Field(
+        default_factory=dict, description="Arguments of the launch file, and their values"
+    )
+    values: dict[str, bool | int | float | str] = Field(
+        default_factory=dict,
+        description="EXECUTABLE.PARAMETER to its value in the file that the launch was given",
+    )
+    running: dict[str, int] = Field(
+        default_factory=dict,
+        description="Executable to how many of it ran when all nodes were there",
+    )
+    killed: list[ProgramKilled] = Field(default_factory=list)
+    patience_s: float = Field(
+        default=4.0, description="So long a node or a topic that is missing was waited for"
+    )

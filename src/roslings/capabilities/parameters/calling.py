@@ -21,7 +21,7 @@ def parameters_of(
     return list(answer["result"]["names"]) if answer else []
 
 
-KINDS: dict[int, Literal["bool", "integer", "double", "string"]] = {
+KINDS: dict[int, Literal["bool", "integer", "double", "string", "other"]] = {
     1: "bool", 2: "integer", 3: "double", 4: "string",
 }  # fmt: skip
 """The numbers of rcl_interfaces/msg/ParameterType."""
@@ -61,21 +61,30 @@ def _answer_of(
 
 
 def _declared(node: str, name: str, value: Mapping[str, Any]) -> ParameterDeclared:
+    kind = KINDS.get(value["type"], "other")
+    return ParameterDeclared(node=node, name=name, type=kind, value=value_of(value))
+
+
+def value_of(value: Mapping[str, Any]) -> bool | int | float | str | None:
+    """What an rcl_interfaces/msg/ParameterValue holds; None where its type is another."""
     kind = KINDS.get(value["type"])
-    if kind is None:
-        return ParameterDeclared(node=node, name=name, type="other", value=None)
-    return ParameterDeclared(node=node, name=name, type=kind, value=value[f"{kind}_value"])
+    return None if kind is None else value[f"{kind}_value"]
+
+
+def message_of(name: str, value: bool | int | float | str) -> Any:
+    """An rcl_interfaces/msg/Parameter; its type is the one of the value."""
+    from rclpy.parameter import Parameter
+
+    return Parameter(name, value=value).to_parameter_msg()
 
 
 def set_parameter(
     probe: Probe, node: str, name: str, value: bool | int | float | str, within_s: float
 ) -> ParameterSet:
     """Ask a node to set one of its parameters; what it answered is written down."""
-    from rclpy.parameter import Parameter
-
     said = ParameterSet(node=node, name=name, value=value, asked_ns=time.monotonic_ns())
     probe.seen.recording(ParametersSeen).sets.append(said)
-    wanted = Parameter(name, value=value).to_parameter_msg()
+    wanted = message_of(name, value)
     service, type_ = f"{node}/set_parameters", "rcl_interfaces/srv/SetParameters"
     with Caller(probe, service, type_) as caller:
         if probe.until(lambda: caller.ready, within_s):

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from pydantic import Field
 
 from roslings.capability import Row, Words
-from roslings.course.contract import Contract, Expected, Plain, Promise, Stimulus
+from roslings.course.contract import Contract, Expected, Plain, Promise, Stimulus, as_typed
 from roslings.course.kinds import Kind
 
 if TYPE_CHECKING:
@@ -34,6 +34,12 @@ class ParameterContract(Contract):
     live: Annotated[bool, Expected] = Field(
         default=False, description="A change acts at once, while the node runs"
     )
+    read_only: Annotated[bool, Expected] = Field(
+        default=False, description="It is chosen at the start, and each change is refused"
+    )
+    not_above: Annotated[str | None, Expected] = Field(
+        default=None, description="The parameter of the node that it is never larger than"
+    )
 
     @property
     def ends(self) -> tuple[int, int]:
@@ -47,6 +53,19 @@ class ParameterContract(Contract):
         """The nearest whole numbers that it refuses, below and above. Raises ValueError."""
         least, most = self.ends
         return least - 1, most + 1
+
+    @property
+    def span(self) -> str:
+        """From where to where it goes; empty where it has no limits."""
+        if self.least is None or self.most is None:
+            return ""
+        return f"{self.least:g} to {self.most:g}"
+
+    def allows(self, value: Plain) -> bool:
+        """Whether a value lies within the limits, where there are some."""
+        if self.least is None or self.most is None or isinstance(value, str):
+            return True
+        return self.least <= value <= self.most
 
 
 class ParameterWords(Contract):
@@ -65,14 +84,13 @@ def rows(node: NodeContract) -> Iterable[Row]:
 
 
 def _row_of(parameter: ParameterContract) -> str:
-    default = f"`{parameter.default}` when nobody sets it"
-    limits = "" if parameter.most is None else f"; {_span(parameter)}, all else is refused"
+    default = f"`{as_typed(parameter.default)}` when nobody sets it"
+    limits = f"; {parameter.span}, all else is refused" if parameter.span else ""
     live = "; a change acts at once" if parameter.live else ""
-    return f"`{parameter.name}`, {parameter.about}; type {parameter.type}; {default}{limits}{live}"
-
-
-def _span(parameter: ParameterContract) -> str:
-    return f"{parameter.least:g} to {parameter.most:g}"
+    rule = f"; never above `{parameter.not_above}`" if parameter.not_above else ""
+    fixed = "; nobody can change it while the node runs" if parameter.read_only else ""
+    words = f"`{parameter.name}`, {parameter.about}; type {parameter.type}; {default}"
+    return f"{words}{limits}{rule}{live}{fixed}"
 
 
 WORDS = Words(node=ParameterWords, settings=rows)

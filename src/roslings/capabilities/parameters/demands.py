@@ -16,7 +16,11 @@ from roslings.capabilities.parameters.faults import (
     WrongDefault,
     WrongParameterType,
 )
-from roslings.capabilities.parameters.record import ParameterDeclared, ParametersSeen
+from roslings.capabilities.parameters.record import (
+    GIVEN_BY_ROS,
+    ParameterDeclared,
+    ParametersSeen,
+)
 from roslings.capabilities.topics.demands import have_rate
 from roslings.course import NodeContract, RateContract, TopicContract
 from roslings.judge.demands import require_believable, require_steady, written
@@ -24,9 +28,6 @@ from roslings.judge.faults import NothingToJudge
 from roslings.judge.views import Demand, ExperimentView, TopicView
 from roslings.matching import nearest_endpoint, own_endpoints
 from roslings.rates import Rate
-
-GIVEN_BY_ROS = ("use_sim_time", "start_type_description_service")
-"""Parameters that every node of Jazzy has."""
 
 
 def has_parameter(node: NodeContract, parameter: ParameterContract) -> Demand[ExperimentView]:

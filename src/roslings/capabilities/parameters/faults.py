@@ -131,3 +131,160 @@ class TopicStays(Fault):
     def measured(self) -> str:
         """The topic that it uses."""
         return f"it publishes on {', '.join(self.found) or 'no topic'}"
+
+
+@dataclass(eq=False)
+class SetRefused(Fault):
+    """A good value was refused."""
+
+    node: str
+    asked: str
+    reason: str
+    why = "Who sets a good value expects that it counts."
+    expected = "{node} takes {asked}"
+
+    @property
+    def measured(self) -> str:
+        """The node's words."""
+        return f"it refuses: {self.reason}" if self.reason else "it refuses, and says no reason"
+
+    @property
+    def hint(self) -> str:
+        """What to compare."""
+        return (
+            "Compare the limits in your code with the card: the limit itself is a good value. What"
+            " does the function of add_on_set_parameters_callback return for good values?"
+        )
+
+
+@dataclass(eq=False)
+class RefusedTogether(SetRefused):
+    """Two values that fit together were refused."""
+
+    @property
+    def hint(self) -> str:
+        """What is compared with what."""
+        return (
+            "The function of add_on_set_parameters_callback gets all new values in one list."
+            " Compare them with each other; the old value counts only for what is not in the list."
+        )
+
+
+@dataclass(eq=False)
+class SetUnanswered(SetRefused):
+    """The node gives no answer to who sets a parameter."""
+
+    reason = ""
+    why = "Who sets a parameter waits for the answer."
+    measured = "it does not answer"
+    hint = "Does a function of your node wait for something, or loop, so that it never returns?"
+
+
+@dataclass(eq=False)
+class EndedBySet(SetUnanswered):
+    """The node ended when somebody set a parameter."""
+
+    was_seen = True
+    why = "A wrong value from somebody else must not end a robot's program."
+    expected = "{node} answers to {asked}"
+    measured = "the node ended with an error"
+    hint = "Read the last lines below: the last one names the error, the one above it the place."
+
+
+@dataclass(eq=False)
+class SetHasNoEffect(Fault):
+    """A value was taken, and the parameter has another one."""
+
+    node: str
+    asked: str
+    name: str
+    found: str
+    why = "Who sets a parameter and reads it back must find the value there."
+    expected = "after {node} took {asked}, `ros2 param get` says the same"
+    measured = "{name} is {found}"
+    hint = "Does your code set the parameter itself, when somebody else sets it?"
+
+
+@dataclass(eq=False)
+class RefusedAndChanged(SetHasNoEffect):
+    """A value was refused, and something is changed all the same."""
+
+    why = "All at once or none: half of a change is worse than no change."
+    expected = "after {node} refused {asked}, all parameters are as before"
+    hint = "Set no parameter in the function of add_on_set_parameters_callback: it says yes or no."
+
+
+@dataclass(eq=False)
+class WrongValueTaken(Fault):
+    """A value was taken that no parameter of the card can have."""
+
+    node: str
+    asked: str
+    rule: str
+    was_seen = True
+    why = "A value that nobody checks reaches the motors."
+    expected = "{node} refuses {asked} ({rule})"
+    measured = "the value was taken"
+    hint = (
+        "Give declare_parameter a third argument, a ParameterDescriptor with floating_point_range"
+        " or integer_range (rcl_interfaces.msg)."
+    )
+
+
+@dataclass(eq=False)
+class WrongTypeTaken(WrongValueTaken):
+    """A value of another type was taken."""
+
+    why = "A text where a number should be ends the node at the next calculation."
+    hint = (
+        "A parameter keeps the type of its default, where its descriptor does not say"
+        " dynamic_typing=True. Is the default of the type that the card says?"
+    )
+
+
+@dataclass(eq=False)
+class RuleBroken(WrongValueTaken):
+    """Two values were taken that do not fit together."""
+
+    why = "A range looks at one parameter alone. What two must keep between them, your code checks."
+    hint = (
+        "Compare both in the function that you give to add_on_set_parameters_callback, and return"
+        " SetParametersResult(successful=False, reason=...). What is not in the list keeps the"
+        " value that get_parameter says."
+    )
+
+
+@dataclass(eq=False)
+class ReadOnlyChanged(WrongValueTaken):
+    """A parameter was changed that is chosen at the start."""
+
+    why = "Others have read this value already, and do not ask again."
+    hint = "Give declare_parameter a third argument: ParameterDescriptor(read_only=True)."
+
+
+@dataclass(eq=False)
+class ActsOtherwise(Fault):
+    """The node does not do what its parameters say."""
+
+    when: str
+    wanted: str
+    found: str
+    why = "Who sets a parameter believes that the robot now does what it says."
+    expected = "{when}: {wanted}"
+    measured = "{found}"
+    hint = (
+        "Read a parameter where you use it: self.get_parameter(NAME).value. A value that __init__"
+        " has kept is the one of the start."
+    )
+
+
+@dataclass(eq=False)
+class ActsOnRefused(ActsOtherwise):
+    """The node acts on a value that it has refused."""
+
+    why = "A value that is refused changes nothing, also not inside of the node."
+    hint = (
+        "The function of add_on_set_parameters_callback only says yes or no: another value of its"
+        " list may still be refused. Keep nothing there. Read the parameter where you use it, or"
+        " act in add_post_set_parameters_callback."
+    )

@@ -1,0 +1,11 @@
+# Starts a listener that must hear the topic /news. In its code, the topic is called chatter.
+
+cat > "$HOME/ear.launch.xml" <<'END'
+<launch>
+  <node pkg="demo_nodes_py" exec="listener">
+    <remap from="chatter" to="/news"/>
+  </node>
+</launch>
+END
+
+ros2 launch "$HOME/ear.launch.xml"

@@ -1,0 +1,16 @@
+# Starts two talkers: /left/talker on /left/chatter, /right/talker on /right/chatter.
+
+cat > "$HOME/rooms.launch.xml" <<'END'
+<launch>
+  <group>
+    <push_ros_namespace namespace="left"/>
+    <node pkg="demo_nodes_py" exec="talker"/>
+  </group>
+  <group>
+    <push_ros_namespace namespace="right"/>
+    <node pkg="demo_nodes_py" exec="talker"/>
+  </group>
+</launch>
+END
+
+ros2 launch "$HOME/rooms.launch.xml"
