@@ -55,8 +55,8 @@ def launched(
     with ExitStack() as running:
         with scene.starting():
             process = running.enter_context(_started(scene, [package, contract.name, *words]))
+            _wait_up(scene, process, package, len(contract.starts) * max(1, len(spaces)))
             with accounting(scene, UP):
-                _wait_up(scene, process, package, len(contract.starts) * max(1, len(spaces)))
                 _wait_alike(scene, spaces)
         seen.running = dict(Counter(_programs(process, package).values()))
         yield process

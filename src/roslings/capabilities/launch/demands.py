@@ -46,7 +46,6 @@ def start_all(names: Sequence[str]) -> Demand[ExperimentView]:
         run_on(experiment)
         for name in names:
             if name not in there:
-                _require_time_to_come(experiment, name)
                 raise _missing(process, name, there)
 
     return demand

@@ -10,7 +10,7 @@ LABEL = "ros2 launch"
 """The name of the process that launches the others."""
 
 UP = "launch"
-"""The timed stretch until all that was launched is there."""
+"""The timed stretch from the last node to the last topic."""
 
 
 class ProgramKilled(Record):
@@ -45,5 +45,5 @@ class LaunchSeen(PartSeen):
     )
     killed: list[ProgramKilled] = Field(default_factory=list)
     patience_s: float = Field(
-        default=4.0, description="So long a node or a topic that is missing was waited for"
+        default=4.0, description="So long a topic that is missing was waited for"
     )
