@@ -11,6 +11,7 @@ from pathlib import Path
 from roslings.course import Card
 from roslings.evidence import PackageSeen, PictureSeen
 from roslings.workspace import code
+from roslings.workspace.documents import text_of
 from roslings.workspace.errors import reading
 from roslings.workspace.manifest import read_manifest
 from roslings.workspace.pictures import look_at
@@ -66,6 +67,7 @@ def _inspect(
         imported=_imported(python, known, card.package),
         entry_points=setup.console_scripts,
         pictures=dict(_pictures(folder, card)),
+        documents={path: text_of(found[path]) for path in card.documents if path in found},
     )
 
 

@@ -1,0 +1,1 @@
+"""How the bags look in a report's page."""
