@@ -22,8 +22,11 @@ NOT_THE_PACKAGES_CODE = frozenset({"test", "tests", "launch", "resource"})
 ROSDEP_KEYS = {
     "cv2": "python3-opencv",
     "serial": "python3-serial",
+    "rosbag2_py": "rosbag2_py",
+    "rosidl_runtime_py": "rosidl_runtime_py",
 }
-"""Modules that no ROS package brings, to their names in package.xml (rosdep's list).
+"""Modules to their names in package.xml: those that no ROS package brings (rosdep's list), and those
+of ROS for which a package of ours stands in where the real one is not installed.
 
 Not numpy: every message package of ROS brings it along.
 """

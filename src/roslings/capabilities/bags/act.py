@@ -18,7 +18,7 @@ from roslings.experiment.scene import Scene
 from roslings.models.drives import held
 from roslings.models.drives.unknown import Drive, unknown_drive, without
 
-READS_WITHIN_S = 20.0
+READS_WITHIN_S = 30.0
 """Of its own time: a bag of some seconds is read in one."""
 ENDS_WITHIN_S = 2.0
 SEEDS = 10**9
@@ -51,6 +51,12 @@ class Giver:
     def give_none(self, label: str) -> None:
         """The path of a bag that is not there."""
         self._run(BagGiven(label=label, path=str(self._place(label)), holds=None))
+
+    def give_empty(self, label: str) -> None:
+        """The path of a folder that is no bag."""
+        path = self._place(label)
+        path.mkdir()
+        self._run(BagGiven(label=label, path=str(path), holds=None))
 
     def _place(self, label: str) -> Path:
         """A name that nobody can know; the program sees all that lies there."""

@@ -69,7 +69,7 @@ class BagReaderContract(Contract):
 class DiagnosisContract(Contract):
     """A file that tells what is wrong with the rover of a name."""
 
-    faults: Annotated[int, Expected] = Field(ge=1, le=5, description="So many are planted")
+    faults: Annotated[int, Expected] = Field(ge=1, le=9, description="So many are planted")
     number_within: Annotated[float, Stimulus] = Field(
         gt=0, lt=1, description="So far off a measured number may be, as a part of it"
     )
