@@ -37,11 +37,13 @@ def rover(options: argparse.Namespace) -> int:
 
 
 def _sick_rover(name: str | None, folder: Path | None) -> int:
-    """Raises BagTrouble, and NeedsName."""
+    """Raises CannotWriteBag, and NeedsName."""
     from roslings.devices.rover.sick import write_sick_rover
 
     place = (folder or Path("~/sick_rover")).expanduser().absolute()
-    print(write_sick_rover(name or "", place))
+    seconds = write_sick_rover(name or "", place)
+    print(f"The sick rover of {name} drove for {seconds:.0f} s. Its bag: {shown(place)}")
+    print(f"Look at it: ros2 bag info {shown(place)}")
     return OK
 
 

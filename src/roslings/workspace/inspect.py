@@ -25,8 +25,8 @@ ROSDEP_KEYS = {
     "rosbag2_py": "rosbag2_py",
     "rosidl_runtime_py": "rosidl_runtime_py",
 }
-"""Modules to their names in package.xml: those that no ROS package brings (rosdep's list), and those
-of ROS for which a package of ours stands in where the real one is not installed.
+"""Modules to their names in package.xml: those that no ROS package brings (rosdep's list), and
+those of ROS for which a package of ours stands in where the real one is not installed.
 
 Not numpy: every message package of ROS brings it along.
 """

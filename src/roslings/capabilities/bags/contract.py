@@ -36,7 +36,9 @@ class RefusalContract(Contract):
     """What the program does with a bag that it can tell nothing of."""
 
     when: Annotated[str, Promise]
-    log: Annotated[str, Expected] = Field(description="`{path}` is that of the bag, `{topic}` that of the drive")
+    log: Annotated[str, Expected] = Field(
+        description="`{path}` is that of the bag, `{topic}` that of the drive"
+    )
     exit_code: Annotated[int, Expected]
 
 
@@ -119,7 +121,10 @@ def _reader_rows(reader: BagReaderContract) -> Iterable[Row]:
 
 def _diagnosis_rows(diagnosis: DiagnosisContract) -> Iterable[Row]:
     yield "a sick rover", f"has {diagnosis.faults} of the ten faults"
-    yield "a measured number", f"is right when it is at most {diagnosis.number_within * 100:g} % off"
+    yield (
+        "a measured number",
+        f"is right when it is at most {diagnosis.number_within * 100:g} % off",
+    )
 
 
 WORDS = Words(card=BagWords, package=rows)

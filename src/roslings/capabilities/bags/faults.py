@@ -226,4 +226,6 @@ class TooFewFound(Fault):
             return "Measure again what the table of step 6 asks for: which messages, which unit?"
         if self.wrong:
             return "Take out what you have no proof for: it costs as much as a right one gives."
-        return "Go on in the order of step 6: what is there, how often, until when, who offers what."
+        return (
+            "Go on in the order of step 6: what is there, how often, until when, who offers what."
+        )

@@ -28,8 +28,8 @@ class CannotWriteBag(DeviceTrouble):
         super().__init__(f"{trouble}\nGive another place: --to FOLDER")
 
 
-def write_sick_rover(name: str, folder: Path) -> str:
-    """Write the bag of this name into a new folder; what to type next.
+def write_sick_rover(name: str, folder: Path) -> float:
+    """Write the bag of this name into a new folder; how many seconds the drive lasts.
 
     Raises NeedsName, CannotWriteBag.
     """
@@ -41,7 +41,4 @@ def write_sick_rover(name: str, folder: Path) -> str:
         write_drive(as_drive(rover.plan, tuple(rover.said)), folder)
     except BagTrouble as trouble:
         raise CannotWriteBag(trouble) from trouble
-    return (
-        f"The sick rover of {name} drove for {rover.plan.seconds:.0f} s. Its bag: {folder}\n"
-        f"Look at it: ros2 bag info {folder}"
-    )
+    return rover.plan.seconds

@@ -33,6 +33,8 @@ UNITS = {
 """Topic to what its value is multiplied by: centimetres, millivolts, degrees a second, thousandths
 of a degree, kilolux."""
 
+LARGEST = "the largest value of the topic, without its sign"
+
 Plant = Callable[[DrivePlan, TopicPlan, Chance], DrivePlan]
 Measure = Callable[[Sequence[Said], TopicPlan, DrivePlan], float]
 """From all messages, the topic and the drive to the number that proves the fault."""
@@ -56,9 +58,7 @@ class Fault:
 
 def _with(drive: DrivePlan, topic: TopicPlan, **words: object) -> DrivePlan:
     changed = replace(topic, **words)  # type: ignore[arg-type]
-    return replace(
-        drive, topics=tuple(changed if each is topic else each for each in drive.topics)
-    )
+    return replace(drive, topics=tuple(changed if each is topic else each for each in drive.topics))
 
 
 # --- what makes a topic wrong ------------------------------------------------------------------
@@ -156,7 +156,7 @@ FAULTS = {
     for fault in (
         Fault(
             "wrong_unit", "the value has another unit than in the table above",
-            "the largest value of the topic", SENSORS, _unit, _largest,
+            LARGEST, SENSORS, _unit, _largest,
         ),
         Fault(
             "qos_mismatch",
@@ -196,7 +196,7 @@ FAULTS = {
         ),
         Fault(
             "lost_parameter", "the parameter never arrived, and the node took its default",
-            "the largest value of the topic", (CMD_VEL,), _default, _largest,
+            LARGEST, (CMD_VEL,), _default, _largest,
         ),
     )
 }  # fmt: skip

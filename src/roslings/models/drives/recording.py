@@ -86,7 +86,7 @@ class DrivePlan:
     start_ns: int
     pieces: tuple[Piece, ...]
     topics: tuple[TopicPlan, ...]
-    begin: Pose = Pose()
+    begin: Pose = field(default_factory=Pose)
     left: float = 1.0
     right: float = 1.0
     """Parts of the speed that each wheel should have."""

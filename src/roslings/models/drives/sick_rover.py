@@ -94,7 +94,9 @@ class SickRover:
         """The truth about it."""
         plans = {topic.sheet: topic for topic in self.plan.topics}
         return tuple(
-            Planted(fault.name, plans[sheet].name, fault.measure(self.said, plans[sheet], self.plan))
+            Planted(
+                fault.name, plans[sheet].name, fault.measure(self.said, plans[sheet], self.plan)
+            )
             for fault, sheet in self.faults
         )
 

@@ -1,4 +1,4 @@
-"""Drives that nobody can know before: healthy ones, with gaps, and with topics beside the rover's."""
+"""Drives that nobody can know before: healthy ones, with gaps, and more topics than the rover's."""
 
 from __future__ import annotations
 
@@ -45,11 +45,16 @@ def as_drive(plan: DrivePlan, said: tuple[Said, ...]) -> Drive:
 
 
 def unknown_drive(seed: int, odometry: str, gap_periods: float) -> Drive:
-    """A drive with gaps, one of them only just long enough, and with a pause that is none."""
+    """A drive with gaps, one of them only just long enough, and with a pause that is none.
+
+    Its stamps are some tenths of a second old: who takes them for the time of the bag is off.
+    """
     chance = Chance(f"unknown drive {seed}")
     start_ns = (START_S - int(chance.between(0, 10_000_000))) * NS + int(chance.between(0, NS))
     pieces = tuple(_pieces(chance))
-    plan = DrivePlan(f"{seed}", start_ns, pieces, (), Pose(*(chance.around(0, 3) for _ in range(3))))
+    plan = DrivePlan(
+        f"{seed}", start_ns, pieces, (), Pose(*(chance.around(0, 3) for _ in range(3)))
+    )
     topics = tuple(_topics(chance, odometry, plan.seconds, gap_periods))
     driven = as_drive(plan, tuple(recorded(replace(plan, topics=topics))))
     return _with_others(Drive(tuple(Held(t.name, t.sheet.type, t.reliable) for t in topics),
@@ -73,9 +78,7 @@ def _pieces(chance: Chance) -> Iterator[Piece]:
         yield Piece(Motion(speed, turn), chance.between(0.6, 1.4))
 
 
-def _topics(
-    chance: Chance, odometry: str, seconds: float, limit: float
-) -> Iterator[TopicPlan]:
+def _topics(chance: Chance, odometry: str, seconds: float, limit: float) -> Iterator[TopicPlan]:
     own = f"/deck_{int(chance.between(100, 1000))}"
     names = {ODOM: odometry, LIGHT: f"{own}/light"}
     pauses: Mapping[TopicSheet, Mapping[float, float]] = {
@@ -89,8 +92,10 @@ def _topics(
         rate_hz = 20.0 if sheet is ODOM else rates[sheet]
         planned = {int(part * seconds * rate_hz): periods
                    for part, periods in pauses.get(sheet, {}).items()}  # fmt: skip
-        healthy = TopicPlan.healthy(sheet)
-        yield replace(healthy, name=names.get(sheet, sheet.name), rate_hz=rate_hz, pauses=planned)
+        yield replace(
+            TopicPlan.healthy(sheet), name=names.get(sheet, sheet.name), rate_hz=rate_hz,
+            pauses=planned, ahead_s=-chance.between(0.2, 0.5),
+        )  # fmt: skip
 
 
 def _with_others(drive: Drive, plan: DrivePlan, chance: Chance) -> Drive:
