@@ -86,7 +86,7 @@ def _entry(which: str, said: Any) -> Entry:
     if not isinstance(said, dict) or not {"fault", "topic", "number"} <= set(said):
         raise Unreadable(f"{which} does not have the keys `fault`, `topic` and `number`")
     fault, topic, number = said["fault"], said["topic"], said["number"]
-    if fault not in FAULTS:
+    if not isinstance(fault, str) or fault not in FAULTS:
         raise Unreadable(f"{which}: {str(fault)[:40]!r} is none of the ten faults")
     if not isinstance(topic, str) or not topic.startswith("/"):
         raise Unreadable(f"{which}: a topic begins with a slash, and {str(topic)[:40]!r} does not")
