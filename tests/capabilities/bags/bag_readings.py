@@ -41,6 +41,7 @@ class Bags:
 
     def __init__(self, lab: Lab, folder: Path, seed: int = 7) -> None:
         self.lab, self._folder, self._reader = lab, folder, lab.card.reads_bags
+        self._known: dict[str, dict[str, ExperimentSeen]] = {}
         first, other = self._reader.storages
         drives = [unknown_drive(seed + n, self._reader.odometry, self._reader.gap_periods)
                   for n in range(3)]  # fmt: skip
@@ -60,17 +61,25 @@ class Bags:
             succeeded=True, recognised_as="ros.ament_python", seconds=1.0, executables=names
         )
         evidence = Evidence(lab=self.lab.name, seed=0, machine=HERE, package=files, build=built)
-        for name, labels in EXPERIMENTS.items():
-            evidence.experiments[name] = self._seen(package, name, labels)
+        evidence.experiments.update(self._read_by(package))
         return judge(self.lab, evidence)
 
-    def _seen(self, package: Path, name: str, labels: tuple[str, ...]) -> ExperimentSeen:
+    def _read_by(self, package: Path) -> dict[str, ExperimentSeen]:
+        """What packages with the same program read is the same."""
+        (program,) = package.glob(f"*/{self._reader.executable}.py")
+        text = program.read_text("utf-8")
+        if text not in self._known:
+            self._known[text] = {name: self._seen(program, name, labels)
+                                 for name, labels in EXPERIMENTS.items()}  # fmt: skip
+        return self._known[text]
+
+    def _seen(self, program: Path, name: str, labels: tuple[str, ...]) -> ExperimentSeen:
         seen = ExperimentSeen(name=name, clock="wall")
         for label in labels:
             path = self._folder / label
             given = BagGiven(label=label, path=str(path), holds=self._holds.get(label))
             seen.recording(BagsSeen).given.append(given)
-            seen.processes[label] = ran(package, self._reader.executable, path)
+            seen.processes[label] = ran(program, self._reader.executable, path)
         return seen
 
 
@@ -81,9 +90,8 @@ EXPERIMENTS = {
 }
 
 
-def ran(package: Path, executable: str, bag: Path) -> ProcessSeen:
+def ran(program: Path, executable: str, bag: Path) -> ProcessSeen:
     """What the program wrote about a bag, and how it ended."""
-    (program,) = package.glob(f"*/{executable}.py")
     written = io.StringIO()
     with _arguments([str(program), str(bag)]), contextlib.redirect_stdout(written):
         status = _status_of(program, written)
