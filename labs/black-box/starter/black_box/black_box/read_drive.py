@@ -2,14 +2,18 @@
 
 import sys
 
-# TODO 3: import what you need: rosbag2_py to read bags, deserialize_message
-# from rclpy.serialization, and the message type of the drive.
+import rosbag2_py
+
+# TODO 3: import what you need besides: deserialize_message from
+# rclpy.serialization, and the message type of the drive.
 
 
 def open_bag(path):
     """Open the bag at this path."""
-    # TODO 4: make a SequentialReader, open it and return it. An empty
+    reader = rosbag2_py.SequentialReader()
+    # TODO 4: open the bag with StorageOptions and ConverterOptions. An empty
     # storage_id lets the reader look how the bag is stored.
+    return reader
 
 
 def read_messages(reader):
