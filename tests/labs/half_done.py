@@ -107,6 +107,7 @@ DONE_BY: dict[str, dict[str, Words]] = {
         "ball_finder:BallFinder.message": {18: ("",)},
         "ball_finder:main": {19: ("",)},
     },
+    "black-box": {},
 }  # fmt: skip
 
 

@@ -126,8 +126,7 @@ def tell(reader: BagReaderContract, label: str, line: str, field: str) -> Demand
         wanted = getattr(reading.holds, TRUTHS[line])
         told = reading.told_once(contract)[field]
         if not reading.is_near(told, wanted):
-            what = line.replace("_", " ")
-            raise WrongNumber(what, reading.number(wanted), told, contract.about)
+            raise WrongNumber(line.replace("_", " "), reading.number(wanted), told, contract.about)
 
     return demand
 

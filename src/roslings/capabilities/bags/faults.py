@@ -6,8 +6,6 @@ from dataclasses import dataclass
 
 from roslings.judge.faults.base import Fault
 
-RUN = "ros2 run PACKAGE {executable} PATH"
-
 
 @dataclass(eq=False)
 class ReadingFails(Fault):
@@ -19,7 +17,10 @@ class ReadingFails(Fault):
     why = "Who starts a program in a script sees by its exit code whether all went well."
     expected = "{executable} reads {of}, and ends by itself with exit code 0"
     measured = "it ended with {how}"
-    hint = "Read the last lines below: they name the file, the line and the mistake."
+    hint = (
+        "Read the last lines below: they name the file, the line and the mistake. A type that is"
+        " not installed belongs to a topic whose messages need not be deserialized."
+    )
 
 
 @dataclass(eq=False)
@@ -216,8 +217,9 @@ class TooFewFound(Fault):
     @property
     def measured(self) -> str:
         """What was counted."""
+        wrong = f"; {self.wrong} with a fault that its topic does not have" if self.wrong else ""
         near = f"; the number alone is wrong in: {', '.join(self.near)}" if self.near else ""
-        return f"{self.right} right, {self.wrong} with a fault that its topic does not have{near}"
+        return f"{self.right} right{wrong}{near}"
 
     @property
     def hint(self) -> str:

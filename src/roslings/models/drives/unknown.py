@@ -15,7 +15,7 @@ from roslings.models.drives.sick_rover import START_S
 EDGE = 0.5
 """So far from the limit, in usual periods, lie a pause that is no gap and a gap."""
 RATES_HZ = (4.0, 5.0, 8.0, 10.0, 12.5, 16.0, 20.0, 25.0, 30.0, 40.0, 50.0)
-STRANGE_TYPE = "lift_interfaces/msg/Lift"
+STRANGE_TYPE = "warehouse_lift/msg/Lift"
 """A type that no computer has."""
 
 
