@@ -161,6 +161,7 @@ def test_other_faults_leave_their_trace() -> None:
         ("file", "charles_babbage_assignsubmission_file", False),
         ("Ada Lovelace", "black-box", True),
         ("Ada Lovelace", "4711", True),
+        ("Ada Lovelace", "black-box_s1001_v2", True),
     ],
 )
 def test_a_name_is_held_against_the_submission(name: str, handed_in_as: str, own: bool) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+from roslings.arena import Process
 from roslings.capabilities.bags.contract import BagReaderContract
 from roslings.capabilities.bags.record import (
     BagGiven,
@@ -14,6 +15,7 @@ from roslings.capabilities.bags.record import (
     TopicHeld,
 )
 from roslings.devices.rover.black_box import write_drive
+from roslings.experiment.own_time import PATIENCE_S, OwnTime
 from roslings.experiment.scene import Scene
 from roslings.models.drives import held
 from roslings.models.drives.unknown import Drive, unknown_drive, without
@@ -67,8 +69,16 @@ class Giver:
         scene.seen.recording(BagsSeen).given.append(bag)
         with scene.arena.run(executable, [bag.path]) as process:
             scene.seen.processes[bag.label] = process.seen
-            if not scene.until_own(lambda: not process.alive, READS_WITHIN_S):
+            if not self._ends(process):
                 process.interrupt(ENDS_WITHIN_S)
+
+    def _ends(self, process: Process) -> bool:
+        """Wait for this one: those that read other bags have ended before."""
+        own = OwnTime(self._scene.arena)
+        self._scene.probe.until(
+            lambda: not process.alive or own.is_past(READS_WITHIN_S), READS_WITHIN_S + PATIENCE_S
+        )
+        return not process.alive
 
 
 def holding(drive: Drive, reader: BagReaderContract) -> DriveHeld:

@@ -102,7 +102,7 @@ def read_to_the_end(reader: BagReaderContract, label: str, of: str) -> Demand[Ex
 
     def demand(experiment: ExperimentView) -> None:
         process = _reading(experiment, reader, label).process
-        _require_end(experiment, process, of)
+        _require_end(experiment, process, f"when it has read {of}")
         if process.seen.status != 0:
             how, log = describe_end(process.seen), process.last_lines()
             raise ReadingFails(reader.executable, how, of, log=log)
@@ -110,11 +110,11 @@ def read_to_the_end(reader: BagReaderContract, label: str, of: str) -> Demand[Ex
     return demand
 
 
-def _require_end(experiment: ExperimentView, process: ProcessView, of: str) -> None:
+def _require_end(experiment: ExperimentView, process: ProcessView, when: str) -> None:
     if not process.seen.ended_by_itself:
         require_steady(experiment.seen.stall_s)
         log = process.last_lines()
-        raise ReadingNeverEnds(process.seen.executable, process.ran_s, of, log=log)
+        raise ReadingNeverEnds(process.seen.executable, process.ran_s, when, log=log)
 
 
 def tell(reader: BagReaderContract, label: str, line: str, field: str) -> Demand[ExperimentView]:
@@ -215,8 +215,8 @@ def refuse(
 
     def demand(experiment: ExperimentView) -> None:
         reading = _reading(experiment, reader, label)
-        process, of = reading.process, f"a path where {refusal.when}"
-        _require_end(experiment, process, of)
+        process = reading.process
+        _require_end(experiment, process, f"where {refusal.when}")
         line = refusal.log.format(path=reading.given.path, topic=reader.odometry)
         how = f"it ended with {describe_end(process.seen)}"
         if not any(text.strip() == line for text in process.texts):

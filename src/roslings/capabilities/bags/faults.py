@@ -29,9 +29,9 @@ class ReadingNeverEnds(Fault):
 
     executable: str
     seconds: float
-    of: str
+    when: str
     why = "A program that tells about a file has one task, and ends after it."
-    expected = "{executable} reads {of}, and ends by itself"
+    expected = "{executable} ends by itself {when}"
     measured = "after {seconds:.0f} s it was still running"
     hint = "Is there a spin() in it, or a loop in which has_next() is never asked again?"
 

@@ -48,8 +48,8 @@ MOST_WORDS = 4
 def may_be(name: str, handed_in_as: str, beside: str = "") -> bool:
     """Whether who wrote this name may have handed in what is called so.
 
-    `beside` are other words that stand there, of the lab. Where no word with a letter is left,
-    nobody can say who it was, and every name may be theirs.
+    `beside` are other words that stand there, of the lab. Where no word of letters alone is left
+    (`s1001_v2`), nobody can say who it was, and every name may be theirs.
 
     >>> may_be("Ada Lovelace", "Lovelace_Ada_4711_black-box", "black box")
     True
@@ -58,7 +58,7 @@ def may_be(name: str, handed_in_as: str, beside: str = "") -> bool:
     """
     others = {*NOT_OF_A_NAME, *words_of(beside)}
     theirs = {word for word in words_of(handed_in_as) if word not in others}
-    if not any(char.isalpha() for word in theirs for char in word):
+    if not any(word.isalpha() for word in theirs):
         return True
     own = words_of(name)
     if set(own) <= theirs:
