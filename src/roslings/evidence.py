@@ -409,6 +409,12 @@ class PackageSeen(Record):
         default_factory=dict, description="Name to target, as setup.py has it"
     )
     pictures: dict[str, PictureSeen] = Field(default_factory=dict, description="By path")
+    documents: dict[str, str] = Field(
+        default_factory=dict, description="Texts that the card asks for, by path"
+    )
+    handed_in_as: str = Field(
+        default="", description="What the submission is called; empty where nobody handed it in"
+    )
 
 
 HeldBy = Literal["namespaces", "user", "none"]

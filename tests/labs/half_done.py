@@ -121,6 +121,7 @@ DONE_BY: dict[str, dict[str, Words]] = {
         },
         "beacon:Beacon.tell": {10: ("",)},
     },
+    "black-box": {},
 }  # fmt: skip
 
 

@@ -189,7 +189,8 @@ def test_it_builds_with_colcon(each: Lab, kind: str, tmp_path: Path) -> None:
     assert (installed / "share" / package.name / "hook" / "ament_prefix_path.sh").is_file()
     if kind == "solution":
         programs = {path.name for path in (installed / "lib" / package.name).iterdir()}
-        assert programs == {node.executable for node in each.card.nodes}
+        assert programs == set(inspect_package(package, each.card).entry_points)
+        assert programs >= {node.executable for node in each.card.nodes}
 
 
 # --- the hints ---------------------------------------------------------------------------------

@@ -108,9 +108,10 @@ class Works(Strict):
     """All that is typed, in this order; the last command may end the picture of a drive."""
 
     terminals: list[Typed]
-    picture: Literal["graph", "drive", "ball"]
+    picture: Literal["graph", "drive", "ball"] | None = None
+    """None where the terminals show all."""
     alt: str
-    """What the picture below the terminals shows, in a sentence."""
+    """What the picture below the terminals shows, in a sentence; else what they show."""
 
     @classmethod
     def of(cls, lab: Lab) -> Works:
@@ -167,7 +168,7 @@ class Shot:
         return Shot("image/jpeg", file.getvalue())
 
 
-def seen(lab: Lab, home: Path) -> tuple[list[Window], Shot]:
+def seen(lab: Lab, home: Path) -> tuple[list[Window], Shot | None]:
     """What a student sees who has finished the lab: the terminals, and the picture below them."""
     works = Works.of(lab)
     numbers = sorted({each.terminal for each in works.terminals})
@@ -178,23 +179,29 @@ def seen(lab: Lab, home: Path) -> tuple[list[Window], Shot]:
         *before, last = works.terminals
         _type(terminals, before, home)
         leased.close()  # nodes are in it now; the one who looks leases it, as a notebook does
-        with _photographer(works, home, domain) as photographer:
+        if works.picture is None:
             _type(terminals, [last], home)
-            shown = [each for each in works.terminals if not each.hidden]
-            return [_window(terminals, each, home) for each in shown], _shot(photographer)
+            return _windows(works, terminals, home), None
+        with _photographer(works.picture, home, domain) as photographer:
+            _type(terminals, [last], home)
+            return _windows(works, terminals, home), _shot(photographer)
+
+
+def _windows(works: Works, terminals: dict[int, Terminal], home: Path) -> list[Window]:
+    return [_window(terminals, each, home) for each in works.terminals if not each.hidden]
 
 
 @contextmanager
-def _photographer(works: Works, home: Path, domain: int) -> Iterator[subprocess.Popen[str]]:
+def _photographer(picture: str, home: Path, domain: int) -> Iterator[subprocess.Popen[str]]:
     """A process of its own that looks; of a drive it sees the start, too."""
-    code = CODE[works.picture] + TELL
+    code = CODE[picture] + TELL
     with subprocess.Popen(
         [sys.executable, "-c", code], env=surroundings(home, domain), cwd=home,
         stdout=subprocess.PIPE, text=True,
     ) as photographer:  # fmt: skip
         try:
             assert photographer.stdout
-            if works.picture == "drive":
+            if picture == "drive":
                 assert photographer.stdout.readline() == "ready\n"
             yield photographer
         finally:
@@ -257,14 +264,15 @@ def _short(line: str) -> str:
 # --- drawing ------------------------------------------------------------------------------------
 
 
-def drawn(works: Works, windows: Sequence[Window], shot: Shot) -> str:
+def drawn(works: Works, windows: Sequence[Window], shot: Shot | None) -> str:
     """The SVG: the terminals below each other, and the picture on white below them."""
     tops = [*accumulate((each.high_px + EDGE_PX for each in windows), initial=EDGE_PX)]
-    wide, high = shot.size
-    scale = min(1.3, (WIDE_PX - 4 * EDGE_PX) / wide)
-    wide, high = wide * scale, high * scale
     parts = [part for top, each in zip(tops, windows, strict=False) for part in _drawn(each, top)]
-    total = tops[-1] + high + 3 * EDGE_PX
+    total = tops[-1]
+    if shot:
+        high, below = _hung(shot, tops[-1])
+        parts += below
+        total += high + 3 * EDGE_PX
     return "\n".join([
         '<svg class="terminal" xmlns="http://www.w3.org/2000/svg"'
         f' viewBox="0 0 {WIDE_PX:g} {total:g}"'
@@ -272,12 +280,21 @@ def drawn(works: Works, windows: Sequence[Window], shot: Shot) -> str:
         f"<title>{escape(works.alt)}</title>",
         f"<style>{STYLE}</style>",
         *parts,
-        f'<rect x="{EDGE_PX:g}" y="{tops[-1]:g}" width="{WIDE_PX - 2 * EDGE_PX:g}"'
-        f' height="{high + 2 * EDGE_PX:g}" rx="8" fill="#fff" stroke="#c9d1dc"/>',
-        f'<image x="{(WIDE_PX - wide) / 2:g}" y="{tops[-1] + EDGE_PX:g}" width="{wide:g}"'
-        f' height="{high:g}" href="{shot.address}"/>',
         "</svg>\n",
     ])  # fmt: skip
+
+
+def _hung(shot: Shot, top_px: float) -> tuple[float, list[str]]:
+    """How high the picture is as it is drawn, and its parts."""
+    wide, high = shot.size
+    scale = min(1.3, (WIDE_PX - 4 * EDGE_PX) / wide)
+    wide, high = wide * scale, high * scale
+    return high, [
+        f'<rect x="{EDGE_PX:g}" y="{top_px:g}" width="{WIDE_PX - 2 * EDGE_PX:g}"'
+        f' height="{high + 2 * EDGE_PX:g}" rx="8" fill="#fff" stroke="#c9d1dc"/>',
+        f'<image x="{(WIDE_PX - wide) / 2:g}" y="{top_px + EDGE_PX:g}" width="{wide:g}"'
+        f' height="{high:g}" href="{shot.address}"/>',
+    ]
 
 
 def _drawn(window: Window, top_px: float) -> Iterator[str]:

@@ -103,6 +103,7 @@ def _measured(order: Order, lab: Lab) -> Measured:
     began_ns = time.monotonic_ns()
     package = package_in(order.path, lab.card.package, order.room)
     files = inspect_package(package, lab.card)
+    files.handed_in_as = order.handed_in_as
     choices = Choices(
         order.seed, order.clock, hidden=order.hidden, builds=order.builds,
         builds_as_kin=order.builds_as_kin, strangers=order.strangers, for_others=order.strangers,

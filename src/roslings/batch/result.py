@@ -40,6 +40,11 @@ class Order(BaseModel):
     """Somebody else's, and not trusted: the wall for strangers' code is taken."""
 
     @property
+    def handed_in_as(self) -> str:
+        """What who handed it in called it; nobody hands in a lab's own packages."""
+        return "" if self.builds_as_kin else self.submission
+
+    @property
     def answer(self) -> Path:
         """Where the result is put, whole."""
         return self.room / "result.json"

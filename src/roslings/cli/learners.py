@@ -135,6 +135,15 @@ def rover_options(word: argparse.ArgumentParser) -> None:
     )
     word.add_argument("--save", metavar="FILE.png", type=Path, help="save the map at the end")
     word.add_argument("--seed", metavar="N", type=int, default=0, help="for the sensors' noise")
+    word.add_argument(
+        "--sick", action="store_true",
+        help="run nothing, and write the bag of a sick rover: with five faults that follow from"
+        " --name",
+    )  # fmt: skip
+    word.add_argument("--name", metavar="NAME", help="of --sick: the name that you hand in under")
+    word.add_argument(
+        "--to", metavar="FOLDER", type=Path, help="of --sick: a new folder (default: ~/sick_rover)"
+    )
 
 
 def board_options(word: argparse.ArgumentParser) -> None:

@@ -17,7 +17,12 @@ if TYPE_CHECKING:
 
 
 def rover(options: argparse.Namespace) -> int:
-    """Run the rover and its map until Ctrl-C."""
+    """Run the rover and its map until Ctrl-C; or write the bag of a sick one."""
+    if options.sick:
+        return _sick_rover(options.name, options.to)
+    if options.name or options.to:
+        print("roslings: --name and --to belong to --sick.", file=sys.stderr)
+        return WRONG_USE
     from roslings.devices.rover.running import run
     from roslings.ros2.surroundings import check_middleware, domain_id, prepare
 
@@ -28,6 +33,17 @@ def rover(options: argparse.Namespace) -> int:
         options.view, options.save, options.seed, options.keys,
         listens=options.listen, tf=options.tf,
     )  # fmt: skip
+    return OK
+
+
+def _sick_rover(name: str | None, folder: Path | None) -> int:
+    """Raises CannotWriteBag, and NeedsName."""
+    from roslings.devices.rover.sick import write_sick_rover
+
+    place = (folder or Path("~/sick_rover")).expanduser().absolute()
+    seconds = write_sick_rover(name or "", place)
+    print(f"The sick rover of {name} drove for {seconds:.0f} s. Its bag: {shown(place)}")
+    print(f"Look at it: ros2 bag info {shown(place)}")
     return OK
 
 

@@ -199,6 +199,9 @@ class OwnCardWords(Contract):
         default=30.0, ge=0, le=600, description="So long the nodes run where results count; 0: not"
     )
     pictures: tuple[PictureContract, ...] = ()
+    documents: Annotated[tuple[str, ...], Expected] = Field(
+        default=(), description="Texts in the package that are read, and never run: their paths"
+    )
     points: Annotated[dict[str, float], Prose] = Field(description="Check's name to its points")
     not_judged: Annotated[tuple[str, ...], Prose] = Field(
         default=(), description="What the student is free in"

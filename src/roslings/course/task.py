@@ -81,9 +81,12 @@ def _package_rows(card: Card) -> Iterable[tuple[str, ...]]:
     yield "build type", f"`{card.build_type}`"
     for picture in card.pictures:
         yield "picture", _picture(picture)
+    for document in card.documents:
+        yield "file", f"`{document}`"
     for words in _words():
         yield from words.package(card)
-    yield "Ctrl-C", f"ends each node within {card.ends_within_s:g} s"
+    if card.nodes:
+        yield "Ctrl-C", f"ends each node within {card.ends_within_s:g} s"
 
 
 def _picture(picture: PictureContract) -> str:

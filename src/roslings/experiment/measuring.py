@@ -106,7 +106,9 @@ def measure_here(assignment: Assignment, package: PackageSeen) -> Evidence:
 def _soak(stage: Stage, card: Card) -> Soak | None:
     """What runs on in real time beside the experiments, where that was asked for."""
     for_s = stage.assignment.soak_s
-    return Soak(card, stage.installed, stage.place, stage.turns, for_s) if for_s else None
+    if not (for_s and any(node.stays for node in card.nodes)):
+        return None
+    return Soak(card, stage.installed, stage.place, stage.turns, for_s)
 
 
 def _carry_out(

@@ -11,6 +11,7 @@ from pathlib import Path
 from roslings.course import Card
 from roslings.evidence import PackageSeen, PictureSeen
 from roslings.workspace import code
+from roslings.workspace.documents import text_of
 from roslings.workspace.errors import reading
 from roslings.workspace.manifest import read_manifest
 from roslings.workspace.pictures import look_at
@@ -21,8 +22,11 @@ NOT_THE_PACKAGES_CODE = frozenset({"test", "tests", "launch", "resource"})
 ROSDEP_KEYS = {
     "cv2": "python3-opencv",
     "serial": "python3-serial",
+    "rosbag2_py": "rosbag2_py",
+    "rosidl_runtime_py": "rosidl_runtime_py",
 }
-"""Modules that no ROS package brings, to their names in package.xml (rosdep's list).
+"""Modules to their names in package.xml: those that no ROS package brings (rosdep's list), and
+those of ROS for which a package of ours stands in where the real one is not installed.
 
 Not numpy: every message package of ROS brings it along.
 """
@@ -66,6 +70,7 @@ def _inspect(
         imported=_imported(python, known, card.package),
         entry_points=setup.console_scripts,
         pictures=dict(_pictures(folder, card)),
+        documents={path: text_of(found[path]) for path in card.documents if path in found},
     )
 
 

@@ -1,0 +1,233 @@
+"""Faults of a program that reads bags, and of a diagnosis."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from roslings.judge.faults.base import Fault
+
+
+@dataclass(eq=False)
+class ReadingFails(Fault):
+    """The program ends with an error, or with another exit code."""
+
+    executable: str
+    how: str
+    of: str
+    why = "Who starts a program in a script sees by its exit code whether all went well."
+    expected = "{executable} reads {of}, and ends by itself with exit code 0"
+    measured = "it ended with {how}"
+    hint = (
+        "Read the last lines below: they name the file, the line and the mistake. A type that is"
+        " not installed belongs to a topic whose messages need not be deserialized."
+    )
+
+
+@dataclass(eq=False)
+class ReadingNeverEnds(Fault):
+    """The program is still there when all is read."""
+
+    executable: str
+    seconds: float
+    when: str
+    why = "A program that tells about a file has one task, and ends after it."
+    expected = "{executable} ends by itself {when}"
+    measured = "after {seconds:.0f} s it was still running"
+    hint = "Is there a spin() in it, or a loop in which has_next() is never asked again?"
+
+
+@dataclass(eq=False)
+class LineMissing(Fault):
+    """No line of the program is like the one of the card."""
+
+    line: str
+    near: str | None
+    wrote: int
+    why = "Other programs read these lines, so each letter of them counts."
+    expected = "a line `{line}`"
+    hint = "Compare the text of your print() with the card: blanks, colons and units, too."
+
+    @property
+    def measured(self) -> str:
+        """The line that is nearest to it."""
+        if self.near is not None:
+            return f"it wrote `{self.near}`"
+        return f"none of its {self.wrote} lines is like it" if self.wrote else "it wrote no line"
+
+
+@dataclass(eq=False)
+class LineTwice(Fault):
+    """The same thing is told twice."""
+
+    line: str
+    times: int
+    was_seen = True
+    why = "Of two lines about one thing, nobody knows which one is right."
+    expected = "one line `{line}`"
+    measured = "it wrote {times} of them"
+    hint = "Does your print() stand inside of the loop over all messages?"
+
+
+@dataclass(eq=False)
+class WrongNumber(Fault):
+    """A number is not what the bag holds."""
+
+    what: str
+    wanted: str
+    found: str
+    about: str
+    was_seen = True
+    why = "The bag was made a moment ago, so the truth about it is known."
+    expected = "{what}: {wanted}"
+    measured = "it says {found}"
+    hint = "The card says: {about}. Which messages, and which time, does your code take?"
+
+
+@dataclass(eq=False)
+class UnknownTopicTold(Fault):
+    """A topic is told that the bag does not have."""
+
+    topic: str
+    there: tuple[str, ...]
+    was_seen = True
+    why = "Who looks for a fault must be able to rely on what is there."
+    measured = "it tells of {topic}, which the bag does not have"
+    hint = "get_all_topics_and_types() of the reader gives the topics of this bag."
+
+    @property
+    def expected(self) -> str:
+        """The topics that are there."""
+        return f"lines about the topics of the bag: {', '.join(self.there)}"
+
+
+@dataclass(eq=False)
+class GapMissed(Fault):
+    """A gap is not told, or with other numbers."""
+
+    wanted: str
+    told: tuple[str, ...]
+    limit: float
+    why = "A gap is often the first sign of a fault: a cable, a node that hung, a full computer."
+    expected = "`{wanted}`"
+    hint = (
+        "A gap is longer than {limit:g} usual periods of its own topic. START is the time of the"
+        " message before the gap."
+    )
+
+    @property
+    def measured(self) -> str:
+        """What is told of this topic."""
+        return f"it wrote {', '.join(f'`{line}`' for line in self.told) or 'no gap of this topic'}"
+
+
+@dataclass(eq=False)
+class NoGap(Fault):
+    """A gap is told where there is none."""
+
+    told: str
+    limit: float
+    periods: float | None
+    was_seen = True
+    why = "A warning that comes for nothing is soon read by nobody."
+    expected = "a line for each time of more than {limit:g} usual periods, and no other"
+    hint = "Compare each time with the usual period (median) of its own topic, times {limit:g}."
+
+    @property
+    def measured(self) -> str:
+        """The line, and how long it really was."""
+        if self.periods is None:
+            return f"it wrote `{self.told}`; the bag has no such pause"
+        return f"it wrote `{self.told}`, which is {self.periods:.1f} usual periods"
+
+
+@dataclass(eq=False)
+class RefusalMissing(Fault):
+    """The program does not say what it cannot read."""
+
+    when: str
+    line: str
+    exit_code: int
+    how: str
+    why = "A program that cannot do its task says why, and its exit code says so, too."
+    expected = "where {when}: the line `{line}`, and exit code {exit_code}"
+    measured = "{how}"
+    hint = (
+        "A bag that cannot be opened is a RuntimeError of reader.open(). main() returns the exit"
+        " code: `return 1`."
+    )
+
+
+# --- the diagnosis -----------------------------------------------------------------------------
+
+
+@dataclass(eq=False)
+class NoDiagnosis(Fault):
+    """The file is not there."""
+
+    path: str
+    why = "The diagnosis is handed in with the package."
+    expected = "the file {path}, beside package.xml"
+    measured = "there is no such file"
+    hint = "`./roslings diff` shows what the starter has. Put the file there again."
+
+
+@dataclass(eq=False)
+class UnreadableDiagnosis(Fault):
+    """The file says something that nobody can judge."""
+
+    path: str
+    problem: str
+    why = "A program reads the diagnosis, so its form counts."
+    expected = "{path} with `name`, and under `faults` entries with `fault`, `topic` and `number`"
+    measured = "{problem}"
+    hint = "Step 6 of the task shows an entry. Look at the blanks before each line, and at colons."
+
+
+@dataclass(eq=False)
+class OtherRover(Fault):
+    """The diagnosis is about the rover of somebody else."""
+
+    name: str
+    handed_in_as: str
+    was_seen = True
+    why = "Each name has a rover with faults of its own."
+    expected = "a diagnosis of the rover of who handed it in ({handed_in_as})"
+    measured = "it is about the rover of {name}"
+    hint = (
+        "Make your own bag: ./roslings rover --sick --name NAME, with the name under which you"
+        " hand in. Write this name into the diagnosis."
+    )
+
+
+@dataclass(eq=False)
+class TooFewFound(Fault):
+    """Too few entries are right, or too many are wrong."""
+
+    wanted: int
+    right: int
+    wrong: int
+    near: tuple[str, ...]
+    why = "On a robot, a wrong diagnosis costs as much time as a right one saves."
+
+    @property
+    def expected(self) -> str:
+        """So many."""
+        return f"right entries less wrong ones: at least {self.wanted}"
+
+    @property
+    def measured(self) -> str:
+        """What was counted."""
+        wrong = f"; {self.wrong} with a fault that its topic does not have" if self.wrong else ""
+        near = f"; the number alone is wrong in: {', '.join(self.near)}" if self.near else ""
+        return f"{self.right} right{wrong}{near}"
+
+    @property
+    def hint(self) -> str:
+        """What to do about it."""
+        if self.near:
+            return "Measure again what the table of step 6 asks for: which messages, which unit?"
+        if self.wrong:
+            return "Take out what you have no proof for: it costs as much as a right one gives."
+        return (
+            "Go on in the order of step 6: what is there, how often, until when, who offers what."
+        )
