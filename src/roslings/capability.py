@@ -109,6 +109,7 @@ BUILT_IN = {
         "camera",
         "serial",
         "robot",
+        "qos",
     )
 }
 """Name to where it is; others come by entry points. None is imported before it is asked for."""
