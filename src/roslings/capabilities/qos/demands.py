@@ -25,7 +25,7 @@ from roslings.capabilities.services.contract import ServiceContract
 from roslings.capabilities.services.record import ServicesSeen
 from roslings.course import NodeContract, TopicContract
 from roslings.judge.demands import most_similar, require_its_time, require_steady, written
-from roslings.judge.faults import Inconclusive, NothingToJudge
+from roslings.judge.faults import Inconclusive, NothingToJudge, NoTopic
 from roslings.judge.views import Demand, ExperimentView, ProcessView
 from roslings.matching import nearest_endpoint
 
@@ -34,6 +34,7 @@ SAME_NS = 1_000_000
 AFTER_S = 0.5
 """So long after a stop was undone its line may still come."""
 
+DOES = {"publisher": "publishes on", "subscription": "subscribes to"}
 MOST_LATE_PART = 0.75
 """Of a deadline: where a command of our own was so late, the guard may have heard of it."""
 
@@ -65,7 +66,7 @@ def _times(
             if end.kind == kind and end.topic == contract.topic
         ]  # fmt: skip
         if not ends:
-            raise NothingToJudge(f"there is no {kind} on {contract.topic}")
+            raise NoTopic(contract.topic, DOES[kind])
         qos = ends[0].qos
         if contract.lease_s and qos.liveliness != contract.liveliness:
             raise faults.OtherLiveliness(
@@ -227,7 +228,9 @@ def _judge_drive(
             raise faults.Stutters(topic, seen.after, _longest_gap_s(experiment, seen))
 
 
-def _require_commands(experiment: ExperimentView, seen: DriveSeen, deadline_s: float) -> None:
+def _require_commands(
+    experiment: ExperimentView, seen: DriveSeen | StopSeen, deadline_s: float
+) -> None:
     """Before a stop is held against the guard: the operator kept up. Raises Inconclusive."""
     gap_s = _longest_gap_s(experiment, seen)
     if gap_s > MOST_LATE_PART * deadline_s:
@@ -237,8 +240,8 @@ def _require_commands(experiment: ExperimentView, seen: DriveSeen, deadline_s: f
         )
 
 
-def _longest_gap_s(experiment: ExperimentView, seen: DriveSeen) -> float:
-    """From one command of the operator to the next, while it drove."""
+def _longest_gap_s(experiment: ExperimentView, seen: DriveSeen | StopSeen) -> float:
+    """From one command of the operator to the next, in this stretch."""
     sent = experiment.seen.part(QosSeen).sent_ns
     inside = [at_ns for at_ns in sent if seen.began_ns <= at_ns <= seen.until_ns]
     return max((later - one for one, later in pairwise(inside)), default=0) / NS_PER_S
@@ -279,9 +282,12 @@ def _judge_stop(
 
 
 def tell_why(
-    node: NodeContract, stops: Mapping[str, StopContract]
+    node: NodeContract, stops: Mapping[str, StopContract], deadline_s: float
 ) -> Demand[ExperimentView]:
-    """For each stop, the card's line with its reason, once."""
+    """For each stop, the card's line with its reason, once.
+
+    Where the operator's commands were late meanwhile, there was a second reason: Inconclusive.
+    """
     template = written(node.log, node.node)
 
     def demand(experiment: ExperimentView) -> None:
@@ -290,7 +296,15 @@ def tell_why(
         if not seen:
             raise NothingToJudge("it was given no reason to stop")
         for stop in seen:
-            _judge_line(process, template.format(text=stops[stop.reason].says), stop)
+            line = template.format(text=stops[stop.reason].says)
+            try:
+                _judge_line(process, line, stop)
+            except faults.ReasonNotTold:
+                _require_commands(experiment, stop, deadline_s)
+                raise
+            except faults.ReasonToldAgain:
+                require_its_time(experiment.seen, stop.part, deadline_s / 2, "an event")
+                raise
 
     return demand
 
