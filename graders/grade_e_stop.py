@@ -349,10 +349,10 @@ def test_far(apart: ExperimentView) -> None:
     """On a bad link it drives, and stops within {HOSTS.stops_within_s:g} s of a press or a cut."""
     apart.must(
         on_two_computers(
-            drive(CMD_VEL, "far", deadline_s=DEADLINE_S),
+            drive(CMD_VEL, "far", deadline_s=DEADLINE_S, steadily=False),
             stop_for(CMD_VEL, FAR, HOSTS.stops_within_s),
             stop_for(CMD_VEL, CUT, HOSTS.stops_within_s),
-            drive(CMD_VEL, "far, again", deadline_s=DEADLINE_S, again=True),
+            drive(CMD_VEL, "far, again", deadline_s=DEADLINE_S, again=True, steadily=False),
         )
     )
 

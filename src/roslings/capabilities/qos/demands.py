@@ -31,6 +31,9 @@ from roslings.matching import nearest_endpoint
 
 NS_PER_S = 1e9
 SAME_NS = 1_000_000
+DROVE_NS = 1_000_000_000
+"""So shortly before a reason to stop it must have driven."""
+
 AFTER_S = 0.5
 """So long after a stop was undone its line may still come."""
 
@@ -188,11 +191,16 @@ def stand(topic: TopicContract, part: str) -> Demand[ExperimentView]:
 
 
 def drive(
-    topic: TopicContract, *parts: str, deadline_s: float, again: bool = False
+    topic: TopicContract,
+    *parts: str,
+    deadline_s: float,
+    again: bool = False,
+    steadily: bool = True,
 ) -> Demand[ExperimentView]:
-    """In these parts the motors are told what the operator wants, steadily.
+    """In these parts the motors are told what the operator wants.
 
-    `again`: they stood before, for a reason that is gone.
+    `again`: they stood before, for a reason that is gone. `steadily`: they never stop in between;
+    across a link that loses signs of life, they may.
     """
 
     def demand(experiment: ExperimentView) -> None:
@@ -201,6 +209,8 @@ def drive(
             raise NothingToJudge("the guard could not be let drive")
         for each in drives:
             _judge_drive(experiment, topic.topic, each, deadline_s, again)
+            if steadily:
+                _judge_steadiness(experiment, topic.topic, each, deadline_s)
 
     return demand
 
@@ -221,11 +231,20 @@ def _judge_drive(
             raise faults.OtherCommand(*words, _fields(moves[-1].fields))
         raise (faults.DoesNotGoOn if again else faults.StandsStill)(*words)
     for move in moves[first:]:
-        if move.fields != seen.command:
-            _require_commands(experiment, seen, deadline_s)
-            if move.fields:
-                raise faults.OtherCommand(*words, _fields(move.fields))
-            raise faults.Stutters(topic, seen.after, _longest_gap_s(experiment, seen))
+        if move.fields not in ({}, seen.command):
+            raise faults.OtherCommand(*words, _fields(move.fields))
+
+
+def _judge_steadiness(
+    experiment: ExperimentView, topic: str, seen: DriveSeen, deadline_s: float
+) -> None:
+    """From the first command that came through, none is left out."""
+    moves = _moves(experiment, seen.began_ns, seen.until_ns)
+    first = next(n for n, move in enumerate(moves) if move.fields)
+    if not all(move.fields for move in moves[first:]):
+        _require_commands(experiment, seen, deadline_s)
+        require_its_time(experiment.seen, seen.part, deadline_s / 2, "a command")
+        raise faults.Stutters(topic, seen.after, _longest_gap_s(experiment, seen))
 
 
 def _require_commands(
@@ -263,8 +282,8 @@ def _judge_stop(
     experiment: ExperimentView, topic: str, stop: StopSeen, within_s: float
 ) -> None:
     everything = experiment.seen.part(QosSeen).moves
-    before = [move for move in everything if move.at_ns <= stop.began_ns]
-    if not before or not before[-1].fields:
+    since_ns = stop.began_ns - DROVE_NS
+    if not any(move.fields for move in everything if since_ns <= move.at_ns <= stop.began_ns):
         raise NothingToJudge("it did not drive before")
     moves = _moves(experiment, stop.began_ns, stop.until_ns)
     if not moves:

@@ -19,7 +19,7 @@ BUTTON = QoSProfile(
     reliability=ReliabilityPolicy.RELIABLE,
     durability=DurabilityPolicy.TRANSIENT_LOCAL,
     liveliness=LivelinessPolicy.AUTOMATIC,
-    liveliness_lease_duration=Duration(seconds=1.0),
+    liveliness_lease_duration=Duration(seconds=2.0),
 )
 COMMANDS = QoSProfile(
     depth=1,
