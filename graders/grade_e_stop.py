@@ -105,12 +105,10 @@ def idling(scene: Scene) -> None:
 @experiment
 def guarding(scene: Scene) -> None:
     """The guard, which comes late: it drives, is pressed, and gets no commands for a while."""
-    with (
-        beside(scene, "operator", operator_plan(ROADS), button_plan(ROADS)) as operator,
-        beside(scene, "motors", motors_plan(ROADS)) as motors,
-    ):
+    plans = operator_plan(ROADS), button_plan(ROADS), motors_plan(ROADS)
+    with beside(scene, "operator", *plans) as operator:
         operator.tell(say={"data": RELEASED.state})
-        with scene.run(GUARD), watching(scene, operator, motors) as guard:
+        with scene.run(GUARD), watching(scene, operator, operator) as guard:
             if not guard.drives("late", "when the guard starts after the stop was released"):
                 return
             press = {"data": PRESSED.state}
@@ -127,10 +125,9 @@ def guarding(scene: Scene) -> None:
 def losing(scene: Scene) -> None:
     """The guard without a button, with one, with one that hangs, and with one that ended."""
     with (
-        beside(scene, "operator", operator_plan(ROADS)) as operator,
-        beside(scene, "motors", motors_plan(ROADS)) as motors,
+        beside(scene, "operator", operator_plan(ROADS), motors_plan(ROADS)) as operator,
         scene.run(GUARD),
-        watching(scene, operator, motors) as guard,
+        watching(scene, operator, operator) as guard,
     ):
         operator.tell(drive={"linear.x": 0.5})
         guard.rests("still", "while no button was ever there")
