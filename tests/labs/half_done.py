@@ -89,6 +89,13 @@ DONE_BY: dict[str, dict[str, Words]] = {
         "serial_bridge:SerialBridge.disconnect": {12: ("",)},
         "serial_bridge:SerialBridge.motion_of_now": {15: ("",)},
     },
+    "e-stop": {
+        "guard:Guard.__init__": {
+            10: ("super().__init__", "self.pressed", "self.lost", "self.silent", "self.command",
+                 "self.reason"),
+            11: ("self.publisher", "self.create_"),
+        },
+    },
     "pi-camera": {
         "camera:Camera.__init__": {
             4: ("super().__init__",), 5: ("declare_parameter", "whole", "limits"),

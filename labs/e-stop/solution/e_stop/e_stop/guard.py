@@ -82,13 +82,6 @@ class Guard(Node):
         self.silent = True
         self.tell_reason()
 
-    def tell_reason(self):
-        """Write why the rover stops, when that is new."""
-        reason = self.find_reason()
-        if reason and reason != self.reason:
-            self.get_logger().info(f'Stopped: {reason}')
-        self.reason = reason
-
     def find_reason(self):
         """Say why the rover must stand still; nothing where it may drive."""
         if self.lost:
@@ -102,6 +95,13 @@ class Guard(Node):
     def tell_motors(self):
         """Publish the command, or zero."""
         self.publisher.publish(Twist() if self.find_reason() else self.command)
+
+    def tell_reason(self):
+        """Write why the rover stops, when that is new."""
+        reason = self.find_reason()
+        if reason and reason != self.reason:
+            self.get_logger().info(f'Stopped: {reason}')
+        self.reason = reason
 
 
 def main(args=None):

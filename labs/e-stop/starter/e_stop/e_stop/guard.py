@@ -25,25 +25,44 @@ class Guard(Node):
     """Passes commands on, as long as there is no reason to stop."""
 
     def __init__(self):
-        # TODO 10: give the node its name. Keep here what the node knows: the
-        #          three reasons to stop, all of which hold at first, and the
-        #          last command.
+        # TODO 10: give the node its name. Keep here what it knows: its three
+        #          reasons to stop, which all hold at first, the last command, and
+        #          the reason that was told last.
         super().__init__('change_me')
-        # TODO 11: create the publisher, the two subscriptions without events,
-        #          and a timer that calls self.tell_motors at the card's rate.
-        # TODO 13: give each subscription its event, and that event its
-        #          function: event_callbacks=SubscriptionEventCallbacks(...)
+        # TODO 11: create the publisher, the two subscriptions, and a timer that
+        #          calls self.tell_motors at the card's rate. Give each
+        #          subscription the event that it needs, with the function below:
+        #          event_callbacks=SubscriptionEventCallbacks(...)
+
+    def hear_button(self, message):
+        """Somebody pressed or released the stop."""
+        # TODO 12: keep what the message says.
+
+    def count_buttons(self, event):
+        """A button came, or is gone."""
+        # TODO 13: keep whether none is alive: event.alive_count says how many are.
+
+    def hear_command(self, message):
+        """The operator wants something."""
+        # TODO 14: keep the command, and that commands come.
+
+    def miss_command(self, event):
+        """No command came within the deadline."""
+        # TODO 15: keep that no commands come.
+
+    def find_reason(self):
+        """Say why the rover must stand still; nothing where it may drive."""
+        # TODO 16: return the card's words for the first reason that holds, or None.
 
     def tell_motors(self):
         """Publish the command, or zero."""
-        # TODO 12: publish the last command where no reason to stop holds, else
+        # TODO 17: publish the last command where there is no reason to stop, else
         #          an empty Twist: it is zero in all its fields.
 
-    # TODO 14: write a function for each of the two topics and of the two events.
-    #          Each keeps what is true now: whether the stop is pressed, whether
-    #          a button is alive, and whether commands come.
-
-    # TODO 15: write the reason to the log, when it is a new one.
+    def tell_reason(self):
+        """Write why the rover stops, when that is new."""
+        # TODO 18: find the reason, and write it where it is another one than
+        #          before. Call this function at the end of TODO 12 to 15.
 
 
 def main(args=None):
