@@ -212,9 +212,7 @@ def test_button_name(pressing: ExperimentView) -> None:
 @check(needs=["button_runs"])
 def test_button_topic(pressing: ExperimentView) -> None:
     """It publishes {E_STOP.type} on {E_STOP.topic}, reliable and latched."""
-    pressing.publisher(BUTTON, E_STOP).must(
-        be_there, be_the_only_one, carry_its_type, match_qos
-    )
+    pressing.publisher(BUTTON, E_STOP).must(be_there, be_the_only_one, carry_its_type, match_qos)
 
 
 @check(needs=["button_topic"])

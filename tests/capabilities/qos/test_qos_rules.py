@@ -158,7 +158,10 @@ def join(*heard: bool, said: int = 3, wanted: bool = True) -> QosSeen:
 )
 def test_a_late_joiner_gets_the_last_message(seen: QosSeen, fault: type[Exception] | None) -> None:
     """That one, and no other."""
-    assert found(demands.keep_for_late_joiners(OfferContract(topic="/door", keeps=1)), view(seen)) is fault
+    assert (
+        found(demands.keep_for_late_joiners(OfferContract(topic="/door", keeps=1)), view(seen))
+        is fault
+    )
 
 
 def test_more_are_kept_where_the_card_says_so_as_far_as_more_were_said() -> None:
@@ -224,9 +227,7 @@ def driven(seen: list[MoveSeen], sent_s: float = 0.05, held_s: float = 0.0) -> E
     drive = DriveSeen(part="a", after="at first", command=COMMAND, began_ns=S, until_ns=3 * S)
     sent = [S + int(n * sent_s * S) for n in range(int(2 / sent_s))]
     held = {"a": HeldUp(cpu_wait_s=held_s, stall_s=0.0)}
-    return view(
-        QosSeen(drives=[drive], moves=seen, sent_ns=sent), held_up=held, patience_s=1.0
-    )
+    return view(QosSeen(drives=[drive], moves=seen, sent_ns=sent), held_up=held, patience_s=1.0)
 
 
 DRIVES = demands.drive(MOTORS, "a", deadline_s=0.4)
@@ -348,9 +349,7 @@ def test_where_there_are_no_two_computers_the_points_are_left_out() -> None:
         (None, NothingToJudge),
     ],
 )
-def test_both_computers_are_reached(
-    hosts: HostsSeen | None, fault: type[Exception] | None
-) -> None:
+def test_both_computers_are_reached(hosts: HostsSeen | None, fault: type[Exception] | None) -> None:
     """By address, for there is no multicast."""
     assert found(demands.be_reached(BELL, DOOR), view(QosSeen(hosts=hosts))) is fault
 

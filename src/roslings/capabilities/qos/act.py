@@ -114,7 +114,7 @@ def beside(scene: Scene, name: str, *plans: Plan, host: Host | None = None) -> I
 
 
 class Watched:
-    """A guard between an operator and motors of ours: it is let drive, and given reasons to stop."""
+    """A guard between an operator and motors of ours: let drive, and given reasons to stop."""
 
     def __init__(self, scene: Scene, operator: Companion, motors: Companion) -> None:
         self._scene, self._operator, self._motors = scene, operator, motors
@@ -133,9 +133,7 @@ class Watched:
                 self._scene.until(lambda: False, STEADY_S)
             until_ns = time.monotonic_ns()
         self.seen.drives.append(
-            DriveSeen(
-                part=part, after=after, command=command, began_ns=began_ns, until_ns=until_ns
-            )
+            DriveSeen(part=part, after=after, command=command, began_ns=began_ns, until_ns=until_ns)
         )
         return self.moving
 
@@ -244,9 +242,7 @@ class Pressing:
             self._scene.until(lambda: False, QUIET_S)
         self._said += 1
         self.seen.presses.append(
-            PressSeen(
-                asked=dict(answer.request), began_ns=began_ns, until_ns=time.monotonic_ns()
-            )
+            PressSeen(asked=dict(answer.request), began_ns=began_ns, until_ns=time.monotonic_ns())
         )
         return answered
 

@@ -1,4 +1,4 @@
-"""Demands on quality of service in time: what is offered, who is reached, and how soon all stops."""
+"""Demands on quality of service in time: what is offered, who is reached, how soon all stops."""
 
 from __future__ import annotations
 
@@ -27,7 +27,6 @@ from roslings.course import NodeContract, TopicContract
 from roslings.judge.demands import most_similar, require_its_time, require_steady, written
 from roslings.judge.faults import Inconclusive, NothingToJudge, NoTopic
 from roslings.judge.views import Demand, ExperimentView, ProcessView
-from roslings.matching import nearest_endpoint
 
 NS_PER_S = 1e9
 SAME_NS = 1_000_000
@@ -72,9 +71,7 @@ def _times(
             raise NoTopic(contract.topic, DOES[kind])
         qos = ends[0].qos
         if contract.lease_s and qos.liveliness != contract.liveliness:
-            raise faults.OtherLiveliness(
-                contract.topic, verb, contract.liveliness, qos.liveliness
-            )
+            raise faults.OtherLiveliness(contract.topic, verb, contract.liveliness, qos.liveliness)
         found = {"deadline": qos.deadline_ns, "lease": qos.lease_ns, "lifespan": qos.lifespan_ns}
         for word, limit_s in wanted.items():
             if limit_s and not _is_same(found[word], limit_s):
@@ -266,9 +263,7 @@ def _longest_gap_s(experiment: ExperimentView, seen: DriveSeen | StopSeen) -> fl
     return max((later - one for one, later in pairwise(inside)), default=0) / NS_PER_S
 
 
-def stop_for(
-    topic: TopicContract, reason: str, within_s: float
-) -> Demand[ExperimentView]:
+def stop_for(topic: TopicContract, reason: str, within_s: float) -> Demand[ExperimentView]:
     """Each time that there is this reason, the motors are told zero in time, and stay so."""
 
     def demand(experiment: ExperimentView) -> None:
@@ -278,9 +273,7 @@ def stop_for(
     return demand
 
 
-def _judge_stop(
-    experiment: ExperimentView, topic: str, stop: StopSeen, within_s: float
-) -> None:
+def _judge_stop(experiment: ExperimentView, topic: str, stop: StopSeen, within_s: float) -> None:
     everything = experiment.seen.part(QosSeen).moves
     since_ns = stop.began_ns - DROVE_NS
     if not any(move.fields for move in everything if since_ns <= move.at_ns <= stop.began_ns):

@@ -5,12 +5,11 @@ that you need stand on the card, in labs/e-stop/task.md.
 """
 
 import rclpy
-from geometry_msgs.msg import Twist
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
-# TODO 8: import what else you need: the other message type, words of rclpy.qos,
+# TODO 8: import the two message types that the card names, words of rclpy.qos,
 #         Duration of rclpy.duration, and SubscriptionEventCallbacks of
 #         rclpy.event_handler.
 
