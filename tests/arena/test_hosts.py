@@ -71,7 +71,7 @@ def test_what_is_said_on_one_host_is_heard_on_the_other() -> None:
 
 
 def test_the_link_loses_some_packets_and_passes_no_multicast() -> None:
-    """Of 400 packets, about a quarter is lost; a multicast never arrives."""
+    """Of 60 packets, about a quarter is lost; a multicast never arrives."""
     counts = behind_the_wall(
         """
         with two_hosts(names, delay_s=0.001, loss=0.25, seed=1) as two:
@@ -81,7 +81,7 @@ def test_the_link_loses_some_packets_and_passes_no_multicast() -> None:
                 here = socket.inet_aton(two.first.address)
                 mouth.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, here)
             mouth.sendto(b"to all", ("239.255.0.1", PORT))
-            for n in range(400):
+            for n in range(60):
                 mouth.sendto(b"%d" % n, (two.second.address, PORT))
                 while sum(two.link.counts().values()) < n + 2:
                     pass
@@ -91,8 +91,8 @@ def test_the_link_loses_some_packets_and_passes_no_multicast() -> None:
         """
     )
     passed, lost, multicast, arrived = counts.split()
-    assert int(passed) + int(lost) == 400
-    assert 60 < int(lost) < 140
+    assert int(passed) + int(lost) == 60
+    assert 5 < int(lost) < 30
     assert int(multicast) >= 1
     assert arrived == "False"
 
@@ -123,16 +123,28 @@ def test_only_the_thread_that_enters_is_on_the_host() -> None:
             return os.stat("/proc/thread-self/ns/net").st_ino
 
         with two_hosts(names, delay_s=0.0, loss=0.0) as two:
-            home = network()
-            with two.second.entered():
-                others = []
-                thread = threading.Thread(target=lambda: others.append(network()))
-                inside = network()
-                child = subprocess.run(["readlink", "/proc/self/ns/net"], capture_output=True)
-            print(inside != home, str(inside) in child.stdout.decode(), network() == home)
+            home, there = network(), []
+            entered, looked = threading.Event(), threading.Event()
+
+            def visit():
+                with two.second.entered():
+                    there.append(network())
+                    child = subprocess.run(["readlink", "/proc/self/ns/net"], capture_output=True)
+                    there.append(str(there[0]) in child.stdout.decode())
+                    entered.set()
+                    looked.wait()
+                there.append(network())
+
+            thread = threading.Thread(target=visit)
+            thread.start()
+            entered.wait()
+            here = network()
+            looked.set()
+            thread.join()
+            print(there[0] != home, there[1], here == home, there[2] == home)
         """
     )
-    assert seen.split() == ["True", "True", "True"]
+    assert seen.split() == ["True"] * 4
 
 
 def test_nothing_of_the_hosts_stays() -> None:

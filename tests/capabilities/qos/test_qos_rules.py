@@ -397,7 +397,13 @@ def test_the_page_shows_stops_joiners_and_the_link() -> None:
         experiments={"x": view(part).seen},
     )  # fmt: skip
     page = "".join(map(str, sections(evidence)))
-    for words in ("the door opens", "0.2 s later", "a call", "true", "passed 90 packets, lost 10"):
+    for words in (
+        "the door opens",
+        "200.0 ms later",
+        "a call",
+        "true",
+        "passed 90 packets, lost 10",
+    ):
         assert words in page
 
 
