@@ -43,8 +43,12 @@ class Companion:
 
     def __enter__(self) -> Companion:
         host = self._host
-        environment = {**os.environ, **(host.environment if host else {})}
-        environment["ROS_DOMAIN_ID"] = str(self._domain_id)
+        environment = {
+            **os.environ,
+            **(host.environment if host else {}),
+            "ROS_STATIC_PEERS": "",  # a node that must reach us on another host is told, not we
+            "ROS_DOMAIN_ID": str(self._domain_id),
+        }
         with host.entered() if host else nullcontext():
             self._process = subprocess.Popen(
                 [sys.executable, str(SCRIPT), json.dumps(self._plan)], env=environment,

@@ -99,9 +99,10 @@ class Player:
         self.node.create_timer(1 / plan["hz"], self._send)
 
     def _send(self) -> None:
-        if self._command is not None:
+        command = self._command  # who tells us to be silent does it from another thread
+        if command is not None:
             self.tell({"sent": time.monotonic_ns()})
-            self._commands.publish(self._command)
+            self._commands.publish(command)
         matched = self._commands.get_subscription_count()
         if matched != self._matched:
             self._matched = matched
