@@ -110,6 +110,7 @@ BUILT_IN = {
         "serial",
         "robot",
         "bags",
+        "qos",
     )
 }
 """Name to where it is; others come by entry points. None is imported before it is asked for."""

@@ -32,6 +32,8 @@ class Qos:
     depth: int | None = Field(default=None, description="None where discovery does not tell it")
     deadline_ns: int | None = None
     liveliness: str = "automatic"
+    lifespan_ns: int | None = None
+    lease_ns: int | None = Field(default=None, description="Of its liveliness")
 
 
 @dataclass(slots=True, kw_only=True, config=SMALL)

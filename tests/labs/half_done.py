@@ -89,6 +89,15 @@ DONE_BY: dict[str, dict[str, Words]] = {
         "serial_bridge:SerialBridge.disconnect": {12: ("",)},
         "serial_bridge:SerialBridge.motion_of_now": {15: ("",)},
     },
+    "e-stop": {
+        "e_stop_button:LATC": {4: ("",)},
+        "guard:BUTT": {9: ("",)}, "guard:COMM": {9: ("",)}, "guard:MOTO": {9: ("",)},
+        "guard:Guard.__init__": {
+            10: ("super().__init__", "self.pressed", "self.lost", "self.silent", "self.command",
+                 "self.reason"),
+            11: ("self.publisher", "self.create_"),
+        },
+    },
     "pi-camera": {
         "camera:Camera.__init__": {
             4: ("super().__init__",), 5: ("declare_parameter", "whole", "limits"),

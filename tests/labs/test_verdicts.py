@@ -114,6 +114,7 @@ NODES = {
     "services": {"server_runs", "server_name"},
     "actions": {"server_runs", "server_name"},
     "serial-bridge": {"runs", "name"},
+    "e-stop": {"button_runs", "button_name", "guard_runs", "guard_name"},
     "pi-camera": {"camera_runs", "camera_name", "finder_runs", "finder_name"},
 }  # fmt: skip
 """Lab to the checks that nodes pass which are there, and do nothing."""

@@ -12,6 +12,7 @@ from roslings.arena.environment import (
     base_environment,
     ros_environment,
 )
+from roslings.arena.hosts import Host, Hosts, NoHosts, two_hosts
 from roslings.arena.isolation import Isolation, choose_isolation, isolation_for_strangers
 from roslings.arena.lease import NoFreeDomain
 from roslings.arena.process import LONGEST_WAIT_S, CannotStart, Launch, Process
@@ -23,12 +24,15 @@ __all__ = [
     "QUICK_DISCOVERY",
     "Arena",
     "CannotStart",
+    "Host",
+    "Hosts",
     "Installed",
     "Isolation",
     "Lack",
     "Launch",
     "NoFreeDomain",
     "NoFreeUser",
+    "NoHosts",
     "Place",
     "Process",
     "Sandbox",
@@ -40,4 +44,5 @@ __all__ = [
     "kernel",
     "opened",
     "ros_environment",
+    "two_hosts",
 ]

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, nullcontext
 from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from roslings.arena.environment import Wall, ros_environment
+from roslings.arena.hosts import Host
 from roslings.arena.kernel import waits
 from roslings.arena.lease import leased_domain
 from roslings.arena.process import Launch, Process
@@ -69,21 +70,29 @@ class Arena:
 
     @contextmanager
     def run(
-        self, executable: str, arguments: Sequence[str] = (), shown: Sequence[Path] = ()
+        self,
+        executable: str,
+        arguments: Sequence[str] = (),
+        shown: Sequence[Path] = (),
+        host: Host | None = None,
     ) -> Iterator[Process]:
         """Run one of the package's executables until the block ends.
 
-        `shown` is what it needs to see besides, where there is a sandbox.
+        `shown` is what it needs to see besides, where there is a sandbox; `host` is the computer
+        that it runs on, where there are several.
         """
         launch = Launch(
             command=[str(self._installed.programs / executable), *arguments],
-            environment=self._environment(),
+            environment={**self._environment(), **(host.environment if host else {})},
             folder=self._place.home,
             namespaces=self._place.wall == "namespace",
             sandbox=self._place.around(self._installed, shown),
             user=self._place.user,
         )
-        with Process(executable, launch, lambda: self.on_change()) as process:
+        with ExitStack() as stack:
+            with host.entered() if host else nullcontext():
+                process = Process(executable, launch, lambda: self.on_change())
+                stack.enter_context(process)
             self.processes.append(process)
             yield process
 

@@ -84,6 +84,11 @@ def unshare(flags: int) -> None:
     _call("unshare", flags)
 
 
+def enter_network(descriptor: int) -> None:
+    """Let this thread alone enter a network namespace. Raises OSError: setns(2)."""
+    _call("setns", descriptor, CLONE_NEWNET)
+
+
 def map_identity(uid: int, gid: int) -> None:
     """Keep one's own user and group in the user namespace just entered.
 

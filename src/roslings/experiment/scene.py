@@ -95,8 +95,11 @@ class Scene:
         self._presence = Presence(probe, arena, absences or Absences(), self._simulated)
         self._arena = arena
         self._probe = probe
+        self.seed = seed
+        """Of all that nobody can know before."""
+        self.ends_within_s = ends_within_s
+        """After Ctrl-C."""
         self._random = random.Random(seed)
-        self._ends_within_s = ends_within_s
         arena.on_change = probe.notify
         probe.seen.patience_s = PATIENCE_S
 
@@ -170,6 +173,10 @@ class Scene:
     def _present(self) -> Counter[str]:
         """The nodes that are there, as far as they are known."""
         return Counter(self.seen.graph.nodes) - self._over
+
+    def busy(self) -> AbstractContextManager[None]:
+        """A stretch in which something of ours takes a processor: no times are judged meanwhile."""
+        return self._turns.busy()
 
     def timed(self) -> AbstractContextManager[None]:
         """A stretch in which times are judged: no node of another experiment starts meanwhile.
@@ -326,7 +333,7 @@ class Scene:
             process.wait_ended(LOOK_AGAIN_S)
 
     def _end(self, processes: Sequence[Process]) -> None:
-        within_s = self._ends_within_s + INTERRUPT_SLACK_S
+        within_s = self.ends_within_s + INTERRUPT_SLACK_S
         with ThreadPoolExecutor(len(processes)) as fingers:
             list(fingers.map(lambda process: process.interrupt(within_s), processes))
 

@@ -139,11 +139,18 @@ def _endpoint(kind: Literal["publisher", "subscription"], topic: str, info: Any)
 
 def read_qos(profile: Any) -> Qos:
     """An rclpy QoSProfile as evidence keeps it."""
-    deadline_ns = profile.deadline.nanoseconds
     return Qos(
         reliability=profile.reliability.name.lower(),
         durability=profile.durability.name.lower(),
         depth=profile.depth or None,
-        deadline_ns=None if deadline_ns >= UNLIMITED_NS else deadline_ns,
+        deadline_ns=_limit_ns(profile.deadline),
         liveliness=profile.liveliness.name.lower(),
+        lifespan_ns=_limit_ns(profile.lifespan),
+        lease_ns=_limit_ns(profile.liveliness_lease_duration),
     )
+
+
+def _limit_ns(duration: Any) -> int | None:
+    """An rclpy Duration; None where it has no end."""
+    limit_ns: int = duration.nanoseconds
+    return None if limit_ns >= UNLIMITED_NS else limit_ns

@@ -1,0 +1,120 @@
+"""What a card says about deadlines, lifespans and liveliness, and its rows in task.md."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from pydantic import Field
+
+from roslings.capability import Row, Words
+from roslings.course.contract import Contract, Expected, Promise, Stimulus
+from roslings.course.kinds import Kind
+
+if TYPE_CHECKING:
+    from roslings.course import Card, NodeContract
+
+Liveliness = Literal["automatic", "manual_by_topic"]
+TOPIC = r"^/[A-Za-z_][A-Za-z0-9_/]*$"
+
+
+class TimesContract(Contract):
+    """The times that both sides of a topic agree on."""
+
+    topic: Annotated[str, Expected] = Field(pattern=TOPIC)
+    deadline_s: Annotated[float | None, Expected] = Field(
+        default=None, gt=0, description="From one message to the next, at most"
+    )
+    liveliness: Annotated[Liveliness, Expected] = "automatic"
+    lease_s: Annotated[float | None, Expected] = Field(
+        default=None, gt=0, description="Who gives no sign of life for so long is not alive"
+    )
+
+
+class OfferContract(TimesContract):
+    """What one publisher of a node promises."""
+
+    lifespan_s: Annotated[float | None, Expected] = Field(
+        default=None, gt=0, description="An older message is not delivered any more"
+    )
+    keeps: Annotated[int | None, Expected] = Field(
+        default=None, gt=0, description="So many messages a late joiner gets"
+    )
+
+
+class AskContract(TimesContract):
+    """What one subscription of a node wants to be promised."""
+
+
+class StopContract(Contract):
+    """One reason for which a watching node stops the robot, and how soon."""
+
+    when: Annotated[str, Promise]
+    says: Annotated[str, Expected] = Field(description="The reason, in the node's log line")
+    within_s: Annotated[float, Kind.MOST] = Field(gt=0, description="From the reason to the stop")
+
+
+class HostsContract(Contract):
+    """Two computers that the nodes run on, and what the link between them does."""
+
+    delay_ms: Annotated[float, Stimulus] = Field(ge=0, description="Of each packet, one way")
+    loss: Annotated[float, Stimulus] = Field(ge=0, lt=1, description="Part of all packets")
+    stops_within_s: Annotated[float, Kind.MOST] = Field(
+        gt=0, description="From a press on one computer to the stop on the other"
+    )
+
+
+class NodeWords(Contract):
+    """What a card may say of a node."""
+
+    offers: tuple[OfferContract, ...] = ()
+    asks: tuple[AskContract, ...] = ()
+    stops: dict[str, StopContract] = Field(
+        default_factory=dict, description="By a word for the grader, e.g. `pressed`"
+    )
+
+
+class CardWords(Contract):
+    """What a card may say of the package."""
+
+    hosts: HostsContract | None = None
+
+
+def rows(node: NodeContract) -> Iterable[Row]:
+    """What each side promises or asks for, and each reason to stop."""
+    for offered in node.offers:
+        yield from _times_rows(offered, "offers on")
+        if offered.lifespan_s:
+            yield "lifespan", f"{offered.lifespan_s:g} s"
+        if offered.keeps:
+            yield "a late joiner gets", _messages(offered.keeps)
+    for asked in node.asks:
+        yield from _times_rows(asked, "asks on")
+    for stop in node.stops.values():
+        yield "stops when", f"{stop.when}; within {stop.within_s:g} s; the reason is `{stop.says}`"
+
+
+def _times_rows(times: TimesContract, verb: str) -> Iterable[Row]:
+    yield verb, f"`{times.topic}`"
+    if times.deadline_s:
+        yield "deadline", f"{times.deadline_s:g} s"
+    if times.lease_s:
+        yield "liveliness", f"{times.liveliness}, with a lease of {times.lease_s:g} s"
+
+
+def _messages(count: int) -> str:
+    return "the last message" if count == 1 else f"the last {count} messages"
+
+
+def package_rows(card: Card) -> Iterable[Row]:
+    """The two computers, and what the link between them does."""
+    if hosts := card.hosts:
+        yield (
+            "on two computers",
+            f"the link has no multicast, delays each packet by {hosts.delay_ms:g} ms and loses"
+            f" {hosts.loss:.0%} of them; a press on one stops the rover on the other within"
+            f" {hosts.stops_within_s:g} s",
+        )
+
+
+WORDS = Words(node=NodeWords, card=CardWords, interface=rows, package=package_rows)

@@ -1,0 +1,280 @@
+"""What can be wrong with quality of service in time, in words."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from roslings.judge.faults import Fault
+
+# --- what is offered and asked for -------------------------------------------------------------
+
+
+@dataclass(eq=False)
+class OtherTime(Fault):
+    """A publisher offers, or a subscription asks for, another time than the card's."""
+
+    topic: str
+    verb: str
+    """`offers` or `asks for`."""
+    word: str
+    wanted: str
+    found: str
+    why = "The middleware watches these times, and nobody else does: a wrong one is not noticed."
+    expected = "on {topic} the node {verb} a {word} of {wanted}"
+    measured = "it {verb} {found}"
+
+    @property
+    def hint(self) -> str:
+        """Where it is set."""
+        name = "liveliness_lease_duration" if self.word == "lease" else self.word
+        return (
+            f"Give QoSProfile(...) the word {name}=Duration(seconds=...), and give that profile to"
+            " create_publisher or create_subscription in place of the number."
+            " `ros2 topic info -v TOPIC` shows what is set."
+        )
+
+
+@dataclass(eq=False)
+class OtherLiveliness(Fault):
+    """The other way to give signs of life."""
+
+    topic: str
+    verb: str
+    wanted: str
+    found: str
+    why = "With manual_by_topic a node must give each sign of life itself; who forgets it is dead."
+    expected = "on {topic} the node {verb} the liveliness {wanted}"
+    measured = "it {verb} {found}"
+    hint = "LivelinessPolicy.AUTOMATIC lets the middleware give the signs, while the program lives."
+
+
+# --- a latched topic ---------------------------------------------------------------------------
+
+
+@dataclass(eq=False)
+class NothingForLateJoiners(Fault):
+    """Who subscribes later gets nothing."""
+
+    topic: str
+    after: str
+    why = "A guard that starts after the press must still hear of it."
+    expected = "who subscribes to {topic} after {after} gets the last message"
+    measured = "it gets none"
+    hint = (
+        "The publisher keeps messages for late joiners with DurabilityPolicy.TRANSIENT_LOCAL. A"
+        " lifespan would throw them away again."
+    )
+
+
+@dataclass(eq=False)
+class OtherCountForLateJoiners(Fault):
+    """A late joiner gets more, or fewer, messages than the card says."""
+
+    topic: str
+    after: str
+    wanted: int
+    found: str
+    why = "Old presses are over. Who gets them all obeys for a moment what holds no more."
+    expected = "who subscribes to {topic} after {after} gets {wanted} message(s)"
+    measured = "it gets {found}"
+    hint = "depth=1 in the publisher's QoSProfile keeps the last message, and no other."
+
+
+@dataclass(eq=False)
+class OldForLateJoiners(Fault):
+    """The last message that a late joiner gets says something else."""
+
+    topic: str
+    after: str
+    wanted: str
+    found: str
+    why = "Who comes late knows nothing else than this message."
+    expected = "who subscribes to {topic} after {after} gets {wanted}"
+    measured = "it gets {found}"
+    hint = "Publish in the function of the service, each time; and once in __init__, with True."
+
+
+@dataclass(eq=False)
+class OtherThanPressed(Fault):
+    """A press did not lead to one message with its value."""
+
+    topic: str
+    asked: str
+    wanted: str
+    found: str
+    why = "The topic is all that the guard hears of the button."
+    expected = "the call with {asked} leads to one message on {topic}: {wanted}"
+    measured = "it leads to: {found}"
+    hint = "Publish request.data in the function of the service, once for each call."
+
+
+@dataclass(eq=False)
+class SaysMore(Fault):
+    """The latched topic says more than it was asked to."""
+
+    topic: str
+    wanted: int
+    found: int
+    why = "A topic that keeps its last message need not say it again. Each message is an event."
+    expected = "at most {wanted} messages on {topic}: one at the start, and one for each call"
+    measured = "{found}"
+    hint = "Is there a timer that publishes? A latched topic needs none."
+
+
+# --- a guard -----------------------------------------------------------------------------------
+
+
+@dataclass(eq=False)
+class TellsTheMotorsNothing(Fault):
+    """No message comes to the motors."""
+
+    topic: str
+    when: str
+    why = "Motors that hear nothing do what they were told last."
+    expected = "messages on {topic} {when}"
+    measured = "none came"
+    hint = "A timer publishes 20 times a second, also while there is a reason to stop: then zero."
+
+
+@dataclass(eq=False)
+class StandsStill(Fault):
+    """It does not drive, though nothing speaks against it."""
+
+    topic: str
+    when: str
+    command: str
+    why = "A guard that stops the rover for no reason is switched off soon, and then guards nobody."
+    expected = "{when}, {topic} says what the operator wants: {command}"
+    measured = "it says zero all the time"
+    hint = (
+        "Log which reason to stop your guard sees. Each must go away again: on `false`, on the next"
+        " command, and when a publisher is alive again (alive_count)."
+    )
+
+
+@dataclass(eq=False)
+class OtherCommand(Fault):
+    """The motors are told something else than the operator wants."""
+
+    topic: str
+    when: str
+    command: str
+    found: str
+    why = "The guard stands between the operator and the motors, and changes nothing on the way."
+    expected = "{when}, {topic} says what the operator wants: {command}"
+    measured = "it says: {found}"
+    hint = "Keep the last message of /cmd_vel_raw as it is, with all its fields, and publish it."
+
+
+@dataclass(eq=False)
+class Stutters(Fault):
+    """In the middle of a drive it stops for a moment."""
+
+    topic: str
+    when: str
+    gap_s: float
+    why = "A rover that stops and starts again and again wears its gears, and throws its load."
+    expected = "{when}, {topic} says all the time what the operator wants"
+    measured = "in between it says zero, though no command was more than {gap_s:.2f} s late"
+    hint = (
+        "Does a lost or a late command stop it? One that is lost is no reason to stop: only the"
+        " deadline is."
+    )
+
+
+@dataclass(eq=False)
+class DoesNotStop(Fault):
+    """The motors go on, though there is a reason to stop."""
+
+    topic: str
+    cause: str
+    within_s: float
+    watched_s: float
+    why = "This is what the guard is there for."
+    expected = "after {cause}, {topic} says zero within {within_s:g} s"
+    measured = "{watched_s:.1f} s later it still says another command"
+    hint = (
+        "Which function of yours is called then? For a press it is the subscription's, for the"
+        " others an event's: SubscriptionEventCallbacks(deadline=..., liveliness=...). Log in it."
+    )
+
+
+@dataclass(eq=False)
+class StopsLate(DoesNotStop):
+    """It stops, and not soon enough."""
+
+    measured = "the last other command came {watched_s:.2f} s later"
+    hint = (
+        "Act in the event's own function. A wait, or a timer that looks now and then, comes on top"
+        " of the time that the middleware takes."
+    )
+
+
+@dataclass(eq=False)
+class DrivesUnasked(Fault):
+    """It drives before anybody released the stop."""
+
+    topic: str
+    when: str
+    found: str
+    why = "A robot that nobody has released must not move: somebody may stand before it."
+    expected = "{when}, {topic} says zero"
+    measured = "it says: {found}"
+    hint = "Begin with `stopped = True`, and with a button that is not there."
+
+
+@dataclass(eq=False)
+class DoesNotGoOn(StandsStill):
+    """After a reason to stop is gone, it stands for ever."""
+
+    why = "A guard that never lets go again must be started anew after each stop."
+
+
+@dataclass(eq=False)
+class ReasonNotTold(Fault):
+    """The log does not say why it stopped."""
+
+    line: str
+    cause: str
+    near: str | None
+    why = "Who stands beside a rover that stopped wants to know why, before anything else."
+    expected = "after {cause}, the guard writes: {line}"
+    hint = "Write the line where the stop begins. Text, colon and reason are those of the card."
+
+    @property
+    def measured(self) -> str:
+        """The nearest line."""
+        return f"it writes: {self.near}" if self.near else "it writes nothing like it"
+
+
+@dataclass(eq=False)
+class ReasonToldAgain(Fault):
+    """One stop is told many times."""
+
+    line: str
+    cause: str
+    times: int
+    why = "A log that says the same again and again hides all that is new."
+    expected = "after {cause}, one line: {line}"
+    measured = "it stands there {times} times"
+    hint = (
+        "The deadline's event comes again, for each deadline that passes. Write the line only when"
+        " the reason is new."
+    )
+
+
+# --- two computers -----------------------------------------------------------------------------
+
+
+@dataclass(eq=False)
+class NotReached(Fault):
+    """The nodes do not find each other across the link."""
+
+    what: str
+    why = "On two computers there is often no multicast: in schools, and on many a Wi-Fi."
+    expected = "on two computers, {what}"
+    measured = "they did not find each other, though ROS_STATIC_PEERS names the other computer"
+    hint = (
+        "The check sets ROS_STATIC_PEERS and ROS_AUTOMATIC_DISCOVERY_RANGE, as you would in a"
+        " terminal. Your program must leave these variables as they are."
+    )
