@@ -1,5 +1,5 @@
-"""A logger: a node called logger, which is started in the namespace /rover2. It hears the
-one weather report for all rovers, on /weather, and logs "weather: " and its text."""
+"""A logger: a node called logger, which is started in the namespace /rover2. It hears
+the one weather report for all rovers, on /weather. It logs "weather: " and the text."""
 
 import rclpy
 from rclpy.node import Node

@@ -1,5 +1,5 @@
-"""A sonar: a node called sonar. Five times a second it tells on /distance what is 1.25 m
-in front of it. The robot's tree of frames knows the sonar as sonar_link."""
+"""A sonar: a node called sonar. Five times a second it tells on /distance what is
+1.25 m in front of it. The robot's tree of frames knows the sonar as sonar_link."""
 
 import rclpy
 from rclpy.node import Node
