@@ -19,6 +19,7 @@ from course_site import (
     navigation,
     one_sheet,
     path_of_days,
+    qos_table,
     quizzes,
     run_box,
     small_scripts,
@@ -50,6 +51,6 @@ def setup(app: Sphinx) -> dict[str, Any]:
         landing,
     ):
         part.setup(app)
-    for part in (doctor_page, api, navigation, few_scripts, few_tags, small_scripts, one_sheet):
+    for part in (doctor_page, qos_table, api, navigation, few_scripts, few_tags, small_scripts, one_sheet):
         part.setup(app)
     return {"version": "1", "parallel_read_safe": False, "parallel_write_safe": True}
