@@ -70,7 +70,7 @@ def _example(example: str) -> nodes.Element:
 
 def _footnote(term: Term, category: Category, directive: AllWords) -> nodes.Element:
     lessons = lessons_of(directive.config)
-    where = lessons.day(term.day).name if term.day else "Beyond the seven days"
+    where = lessons.day(term.day).name if term.day else "Beyond the days of this course"
     parts = [where, category.category, *([f"ROS 1: {term.ros1}"] if term.ros1 else [])]
     return nodes.paragraph("", " · ".join(parts), classes=["where", "unlinked"])
 

@@ -11,7 +11,7 @@ from rich.console import Console
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
-from course_site.course import html
+from course_site.course import html, lessons_of
 from roslings.report import print_verdict, read_json
 
 VERDICT = Path(__file__).parents[1] / "pictures" / "verdict.json"
@@ -30,8 +30,9 @@ class Hero(SphinxDirective):
         """The first of the first pages that this course has."""
         self.env.note_dependency(str(VERDICT))
         first = next(page for page in FIRST_PAGES if page in self.env.found_docs)
+        days = len(lessons_of(self.config).days)
         return [html(
-            '<div class="hero"><div class="hero-words"><p class="lead">Seven days, from the first'
+            f'<div class="hero"><div class="hero-words"><p class="lead">{days} days, from the first'
             " two programs that talk to a robot that sees. You build each part yourself. The"
             " course runs what you built, and says what to do next.</p>"
             f'<p class="actions"><a class="button" href="{first}.html">Drive a robot in 15 minutes'

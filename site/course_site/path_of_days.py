@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from html import escape
 
@@ -94,6 +95,27 @@ class DaysTree(MarkdownDirective):
         return next((page for page in pages if page in self.env.found_docs), "")
 
 
+class HowLong(MarkdownDirective):
+    """`{how-long}`: how many hours all days take, and how many weeks that is."""
+
+    def markdown(self) -> str:
+        """A sentence and a table, both from the path."""
+        hours = [day.hours for day in lessons_of(self.config).days]
+        count, total = len(hours), sum(hours)
+        return (
+            f"{count} days of {min(hours):g} to {max(hours):g} hours each, {total:g} hours in all."
+            " How many weeks is that?\n\n| you have | you need about |\n| --- | --- |\n"
+            f"| whole days, as in a holiday course | {_weeks(count, 5)}, with breaks |\n"
+            f"| two afternoons of three hours a week | {_weeks(total, 6)} |\n"
+            f"| one lesson of 90 minutes a week | {_weeks(total, 1.5)} |"
+        )
+
+
+def _weeks(amount: float, each_week: float) -> str:
+    weeks = math.ceil(amount / each_week)
+    return "1 week" if weeks == 1 else f"{weeks} weeks"
+
+
 class LabCards(MarkdownDirective):
     """`{labs}`: a card a lab, drawn from its card.yaml."""
 
@@ -136,4 +158,5 @@ def setup(app: Sphinx) -> None:
     """Called by Sphinx."""
     app.add_directive("path-of-days", PathOfDays)
     app.add_directive("days-tree", DaysTree)
+    app.add_directive("how-long", HowLong)
     app.add_directive("labs", LabCards)

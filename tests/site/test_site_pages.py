@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Any
 
 import pytest
 from site_rules import Look, breaches, pages_of
 from two_days_site import Visit
+
+from roslings.course import root
+from roslings.lessons.document import read
+from roslings.lessons.path import Path as DayPath
 
 Axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe
 
@@ -100,6 +105,17 @@ def test_the_front_page_begins_and_tells_where_the_reader_is(visit: Visit) -> No
     assert here.get_attribute("data-day") == "02-nodes"
     page.get_by_role("link", name="Drive a robot in 15 minutes").click()
     page.locator("h1").first.wait_for()
+
+
+def test_the_path_tells_how_long_it_takes(visit: Visit) -> None:
+    """How many days, on the front page, and how many hours and weeks that is."""
+    days = read(root() / "days" / "path.yaml", DayPath).content.days
+    lead = visit.go("index.html").locator(".hero .lead").inner_text()
+    assert lead.startswith(f"{len(days)} days")
+    said = visit.go("reference/faq.html").locator("#how-long-does-it-take").inner_text()
+    hours = sum(day.hours for day in days)
+    assert f"{hours:g} hours in all" in said
+    assert f"{math.ceil(hours / 6)} weeks" in said
 
 
 def test_a_lesson_tells_how_to_open_it(visit: Visit) -> None:

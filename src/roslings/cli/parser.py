@@ -87,7 +87,7 @@ def parser() -> argparse.ArgumentParser:
     top = argparse.ArgumentParser(
         prog="./roslings",
         usage="./roslings [-h] [--version] COMMAND ...",
-        description="Learn ROS 2 Jazzy in seven days.",
+        description="Learn ROS 2 Jazzy day by day.",
         epilog=f"{_listed('for learners', LEARNING)}\n\n"
         f"{_listed('for instructors and authors', TEACHING)}\n\n"
         "Without a command it says what is next.",
