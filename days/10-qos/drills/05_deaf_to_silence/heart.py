@@ -1,4 +1,4 @@
-"""The heart of this drill: four beats, once somebody listens, and then none."""
+"""The heart of this drill: four beats, once the nurse listens, and then none."""
 
 import rclpy
 from rclpy.duration import Duration
@@ -14,7 +14,8 @@ beats = iter([1, 2, 3, 4])
 
 def beat() -> None:
     """One beat more, as long as there are some."""
-    if publisher.get_subscription_count():
+    ears = node.get_subscriptions_info_by_topic("/beat")
+    if any(ear.node_name == "nurse" for ear in ears):
         for number in beats:
             publisher.publish(Int32(data=number))
             return

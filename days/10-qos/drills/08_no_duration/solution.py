@@ -7,12 +7,13 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from std_msgs.msg import Empty
 
+PROMISED = QoSProfile(depth=10, deadline=Duration(seconds=0.5))
+
 
 class ClockTower(Node):
     def __init__(self):
         super().__init__("clock_tower")
-        promised = QoSProfile(depth=10, deadline=Duration(seconds=0.5))
-        self.bell = self.create_publisher(Empty, "bell", promised)
+        self.bell = self.create_publisher(Empty, "bell", PROMISED)
         self.create_timer(0.2, self.ring)
 
     def ring(self):
