@@ -15,8 +15,8 @@ from roslings.notebook.qos_table import Meeting, Table, as_text, meet
 WEAKEST = {rule.name: rule.choices[0].words for rule in RULES}
 STRONGEST = {rule.name: rule.choices[-1].words for rule in RULES}
 PAIRS = [
-    pytest.param(rule, offered.words, asked.words, id=f"{rule.title}: {offered.words}, {asked.words}")
-    for rule in RULES for offered in rule.choices for asked in rule.choices
+    pytest.param(rule, o.words, a.words, id=f"{rule.title}: {o.words}, {a.words}")
+    for rule in RULES for o in rule.choices for a in rule.choices
 ]  # fmt: skip
 
 

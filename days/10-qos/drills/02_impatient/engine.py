@@ -1,4 +1,4 @@
-"""The engine of this drill: it tells its temperature, and promises one message a second."""
+"""The engine of this drill: it tells its temperature, at least once a second."""
 
 import rclpy
 from rclpy.duration import Duration

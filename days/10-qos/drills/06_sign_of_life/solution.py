@@ -1,6 +1,6 @@
 """A keeper: a node called keeper. Beside it runs a lighthouse, which says on /lamp
-that it is lit, once, and later falls asleep. It gives a sign of life at least every 0.5 s
-while it is awake. When it gives none, the keeper must print "the lamp is lost"."""
+that it is lit, once, and later falls asleep. While it is awake, it gives a sign of life
+at least every 0.5 s. Without one, the keeper must print "the lamp is lost"."""
 
 import rclpy
 from rclpy.duration import Duration
