@@ -44,6 +44,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
         glossary_page,
         quizzes,
         path_of_days,
+        qos_table,
         day_box,
         run_box,
         lesson_page,
@@ -51,6 +52,6 @@ def setup(app: Sphinx) -> dict[str, Any]:
         landing,
     ):
         part.setup(app)
-    for part in (doctor_page, qos_table, api, navigation, few_scripts, few_tags, small_scripts, one_sheet):
+    for part in (doctor_page, api, navigation, few_scripts, few_tags, small_scripts, one_sheet):
         part.setup(app)
     return {"version": "1", "parallel_read_safe": False, "parallel_write_safe": True}

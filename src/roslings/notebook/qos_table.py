@@ -97,7 +97,7 @@ def _quiet() -> Any:
 
 
 def _failed(event: Any) -> str:
-    name = event.last_policy_kind.name.removeprefix("RMW_QOS_POLICY_")
+    name = str(event.last_policy_kind.name).removeprefix("RMW_QOS_POLICY_")
     return NAMES.get(name, name.lower())
 
 
