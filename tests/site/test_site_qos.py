@@ -44,7 +44,7 @@ def test_the_pair_stands_there_in_python(visit: Visit) -> None:
     page.locator('select[data-side="asked"]').nth(2).select_option(label="0.2 s")
     assert "asked = QoSProfile(" in code.inner_text()
     assert "deadline=Duration(seconds=0.2)" in code.inner_text()
-    names = {"Duration": lambda seconds: seconds, "QoSProfile": dict}
+    names: dict[str, Any] = {"Duration": lambda seconds: seconds, "QoSProfile": dict}
     policies = ("ReliabilityPolicy", "DurabilityPolicy", "LivelinessPolicy")
     names |= {name: Named() for name in policies}
     exec(code.inner_text(), names)  # it is Python
