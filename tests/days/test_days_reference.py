@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 
 import pytest
-from lesson_runs import days
 
 from roslings.course import root
 
@@ -57,15 +56,6 @@ def test_the_distributions_have_their_dates() -> None:
     assert table["Jazzy"] == (2024, 2029, "24.04")
     assert table["Lyrical"] == (2026, 2031, "26.04")
     assert all(until - begun == 5 for begun, until, _ in table.values())
-
-
-def test_the_hours_are_those_of_the_path() -> None:
-    """In all, and as weeks of lessons of 90 minutes."""
-    hours = sum(day.hours for day in days())
-    text = below("faq", "How long does it take?")
-    assert f"{hours:g} hours in all" in text
-    (weeks,) = re.findall(r"one lesson of 90 minutes a week \| (\d+) weeks", text)
-    assert int(weeks) == round(hours / 1.5)
 
 
 def test_a_picture_is_as_large_as_told() -> None:

@@ -18,6 +18,7 @@ from roslings.notebook.graph import show_graph  # noqa: E402
 from roslings.notebook.image import show_image  # noqa: E402
 from roslings.notebook.intervals import plot_intervals  # noqa: E402
 from roslings.notebook.programs import terminal  # noqa: E402
+from roslings.notebook.qos_table import qos_table  # noqa: E402
 from roslings.notebook.quiz import quiz  # noqa: E402
 from roslings.notebook.rover_map import show_map, show_path  # noqa: E402
 from roslings.notebook.session import Session, session  # noqa: E402
@@ -28,6 +29,7 @@ __all__ = [
     "Session",
     "check",
     "plot_intervals",
+    "qos_table",
     "quiz",
     "session",
     "show_graph",

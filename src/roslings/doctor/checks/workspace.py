@@ -35,7 +35,7 @@ from roslings.doctor.ros import find_ros, has_package, rclpy_under
 
 BUILT_FOLDERS = ("build", "install", "log")
 
-# ROS packages of the days, for machines where the doctor cannot ask an installed ROS.
+# ROS packages of the course, for machines where the doctor cannot ask an installed ROS.
 KNOWN_ROS = frozenset(
     [
         "rclpy",
@@ -60,7 +60,7 @@ KNOWN_ROS = frozenset(
         "action_tutorials_interfaces",
     ]
 )
-# Other imports of the days, with the names that rosdep knows them by.
+# Other imports of the course, with the names that rosdep knows them by.
 ROSDEP_KEYS = {
     "numpy": "python3-numpy",
     "serial": "python3-serial",

@@ -1,0 +1,23 @@
+"""A display: a node called display. It listens to /speed. The wheels publish there
+with a plain 10: reliable, and nothing is kept for those who come late."""
+
+import rclpy
+from rclpy.node import Node
+from std_msgs.msg import Float32
+
+
+class Display(Node):
+    def __init__(self):
+        super().__init__("display")
+        self.create_subscription(Float32, "speed", self.show, 10)
+
+    def show(self, speed):
+        print(f"{speed.data:.1f} m/s")
+
+
+def main():
+    rclpy.init()
+    rclpy.spin(Display())
+
+
+main()
