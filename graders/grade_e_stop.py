@@ -318,8 +318,8 @@ def test_silent(guarding: ExperimentView) -> None:
 def test_lost(losing: ExperimentView) -> None:
     """The button hangs or ends: it stops within {STOPS[lost].within_s:g} s, until one is back."""
     losing.must(
-        stop_for(CMD_VEL, "lost", STOPS["lost"].within_s),
         drive(CMD_VEL, "lost, again", deadline_s=DEADLINE_S, again=True),
+        stop_for(CMD_VEL, "lost", STOPS["lost"].within_s),
     )
 
 
