@@ -345,9 +345,9 @@ def test_far(apart: ExperimentView) -> None:
     apart.must(
         on_two_computers(
             drive(CMD_VEL, "far", deadline_s=DEADLINE_S, steadily=False),
+            drive(CMD_VEL, "far, again", deadline_s=DEADLINE_S, again=True, steadily=False),
             stop_for(CMD_VEL, FAR, HOSTS.stops_within_s),
             stop_for(CMD_VEL, CUT, HOSTS.stops_within_s),
-            drive(CMD_VEL, "far, again", deadline_s=DEADLINE_S, again=True, steadily=False),
         )
     )
 
