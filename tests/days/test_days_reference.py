@@ -10,7 +10,7 @@ from roslings.course import root
 
 PAGES = root() / "site" / "pages" / "reference"
 ANSWERS = [
-    ("faq", "How long does it take?", "weeks"),
+    ("faq", "How long does it take?", "how-long"),
     ("faq", "Can Windows stay on my computer?", "Dual boot"),
     ("faq", "My robot and WSL do not find each other", "networkingMode=mirrored"),
     ("faq", "Letters look broken, or Python speaks of ASCII", "locale-gen"),

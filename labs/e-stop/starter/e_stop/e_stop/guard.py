@@ -61,7 +61,7 @@ class Guard(Node):
     def tell_reason(self):
         """Write why the rover stops, when that is new."""
         # TODO 18: find the reason, and write it where it is another one than
-        #          before. Call this function at the end of TODO 12 to 15.
+        #          before. Call this function at the end of the four above.
 
 
 def main(args=None):
