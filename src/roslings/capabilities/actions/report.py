@@ -7,11 +7,11 @@ from collections.abc import Iterator, Sequence
 
 from roslings.capabilities.actions.record import ActionsSeen, GoalSeen
 from roslings.evidence import Evidence, ExperimentSeen
+from roslings.rates import NS_PER_S
 from roslings.report.html.markup import Markup, tag
 from roslings.report.html.scale import time_text
 from roslings.report.html.timeline_svg import Bar, Line, Look, counted, fields_text, table, timeline
 
-NS_PER_S = 1e9
 MOST_GOALS = 30
 HEAD = ("goal", "end", "after", "feedback", "fields", "result")
 

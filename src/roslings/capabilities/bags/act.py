@@ -18,6 +18,7 @@ from roslings.devices.rover.black_box import write_drive
 from roslings.experiment.own_time import PATIENCE_S, OwnTime
 from roslings.experiment.scene import Scene
 from roslings.models.drives import held
+from roslings.models.drives.recording import of_topic
 from roslings.models.drives.unknown import Drive, unknown_drive, without
 
 READS_WITHIN_S = 30.0
@@ -83,7 +84,7 @@ class Giver:
 
 def holding(drive: Drive, reader: BagReaderContract) -> DriveHeld:
     """The truth about a drive."""
-    odometry = [each for each in drive.said if each.topic == reader.odometry]
+    odometry = of_topic(drive.said, reader.odometry)
     names = [topic.name for topic in drive.topics]
     return DriveHeld(
         duration_s=held.duration_s(drive.said),
@@ -99,6 +100,6 @@ def holding(drive: Drive, reader: BagReaderContract) -> DriveHeld:
 
 
 def _topic(drive: Drive, name: str) -> TopicHeld:
-    times = [each.time_ns for each in drive.said if each.topic == name]
+    times = [each.time_ns for each in of_topic(drive.said, name)]
     usual_s = held.usual_period_s(times)
     return TopicHeld(name=name, count=len(times), rate_hz=1 / usual_s if usual_s else 0.0)

@@ -27,8 +27,8 @@ from roslings.course import NodeContract, TopicContract
 from roslings.judge.demands import most_similar, require_its_time, require_steady, written
 from roslings.judge.faults import Inconclusive, NothingToJudge, NoTopic
 from roslings.judge.views import Demand, ExperimentView, ProcessView
+from roslings.rates import NS_PER_S
 
-NS_PER_S = 1e9
 SAME_NS = 1_000_000
 DROVE_NS = 1_000_000_000
 """So shortly before a reason to stop it must have driven."""

@@ -6,11 +6,11 @@ from collections.abc import Iterator, Sequence
 
 from roslings.capabilities.qos.record import HostsSeen, JoinSeen, MoveSeen, QosSeen, StopSeen
 from roslings.evidence import Evidence, ExperimentSeen
+from roslings.rates import NS_PER_S
 from roslings.report.html.markup import Markup, tag
 from roslings.report.html.scale import time_text
 from roslings.report.html.timeline_svg import Bar, Line, counted, fields_text, table, timeline
 
-NS_PER_S = 1e9
 LONGEST_PAUSE_NS = 300_000_000
 """Motors that hear nothing for longer are not shown as running."""
 

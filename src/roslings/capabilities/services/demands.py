@@ -24,9 +24,7 @@ from roslings.judge.faults import EndedWithError, Inconclusive, NothingToJudge, 
 from roslings.judge.views import Demand, ExperimentView, ProcessView, TopicView
 from roslings.judge.words import describe_end
 from roslings.matching import nearest, nearest_endpoint
-
-NS_PER_S = 1e9
-
+from roslings.rates import NS_PER_S
 
 # --- who serves what ---------------------------------------------------------------------------
 

@@ -7,11 +7,11 @@ from itertools import groupby
 
 from roslings.capabilities.services.record import CallSeen, ServicesSeen
 from roslings.evidence import Evidence, ExperimentSeen
+from roslings.rates import NS_PER_S
 from roslings.report.html.markup import Markup, tag
 from roslings.report.html.scale import time_text
 from roslings.report.html.timeline_svg import Bar, Line, counted, fields_text, table, timeline
 
-NS_PER_S = 1e9
 FEW = 4
 """So many calls of one kind are told one by one; of more, the slowest alone."""
 MOST_ROWS = 40

@@ -15,8 +15,8 @@ from roslings.judge.demands import insist_on_at_most, most_similar, written
 from roslings.judge.faults import Inconclusive, NothingToJudge, NotLogged
 from roslings.judge.views import Demand, ExperimentView, ProcessView, TopicView
 from roslings.matching import nearest_endpoint
+from roslings.rates import NS_PER_S
 
-NS_PER_S = 1e9
 FRESH_S = 1.0
 LONGEST_PAUSE_S = 0.1
 CLOSE = 1e-3

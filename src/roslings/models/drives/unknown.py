@@ -55,10 +55,8 @@ def unknown_drive(seed: int, odometry: str, gap_periods: float) -> Drive:
     plan = DrivePlan(
         f"{seed}", start_ns, pieces, (), Pose(*(chance.around(0, 3) for _ in range(3)))
     )
-    topics = tuple(_topics(chance, odometry, plan.seconds, gap_periods))
-    driven = as_drive(plan, tuple(recorded(replace(plan, topics=topics))))
-    return _with_others(Drive(tuple(Held(t.name, t.sheet.type, t.reliable) for t in topics),
-                              driven.said), plan, chance)  # fmt: skip
+    plan = replace(plan, topics=tuple(_topics(chance, odometry, plan.seconds, gap_periods)))
+    return _with_others(as_drive(plan, tuple(recorded(plan))), chance)
 
 
 def without(drive: Drive, topic: str) -> Drive:
@@ -98,7 +96,7 @@ def _topics(chance: Chance, odometry: str, seconds: float, limit: float) -> Iter
         )  # fmt: skip
 
 
-def _with_others(drive: Drive, plan: DrivePlan, chance: Chance) -> Drive:
+def _with_others(drive: Drive, chance: Chance) -> Drive:
     """And a topic said once, one never said, one of a strange type, and another one's odometry."""
     first, last = drive.said[0].time_ns, drive.said[-1].time_ns
     others = (
