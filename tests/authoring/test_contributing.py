@@ -47,7 +47,7 @@ def changed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Lab:
 
 def give_points(card: Path) -> None:
     """As the walk says: from one check to the other; its comment tells what was there."""
-    lines = block("yaml", NAME)
+    lines = block("yaml", f"{NAME}: ")
     ((check, _, was),) = re.findall(r"(\w+): (\d+) +# was (\d+)", lines)
     text = card.read_text("utf-8")
     assert re.search(rf"  {check}: {was}\b", text), "the card has other points by now"
