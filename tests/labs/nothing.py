@@ -30,6 +30,10 @@ def main():
         rclpy.try_shutdown()
 """
 
+NO_NODE = """def main():
+    pass
+"""
+
 
 @dataclass(frozen=True)
 class Nothing:
@@ -78,9 +82,9 @@ def make_empty(package: Path) -> None:
 
 
 def make_idle(package: Path, lab: Lab) -> None:
-    """Each program makes a node of the right name, and nothing else."""
-    scripts = inspect_package(package, lab.card).entry_points
-    for node in lab.card.nodes:
-        module = scripts[node.executable].partition(":")[0].replace(".", "/")
-        name = node.node.rpartition("/")[2]
-        (package / f"{module}.py").write_text(IDLE.format(name=name), "utf-8")
+    """Each program makes a node of the right name, and nothing else; or not even that."""
+    names = {node.executable: node.node.rpartition("/")[2] for node in lab.card.nodes}
+    for script, place in inspect_package(package, lab.card).entry_points.items():
+        module = place.partition(":")[0].replace(".", "/")
+        code = IDLE.format(name=names[script]) if script in names else NO_NODE
+        (package / f"{module}.py").write_text(code, "utf-8")

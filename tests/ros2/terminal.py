@@ -162,7 +162,9 @@ def ours(*words: str) -> list[str]:
 def surroundings(domain: int, home: Path) -> Environment:
     """A clean terminal: nothing of ROS is set but the domain, and home is empty."""
     kept = {
-        k: v for k, v in os.environ.items() if not k.startswith(("ROS", "RMW", "FAST", "AMENT"))
+        name: value
+        for name, value in os.environ.items()
+        if not name.startswith(("ROS", "RMW", "RCUTILS", "FAST", "AMENT"))
     }
     return kept | {
         "ROS_DOMAIN_ID": str(domain),

@@ -114,6 +114,15 @@ def test_each_rule_has_its_own_words(
     assert type(caught.value) is kind
 
 
+def test_who_does_not_have_a_parameter_refuses_nothing() -> None:
+    """ROS refuses a name that nobody declared: that is no merit of the node."""
+    lists = {"/it": ["high", "low", "beat", "nane"]}
+    seen = view(trial(False, {"name": "other"}), graph=GraphSeen(nodes=["/it"], endpoints=[]))
+    seen.seen.part(ParametersSeen).names.update(lists)
+    with pytest.raises(faults.NoParameter, match="nane"):
+        seen.must(take_what_its_card_allows(NODE, "p"))
+
+
 def test_two_that_fit_are_refused() -> None:
     """The hint speaks of the list."""
     with pytest.raises(faults.RefusedTogether, match="refuses: no"):

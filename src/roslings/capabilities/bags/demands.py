@@ -23,6 +23,7 @@ from roslings.capabilities.bags.faults import (
     ReadingFails,
     ReadingNeverEnds,
     RefusalMissing,
+    TellsNothing,
     TooFewFound,
     UnknownTopicTold,
     UnreadableDiagnosis,
@@ -98,7 +99,7 @@ def _reading(experiment: ExperimentView, reader: BagReaderContract, label: str) 
 
 
 def read_to_the_end(reader: BagReaderContract, label: str, of: str) -> Demand[ExperimentView]:
-    """It ends by itself, with exit code 0."""
+    """It ends by itself, with exit code 0, and has told something."""
 
     def demand(experiment: ExperimentView) -> None:
         process = _reading(experiment, reader, label).process
@@ -106,6 +107,8 @@ def read_to_the_end(reader: BagReaderContract, label: str, of: str) -> Demand[Ex
         if process.seen.status != 0:
             how, log = describe_end(process.seen), process.last_lines()
             raise ReadingFails(reader.executable, how, of, log=log)
+        if not process.texts:
+            raise TellsNothing(reader.executable, of)
 
     return demand
 

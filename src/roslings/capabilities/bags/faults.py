@@ -37,6 +37,21 @@ class ReadingNeverEnds(Fault):
 
 
 @dataclass(eq=False)
+class TellsNothing(Fault):
+    """The program ends well, and has written nothing."""
+
+    executable: str
+    of: str
+    why = "Nobody can see what a silent program has read."
+    expected = "{executable} reads {of}, and writes lines about it"
+    measured = "it ended with exit code 0, and wrote no line"
+    hint = (
+        "Does main() call the function that reads the bag, and is there a print()? Begin with the"
+        " first line of the card."
+    )
+
+
+@dataclass(eq=False)
 class LineMissing(Fault):
     """No line of the program is like the one of the card."""
 

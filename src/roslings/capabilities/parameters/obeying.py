@@ -9,6 +9,7 @@ from typing import Any
 
 from roslings.capabilities.parameters import faults
 from roslings.capabilities.parameters.contract import ParameterContract
+from roslings.capabilities.parameters.demands import has_parameter
 from roslings.capabilities.parameters.record import ParametersSeen, ParameterTrial, Values
 from roslings.capabilities.topics.relay import Shown, Turn, field_of, same, shown, turns
 from roslings.course import NodeContract, TopicContract
@@ -45,6 +46,7 @@ def take_what_its_card_allows(node: NodeContract, part: str) -> Demand[Experimen
 
     def demand(experiment: ExperimentView) -> None:
         for trial in trials_of(experiment, part):
+            _insist_on_its_parameters(experiment, node, trial)
             _require_answer(experiment, node, trial)
             rule = rule_against(node, trial)
             if rule:
@@ -87,6 +89,15 @@ def _unfitting(node: NodeContract, values: Mapping[str, Any]) -> Rule | None:
             words = f"{parameter.name} is never above {parameter.not_above}"
             return Rule(words, faults.RuleBroken)
     return None
+
+
+def _insist_on_its_parameters(
+    experiment: ExperimentView, node: NodeContract, trial: ParameterTrial
+) -> None:
+    """Raises NoParameter: a node refuses what it does not have, and that proves nothing."""
+    if experiment.seen.part(ParametersSeen).names.get(trial.node):
+        for name in trial.asked:
+            experiment.must(has_parameter(node, node.parameter(name)))
 
 
 def _require_answer(experiment: ExperimentView, node: NodeContract, trial: ParameterTrial) -> None:
