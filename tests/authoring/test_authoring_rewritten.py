@@ -255,7 +255,7 @@ def made() -> dict[str, list[Rewritten]]:
 
 
 def test_each_rewrite_applies_to_some_lab(made: dict[str, list[Rewritten]]) -> None:
-    """And each lab has a dozen at least, and its combinations; half of it where there is no node."""
+    """And each lab has a dozen at least, and its combinations; half of it where no node is."""
     used = {each.made.name for packages in made.values() for each in packages}
     assert set(REWRITES) <= used
     for name, packages in made.items():

@@ -15,12 +15,7 @@ from bags import BEGIN_NS, STEP_NS, TOPICS, TYPES, raw, read_by_mcap, read_by_ro
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 
 from roslings.rosbag2.choosing import BadExpression, Choice
-from roslings.rosbag2.files import LEAST_SPLIT
-from roslings.rosbag2.metadata import Topic
-from roslings.rosbag2.quality import BadOverrides, overrides
-from roslings.rosbag2.reading import opened, read_metadata
-from roslings.rosbag2.reindexing import reindex
-from roslings.rosbag2.trouble import (
+from roslings.rosbag2.errors import (
     BadName,
     BagThere,
     CannotWrite,
@@ -29,6 +24,11 @@ from roslings.rosbag2.trouble import (
     NoMetadata,
     TooSmall,
 )
+from roslings.rosbag2.files import LEAST_SPLIT
+from roslings.rosbag2.metadata import Topic
+from roslings.rosbag2.quality import BadOverrides, overrides
+from roslings.rosbag2.reading import opened, read_metadata
+from roslings.rosbag2.reindexing import reindex
 from roslings.rosbag2.writing import BagWriter, Compression, Plan
 
 STORAGES = ("mcap", "sqlite3")
@@ -142,7 +142,7 @@ import resource, sys
 sys.path.insert(0, {here!r})
 from pathlib import Path
 from bags import TOPICS, raw, said
-from roslings.rosbag2.trouble import CannotWrite
+from roslings.rosbag2.errors import CannotWrite
 from roslings.rosbag2.writing import BagWriter, Plan
 resource.setrlimit(resource.RLIMIT_FSIZE, (1_500_000, 1_500_000))
 writer = BagWriter(Path(sys.argv[1]), Plan(sys.argv[2]))

@@ -4,7 +4,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from roslings.bootstrap.environment import Wish, make_ready
+from roslings.bootstrap.environment import EnvironmentRequest, make_ready
 from roslings.bootstrap.errors import Trouble, of_the_disk, say
 from roslings.bootstrap.pins import write_pins
 from roslings.bootstrap.place import Place
@@ -31,7 +31,7 @@ def main(words: Sequence[str]) -> int:
 def _run(words: Sequence[str]) -> int:
     verb, *rest = words
     if verb == "ready":
-        make_ready(ROOT, Wish(command=rest[0], groups=tuple(rest[1:])))
+        make_ready(ROOT, EnvironmentRequest(command=rest[0], groups=tuple(rest[1:])))
     elif verb == "wheels":
         fill(Place(ROOT), rest)
     elif verb == "pins":

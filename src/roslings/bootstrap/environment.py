@@ -24,15 +24,15 @@ from roslings.bootstrap.virtual import Virtual
 
 
 @dataclass(frozen=True)
-class Wish:
+class EnvironmentRequest:
     """What a command asks for."""
 
     command: str
     groups: tuple[str, ...]
 
 
-def make_ready(root: Path, wish: Wish) -> None:
-    """Afterwards the environment in `root` holds the groups of `wish`.
+def make_ready(root: Path, request: EnvironmentRequest) -> None:
+    """Afterwards the environment in `root` holds the groups of `request`.
 
     Raises:
         Trouble: it cannot be made here; an environment that stood before still stands.
@@ -41,7 +41,7 @@ def make_ready(root: Path, wish: Wish) -> None:
     require_usable(root)
     if not ros:
         require_wheels(this_machine())
-    work = _Work(Place(root, ".venv-apt" if ros else ".venv"), wish, ros, _wheels())
+    work = _Work(Place(root, ".venv-apt" if ros else ".venv"), request, ros, _wheels())
     with locked(work.place.lock):
         work.do()
 
@@ -62,7 +62,7 @@ def _wheels() -> Path | None:
 @dataclass(frozen=True)
 class _Work:
     place: Place
-    wish: Wish
+    request: EnvironmentRequest
     ros: SourcedRos | None
     wheels: Path | None
 
@@ -76,7 +76,7 @@ class _Work:
 
     def do(self) -> None:
         self._mend_move()
-        if self.record.holds(self.wish.groups) and self.virtual.runs():
+        if self.record.holds(self.request.groups) and self.virtual.runs():
             return  # another ./roslings was quicker
         stood = self.record.complete
         try:
@@ -103,7 +103,7 @@ class _Work:
 
     def _make(self) -> None:
         started_s = time.monotonic()
-        if GROUP in self.wish.groups:
+        if GROUP in self.request.groups:
             self._interfaces().require_compiler()
         if not self.virtual.runs():
             self._start_anew()
@@ -111,7 +111,7 @@ class _Work:
             say("The last set-up was interrupted. Mending it.")
             forget_damaged(self.virtual.site)
         self.virtual.see(self.place.root)
-        groups = {*self.record.groups, *self.wish.groups}
+        groups = {*self.record.groups, *self.request.groups}
         self._install(self._to_install())
         if GROUP in groups:
             self._interfaces().build()
@@ -127,7 +127,7 @@ class _Work:
 
     def _to_install(self) -> list[str]:
         """The groups wanted now or before, without those that the sourced ROS brings."""
-        wanted = [*self.wish.groups, *sorted(self.record.groups - set(self.wish.groups))]
+        wanted = [*self.request.groups, *sorted(self.record.groups - set(self.request.groups))]
         return [group for group in wanted if group not in self._from_ros()]
 
     def _from_ros(self) -> set[str]:
@@ -153,7 +153,7 @@ class _Work:
         if self.wheels:
             say(f"Installing from {self.wheels}, with no network.")
         elif mb:
-            say(f"`{self.wish.command}` needs up to {mb:.0f} MB from the network, once.")
+            say(f"`{self.request.command}` needs up to {mb:.0f} MB from the network, once.")
 
     def _wheels_of(self, packages: Sequence[str], groups: Sequence[str]) -> Path:
         if self.wheels:

@@ -26,7 +26,7 @@ class Heard:
 
 
 @dataclass(frozen=True)
-class Wish:
+class ListenRequest:
     """What to listen for."""
 
     topic: str
@@ -42,25 +42,25 @@ class Ear:
     def __init__(self, node: Any, executor: Any, check: Callable[[], None]) -> None:
         self._node, self._executor, self._check = node, executor, check
 
-    def hear(self, wish: Wish) -> Iterator[Heard]:
-        """`wish.count` messages as they come. Raises NothingHeard, and what a callback raised."""
+    def hear(self, request: ListenRequest) -> Iterator[Heard]:
+        """As many messages as asked, as they come. Raises NothingHeard, or what a callback does."""
         from roslings.ros2.names import checked_topic
 
-        topic = checked_topic(wish.topic)
+        topic = checked_topic(request.topic)
         came: list[Heard] = []
         told = 0
-        end_s = time.monotonic() + wish.timeout_s
+        end_s = time.monotonic() + request.timeout_s
         listening = None
-        while told < wish.count:
-            if listening is None and (kind := wish.kind or self._kind_of(topic)) is not None:
+        while told < request.count:
+            if listening is None and (kind := request.kind or self._kind_of(topic)) is not None:
                 listening = self._listen(topic, kind, came)
             self._check()
             self._executor.spin_once(timeout_sec=TURN_S)
-            yield from came[told : wish.count]
-            told = min(len(came), wish.count)
-            if told < wish.count and time.monotonic() > end_s:
-                hint = self._why_so_few(topic, wish.kind, told)
-                raise NothingHeard(topic, told, wish.count, wish.timeout_s, hint)
+            yield from came[told : request.count]
+            told = min(len(came), request.count)
+            if told < request.count and time.monotonic() > end_s:
+                hint = self._why_so_few(topic, request.kind, told)
+                raise NothingHeard(topic, told, request.count, request.timeout_s, hint)
 
     def _kind_of(self, topic: str) -> Any | None:
         from roslings.ros2.interfaces import class_of

@@ -75,7 +75,7 @@ class Session:
         from roslings.notebook.default_context import as_default
         from roslings.notebook.hearing import quiet_node
         from roslings.notebook.in_order import wait_while_sending
-        from roslings.notebook.spinning import Crew
+        from roslings.notebook.spinning import SpinThreads
 
         wait_while_sending()
 
@@ -86,7 +86,7 @@ class Session:
             signal_handler_options=SignalHandlerOptions.NO,
         )  # fmt: skip
         things.enter_context(as_default(self.context))
-        self._spinning = Crew(self.context)
+        self._spinning = SpinThreads(self.context)
         things.callback(self._end_nodes)
         self._voice = quiet_node("_notebook", self.context)
         self._publishers: dict[tuple[str, Any], Any] = {}
@@ -192,11 +192,11 @@ class Session:
         self, topic: str, kind: Any = None, *, count: int = 5, timeout_s: float = USUALLY_S
     ) -> Iterator[Heard]:
         """As `collect`, one message at a time, as they come."""
-        from roslings.notebook.hearing import Wish, ear
+        from roslings.notebook.hearing import ListenRequest, ear
 
         self._spinning.check()
         with ear(self.context, self._spinning.check) as listener:
-            yield from listener.hear(Wish(topic, kind, count, timeout_s))
+            yield from listener.hear(ListenRequest(topic, kind, count, timeout_s))
 
     def say(
         self,

@@ -86,7 +86,7 @@ class Spinning:
             self._ended = True
 
 
-class Crew:
+class SpinThreads:
     """All that spins in a session: the shared executor, and those of nodes with threads of theirs.
 
     Must be stopped by `stop`; nothing is left of it then.

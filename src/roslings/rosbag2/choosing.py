@@ -6,10 +6,10 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from roslings.rosbag2.trouble import BagTrouble
+from roslings.rosbag2.errors import BagError
 
 
-class BadExpression(BagTrouble):
+class BadExpression(BagError):
     """A regular expression that is none."""
 
     def __init__(self, text: str, why: str) -> None:

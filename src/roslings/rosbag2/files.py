@@ -20,8 +20,8 @@ from rosbags.rosbag2 import CompressionMode
 from rosbags.rosbag2.storage_mcap import Channel, McapWriter, Schema
 from rosbags.rosbag2.storage_sqlite3 import Sqlite3Writer
 
+from roslings.rosbag2.errors import BadName
 from roslings.rosbag2.metadata import VERSION, Metadata, as_plain
-from roslings.rosbag2.trouble import BadName
 
 MAGIC = b"\x89MCAP0\r\n"
 """Begins and ends a file (mcap.dev/spec)."""

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from roslings.rosbag2.trouble import BagTrouble, reason_of
+from roslings.rosbag2.errors import BagError, reason_of
 
 DURATIONS = ("deadline", "lifespan", "liveliness_lease_duration")
 POLICIES = {
@@ -25,7 +25,7 @@ BETTER = (("reliability", "RELIABLE", "BEST_EFFORT"), ("durability", "TRANSIENT_
 """Policy, the better quality, and the lesser one, which any publisher can give."""
 
 
-class BadOverrides(BagTrouble):
+class BadOverrides(BagError):
     """The file with profiles for single topics is wrong."""
 
     def __init__(self, file: Path, why: str) -> None:

@@ -7,10 +7,10 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from roslings.rosbag2.errors import Damaged, NoBag, NoMetadata, reason_of
 from roslings.rosbag2.metadata import NAME, ROOT, File, Metadata, from_plain
 from roslings.rosbag2.packing import BROKEN
 from roslings.rosbag2.reindexing import STORAGES, span_of, storage_files, topics_of
-from roslings.rosbag2.trouble import Damaged, NoBag, NoMetadata, reason_of
 
 Message = tuple[str, int, bytes]
 """The topic, when the message came (ns since 1970), and its bytes as ROS serialises them."""

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from roslings.rosbag2.errors import NoBag, reason_of
 from roslings.rosbag2.files import mended
 from roslings.rosbag2.metadata import ENDINGS, NAME, File, Metadata, Span, Topic, as_yaml
 from roslings.rosbag2.packing import (
@@ -22,7 +23,6 @@ from roslings.rosbag2.packing import (
     packed_file,
     unpack_file,
 )
-from roslings.rosbag2.trouble import NoBag, reason_of
 
 STORAGES = {ending: name for name, ending in ENDINGS.items()}
 

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from roslings.rosbag2.definition import definition_of
+from roslings.rosbag2.errors import BagError, BagThere, CannotWrite, TooSmall
 from roslings.rosbag2.files import LEAST_SPLIT, StorageFile, new_file
 from roslings.rosbag2.metadata import (
     ENDINGS,
@@ -24,7 +25,6 @@ from roslings.rosbag2.metadata import (
 )
 from roslings.rosbag2.packing import ZSTD, packed, packed_file
 from roslings.rosbag2.reindexing import place_of_metadata, reindex, write_metadata
-from roslings.rosbag2.trouble import BagThere, BagTrouble, CannotWrite, TooSmall
 
 Compression = Literal["none", "file", "message"]
 
@@ -151,18 +151,18 @@ class BagWriter:
     def _guarded(self, step: Any) -> None:
         try:
             step()
-        except (BagTrouble, *FAULTS) as fault:
+        except (BagError, *FAULTS) as fault:
             self._failed = True
             if self._closed:
                 self._save_what_is_left()
-            if isinstance(fault, BagTrouble):
+            if isinstance(fault, BagError):
                 raise
             raise CannotWrite(self.folder, fault) from fault
 
     def _save_what_is_left(self) -> None:
         with suppress(*FAULTS):
             self._storage.abort()
-        with suppress(BagTrouble, *FAULTS):
+        with suppress(BagError, *FAULTS):
             reindex(self.folder)
 
     def _begin(self) -> None:

@@ -23,7 +23,7 @@ STRANGE = bytes(24)
 def write_drive(
     drive: Drive, folder: Path, storage: str = "mcap", split_after_s: float = 0.0
 ) -> None:
-    """Make the folder, and the bag in it. Raises BagTrouble."""
+    """Make the folder, and the bag in it. Raises BagError."""
     from rclpy.serialization import serialize_message
 
     bag = BagWriter(folder, Plan(storage=storage, max_duration_s=split_after_s))

@@ -8,7 +8,7 @@ from roslings.devices.errors import DeviceTrouble
 from roslings.devices.rover.black_box import write_drive
 from roslings.models.drives.sick_rover import NoName, sick_rover
 from roslings.models.drives.unknown import as_drive
-from roslings.rosbag2.trouble import BagTrouble
+from roslings.rosbag2.errors import BagError
 
 
 class NeedsName(DeviceTrouble):
@@ -24,7 +24,7 @@ class NeedsName(DeviceTrouble):
 class CannotWriteBag(DeviceTrouble):
     """The bag cannot be written there."""
 
-    def __init__(self, trouble: BagTrouble) -> None:
+    def __init__(self, trouble: BagError) -> None:
         super().__init__(f"{trouble}\nGive another place: --to FOLDER")
 
 
@@ -39,6 +39,6 @@ def write_sick_rover(name: str, folder: Path) -> float:
         raise NeedsName from None
     try:
         write_drive(as_drive(rover.plan, tuple(rover.said)), folder)
-    except BagTrouble as trouble:
+    except BagError as trouble:
         raise CannotWriteBag(trouble) from trouble
     return rover.plan.seconds

@@ -6,13 +6,13 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from roslings.ros2.problem import Problem, did_you_mean
-from roslings.rosbag2.trouble import BagTrouble
+from roslings.rosbag2.errors import BagError
 
 
 class BagProblem(Problem):
     """A trouble with the bag, in the form of the real command."""
 
-    def __init__(self, trouble: BagTrouble | str) -> None:
+    def __init__(self, trouble: BagError | str) -> None:
         super().__init__(f"[ERROR] [ros2bag]: {trouble}")
 
 
@@ -40,5 +40,5 @@ def told() -> Iterator[None]:
     """A trouble with a bag in the block is a problem of the command. Raises BagProblem."""
     try:
         yield
-    except BagTrouble as trouble:
+    except BagError as trouble:
         raise BagProblem(trouble) from trouble

@@ -19,9 +19,9 @@ from roslings.ros2.names import checked_topic, is_hidden
 from roslings.ros2.problem import Problem, did_you_mean
 from roslings.ros2.words import OK
 from roslings.rosbag2.choosing import Choice
+from roslings.rosbag2.errors import BagError, BagThere
 from roslings.rosbag2.metadata import Topic
 from roslings.rosbag2.quality import asked, kept, overrides
-from roslings.rosbag2.trouble import BagThere, BagTrouble
 from roslings.rosbag2.writing import BagWriter, Plan
 
 STORAGE = "rosbag2_storage"
@@ -185,7 +185,7 @@ class Recorder:
         self._paused: bool = options.start_paused
         self._asked: set[str] = set()
         self._refused: set[str] = set()
-        self._fault: BagTrouble | None = None
+        self._fault: BagError | None = None
 
     def run(self, keyboard: Keyboard | None = None) -> None:
         """Record until somebody stops it. Raises CannotWrite."""
@@ -278,7 +278,7 @@ class Recorder:
             return
         try:
             self._writer.write(topic, time_ns, raw)
-        except BagTrouble as fault:
+        except BagError as fault:
             self._fault = fault
 
     def _time_ns(self, info: Any) -> int:

@@ -6,8 +6,8 @@ import argparse
 
 from roslings.ros2.bag.problem import BagProblem, told
 from roslings.ros2.words import OK
+from roslings.rosbag2.errors import reason_of
 from roslings.rosbag2.reindexing import reindex
-from roslings.rosbag2.trouble import reason_of
 
 
 def reindex_bag(options: argparse.Namespace) -> int:

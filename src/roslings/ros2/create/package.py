@@ -1,4 +1,4 @@
-"""`ros2 pkg create`: look whether the wish can be fulfilled, tell it, write the files."""
+"""`ros2 pkg create`: look whether the request can be fulfilled, tell it, write the files."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-from roslings.ros2.create.texts import Wish, files_of
+from roslings.ros2.create.texts import PackageRequest, files_of
 from roslings.ros2.packages import packages
 from roslings.ros2.problem import Problem, did_you_mean
 from roslings.ros2.words import OK
@@ -74,16 +74,16 @@ class Maintainer:
 def create_package(options: argparse.Namespace) -> int:
     """Create the package that `options` ask for."""
     _check(options)
-    wish = _wish(options)
-    root = Path(options.destination_directory) / wish.package
+    request = _request(options)
+    root = Path(options.destination_directory) / request.package
     if root.exists():
         raise AlreadyThere(root)
-    print("\n".join(_summary(wish, options)))
+    print("\n".join(_summary(request, options)))
     try:
-        _write(root, wish)
+        _write(root, request)
     except OSError as fault:
         raise CannotWrite(fault) from fault
-    _warn(wish)
+    _warn(request)
     return OK
 
 
@@ -108,14 +108,14 @@ def _check_package(name: str) -> None:
         raise BadPackageName(name, "Python itself has something of that name. Choose another one")
 
 
-def _wish(options: argparse.Namespace) -> Wish:
+def _request(options: argparse.Namespace) -> PackageRequest:
     who = _maintainer(options)
     node, library = options.node_name, options.library_name
     if node and node == library:
         node = f"{node}_node"
         print("[WARNING] node name can not be equal to the library name", file=sys.stderr)
         print(f"[WARNING] renaming node to {node}", file=sys.stderr)
-    return Wish(
+    return PackageRequest(
         package=options.package_name,
         format=options.package_format,
         description=options.description,
@@ -151,38 +151,38 @@ def _git_email() -> str:
     return done.stdout.strip()
 
 
-def _summary(wish: Wish, options: argparse.Namespace) -> list[str]:
+def _summary(request: PackageRequest, options: argparse.Namespace) -> list[str]:
     return [
         "going to create a new package",
-        f"package name: {wish.package}",
+        f"package name: {request.package}",
         f"destination directory: {Path(options.destination_directory).resolve()}",
-        f"package format: {wish.format}",
+        f"package format: {request.format}",
         "version: 0.0.0",
-        f"description: {wish.description}",
-        f"maintainer: {[f'{wish.maintainer} <{wish.email}>']}",
-        f"licenses: {[wish.license]}",
+        f"description: {request.description}",
+        f"maintainer: {[f'{request.maintainer} <{request.email}>']}",
+        f"licenses: {[request.license]}",
         "build type: ament_python",
-        f"dependencies: {list(wish.dependencies)}",
-        *([f"node_name: {wish.node}"] if wish.node else []),
-        *([f"library_name: {wish.library}"] if wish.library else []),
+        f"dependencies: {list(request.dependencies)}",
+        *([f"node_name: {request.node}"] if request.node else []),
+        *([f"library_name: {request.library}"] if request.library else []),
     ]
 
 
-def _write(root: Path, wish: Wish) -> None:
+def _write(root: Path, request: PackageRequest) -> None:
     """Write every file, and tell each file and folder as it is made."""
-    _make_folder(root, wish)
-    for name, text in files_of(wish):
+    _make_folder(root, request)
+    for name, text in files_of(request):
         place = root / name
         folder = place if name.endswith("/") else place.parent
         if not folder.exists():
-            _make_folder(folder, wish)
+            _make_folder(folder, request)
         if place != folder:
             print(f"creating {_shown(place)}")
             place.write_text(text, encoding="utf-8")
 
 
-def _make_folder(folder: Path, wish: Wish) -> None:
-    if folder.name == wish.package and folder.parent.name == wish.package:
+def _make_folder(folder: Path, request: PackageRequest) -> None:
+    if folder.name == request.package and folder.parent.name == request.package:
         print("creating source folder")
     print(f"creating folder {_shown(folder)}")
     folder.mkdir(parents=True)
@@ -192,17 +192,17 @@ def _shown(place: Path) -> str:
     return str(place) if place.is_absolute() else f"./{place}"
 
 
-def _warn(wish: Wish) -> None:
+def _warn(request: PackageRequest) -> None:
     """What will trip up a beginner later."""
     there = packages()
-    for name in wish.dependencies:
+    for name in request.dependencies:
         if name not in there:
             near = did_you_mean(name, there)
             print(f"[WARNING]: no package '{name}' is installed here.{near}", file=sys.stderr)
-    if wish.package in there:
-        print(f"[WARNING]: a package '{wish.package}' is installed already;"
+    if request.package in there:
+        print(f"[WARNING]: a package '{request.package}' is installed already;"
               " yours will hide it where both are sourced.", file=sys.stderr)  # fmt: skip
-    if wish.license.startswith("TODO"):
+    if request.license.startswith("TODO"):
         print("\n[WARNING]: Unknown license 'TODO: License declaration'. This has been set in"
               " package.xml.\nBefore you publish the package, choose one there, for example"
               " Apache-2.0.")  # fmt: skip

@@ -10,7 +10,7 @@ TEST_DEPENDENCIES = ("ament_copyright", "ament_flake8", "ament_pep257", "python3
 
 
 @dataclass(frozen=True)
-class Wish:
+class PackageRequest:
     """What the package shall be."""
 
     package: str
@@ -24,42 +24,42 @@ class Wish:
     library: str | None
 
 
-def files_of(wish: Wish) -> Iterator[tuple[str, str]]:
+def files_of(request: PackageRequest) -> Iterator[tuple[str, str]]:
     """Path inside the package and text of every file, in the order in which they are written.
 
     A path that ends in a slash is a folder.
     """
-    name = wish.package
-    yield "package.xml", package_xml(wish)
+    name = request.package
+    yield "package.xml", package_xml(request)
     yield f"{name}/", ""
-    yield "setup.py", setup_py(wish)
-    yield "setup.cfg", setup_cfg(wish)
+    yield "setup.py", setup_py(request)
+    yield "setup.cfg", setup_cfg(request)
     yield f"resource/{name}", ""
     yield f"{name}/__init__.py", ""
     yield "test/test_copyright.py", copyright_test()
     yield "test/test_flake8.py", flake8_test()
     yield "test/test_pep257.py", pep257_test()
-    if wish.node:
-        yield f"{name}/{wish.node}.py", node_py(wish)
-    if wish.library:
-        yield f"{name}/{wish.library}/__init__.py", ""
+    if request.node:
+        yield f"{name}/{request.node}.py", node_py(request)
+    if request.library:
+        yield f"{name}/{request.library}/__init__.py", ""
 
 
-def package_xml(wish: Wish) -> str:
+def package_xml(request: PackageRequest) -> str:
     """The manifest."""
     lines = [
         '<?xml version="1.0"?>',
-        f'<?xml-model href="http://download.ros.org/schema/package_format{wish.format}.xsd"'
+        f'<?xml-model href="http://download.ros.org/schema/package_format{request.format}.xsd"'
         ' schematypens="http://www.w3.org/2001/XMLSchema"?>',
-        f'<package format="{wish.format}">',
-        f"  <name>{wish.package}</name>",
+        f'<package format="{request.format}">',
+        f"  <name>{request.package}</name>",
         "  <version>0.0.0</version>",
-        f"  <description>{escape(wish.description)}</description>",
-        f"  <maintainer email={quoteattr(wish.email)}>{escape(wish.maintainer)}</maintainer>",
-        f"  <license>{escape(wish.license)}</license>",
+        f"  <description>{escape(request.description)}</description>",
+        f"  <maintainer email={quoteattr(request.email)}>{escape(request.maintainer)}</maintainer>",
+        f"  <license>{escape(request.license)}</license>",
         "",
-        *(f"  <depend>{escape(name)}</depend>" for name in wish.dependencies),
-        *([""] if wish.dependencies else []),
+        *(f"  <depend>{escape(name)}</depend>" for name in request.dependencies),
+        *([""] if request.dependencies else []),
         *(f"  <test_depend>{name}</test_depend>" for name in TEST_DEPENDENCIES),
         "",
         "  <export>",
@@ -70,12 +70,16 @@ def package_xml(wish: Wish) -> str:
     return "\n".join(lines) + "\n"
 
 
-def setup_py(wish: Wish) -> str:
+def setup_py(request: PackageRequest) -> str:
     """The build; one entry point for the node."""
-    entry = f"            '{wish.node} = {wish.package}.{wish.node}:main',\n" if wish.node else ""
+    entry = (
+        f"            '{request.node} = {request.package}.{request.node}:main',\n"
+        if request.node
+        else ""
+    )
     return f"""from setuptools import find_packages, setup
 
-package_name = '{wish.package}'
+package_name = '{request.package}'
 
 setup(
     name=package_name,
@@ -88,10 +92,10 @@ setup(
     install_requires=['setuptools'],
     extras_require={{'test': ['pytest']}},
     zip_safe=True,
-    maintainer={wish.maintainer!r},
-    maintainer_email={wish.email!r},
-    description={wish.description!r},
-    license={wish.license!r},
+    maintainer={request.maintainer!r},
+    maintainer_email={request.email!r},
+    description={request.description!r},
+    license={request.license!r},
     entry_points={{
         'console_scripts': [
 {entry}        ],
@@ -100,16 +104,16 @@ setup(
 """
 
 
-def setup_cfg(wish: Wish) -> str:
+def setup_cfg(request: PackageRequest) -> str:
     """Where `ros2 run` looks for the executables."""
-    place = f"$base/lib/{wish.package}"
+    place = f"$base/lib/{request.package}"
     return f"[develop]\nscript_dir={place}\n[install]\ninstall_scripts={place}\n"
 
 
-def node_py(wish: Wish) -> str:
+def node_py(request: PackageRequest) -> str:
     """The empty executable."""
     return f"""def main():
-    print('Hi from {wish.package}.')
+    print('Hi from {request.package}.')
 
 
 if __name__ == '__main__':

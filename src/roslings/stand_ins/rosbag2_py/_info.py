@@ -6,8 +6,8 @@ from pathlib import Path
 
 from roslings.rosbag2.reading import opened
 
+from ._errors import as_runtime_error
 from ._storage import BagMetadata, from_bag
-from ._trouble import as_runtime_error
 
 
 class Info:

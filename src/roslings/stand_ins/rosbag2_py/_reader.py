@@ -9,6 +9,7 @@ from pathlib import Path
 from roslings.rosbag2.choosing import Choice
 from roslings.rosbag2.reading import BagReader, Message, open_bag
 
+from ._errors import as_runtime_error
 from ._storage import (
     BagMetadata,
     ConverterOptions,
@@ -21,7 +22,6 @@ from ._storage import (
     from_bag,
     from_topic,
 )
-from ._trouble import as_runtime_error
 
 NOT_OPEN = "Bag is not open. Call open() before reading."
 AT_END = "Bag is at end. No next message. Ask has_next() first."

@@ -6,8 +6,8 @@ from pathlib import Path
 
 from roslings.rosbag2.reindexing import reindex
 
+from ._errors import as_runtime_error
 from ._storage import StorageOptions
-from ._trouble import as_runtime_error
 
 
 class Reindexer:

@@ -14,6 +14,7 @@ from roslings.rosbag2.reading import read_metadata
 from roslings.rosbag2.reindexing import write_metadata
 from roslings.rosbag2.summary import lines_of
 
+from ._errors import as_runtime_error
 from ._qos import (
     Duration,
     QoS,
@@ -23,7 +24,6 @@ from ._qos import (
     rmw_qos_liveliness_policy_t,
     rmw_qos_reliability_policy_t,
 )
-from ._trouble import as_runtime_error
 
 __all__ = [
     "BagMetadata",

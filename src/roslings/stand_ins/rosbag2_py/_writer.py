@@ -9,6 +9,7 @@ from roslings.rosbag2.packing import ZSTD
 from roslings.rosbag2.writing import BagWriter, Compression, Plan
 
 from ._compression_options import CompressionMode, CompressionOptions
+from ._errors import as_runtime_error
 from ._storage import (
     ConverterOptions,
     StorageOptions,
@@ -16,7 +17,6 @@ from ._storage import (
     get_default_storage_id,
     to_topic,
 )
-from ._trouble import as_runtime_error
 
 CDR = "cdr"
 NOT_OPEN = "Bag is not open. Call open() before writing."

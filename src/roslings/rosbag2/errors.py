@@ -5,11 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 
-class BagTrouble(Exception):
+class BagError(Exception):
     """A bag cannot be read or written; its text says why, and what to do."""
 
 
-class NoBag(BagTrouble):
+class NoBag(BagError):
     """There is no bag at the path."""
 
     def __init__(self, path: Path, reason: str) -> None:
@@ -19,7 +19,7 @@ class NoBag(BagTrouble):
         )
 
 
-class NoMetadata(BagTrouble):
+class NoMetadata(BagError):
     """The messages are there, and the list of contents is not: the recording was killed."""
 
     def __init__(self, folder: Path) -> None:
@@ -29,7 +29,7 @@ class NoMetadata(BagTrouble):
         )
 
 
-class Damaged(BagTrouble):
+class Damaged(BagError):
     """A file of the bag is not what it should be."""
 
     def __init__(self, path: Path, reason: str) -> None:
@@ -39,14 +39,14 @@ class Damaged(BagTrouble):
         )
 
 
-class BagThere(BagTrouble):
+class BagThere(BagError):
     """A folder of that name exists; nothing is overwritten."""
 
     def __init__(self, folder: Path) -> None:
         super().__init__(f"Output folder '{folder}' already exists. Choose another one with -o")
 
 
-class CannotWrite(BagTrouble):
+class CannotWrite(BagError):
     """The disk is full, or the place is not ours."""
 
     def __init__(self, folder: Path, fault: Exception) -> None:
@@ -56,7 +56,7 @@ class CannotWrite(BagTrouble):
         )
 
 
-class TooSmall(BagTrouble):
+class TooSmall(BagError):
     """A bag cannot be split into files of that size."""
 
     def __init__(self, size: int, least: int) -> None:
@@ -66,7 +66,7 @@ class TooSmall(BagTrouble):
         )
 
 
-class BadName(BagTrouble):
+class BadName(BagError):
     """SQLite takes these letters of a path for its own."""
 
     def __init__(self, folder: Path) -> None:
