@@ -75,7 +75,7 @@ def view(*nodes: str, ends: tuple[Endpoint, ...] = (), **more: Any) -> Experimen
     read = [ParametersRead(node=name, values=values) for name, values in fields["read"].items()]
     seen = ExperimentSeen(
         name="launch", clock="wall", processes={LABEL: process},
-        graph=GraphSeen(nodes=[*nodes], endpoints=[*ends]), held_up=fields.get("held_up", {}),
+        graph=GraphSeen(nodes=[*{*nodes, *fields["read"]}], endpoints=[*ends]), held_up=fields.get("held_up", {}),
         parts={"launch": fields["launch"], "parameters": ParametersSeen(read=read)},
     )  # fmt: skip
     return ExperimentView(seen)
@@ -118,6 +118,14 @@ def test_the_values_are_those_of_the_card() -> None:
         view(read={"/left/it": {"size": 10}, "/right/it": {"size": 10}}).must(demand)
     with pytest.raises(NothingToJudge):
         view(read={"/left/it": {"size": 10}}).must(demand)
+
+
+def test_who_gave_no_answer_is_not_judged_by_its_neighbour() -> None:
+    """On a busy computer one of two may be silent: what the other one lacks says nothing of it."""
+    right, other = {"size": 10}, {"rate": 5}
+    read = {"/left/it": right, "/right/other": other}
+    with pytest.raises(Inconclusive, match="/right/it did not say"):
+        view("/right/it", read=read).must(give_its_values(TWO, node))
 
 
 def test_the_file_that_was_given_counts_and_the_argument_wins() -> None:

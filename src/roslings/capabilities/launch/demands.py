@@ -235,12 +235,18 @@ def _insist_on_value(
 def _values_of(
     experiment: ExperimentView, namespace: str, node: NodeContract
 ) -> tuple[str, Mapping[str, Plain | None]]:
-    """The node of this kind in the namespace, and its parameters. Raises NothingToJudge."""
+    """The node of this kind in the namespace, and its parameters.
+
+    Raises NothingToJudge where no node is there, Inconclusive where it gave no answer.
+    """
     read = {each.node: each.values for each in experiment.seen.part(ParametersSeen).read}
     plain = node.node.rpartition("/")[2]
-    near = nearest(f"{namespace}/{plain}", [n for n in read if n.startswith(f"{namespace}/")])
+    there = [each for each in experiment.seen.graph.nodes if each.startswith(f"{namespace}/")]
+    near = nearest(f"{namespace}/{plain}", there)
     if near is None:
-        raise NothingToJudge(f"no node in {namespace} said what its parameters are")
+        raise NothingToJudge(f"no node is in {namespace}")
+    if near.found not in read:
+        raise Inconclusive(f"{near.found} did not say in time what its parameters are")
     return near.found, read[near.found]
 
 

@@ -121,6 +121,8 @@ def read_all(scene: Scene) -> None:
         scene.seen.recording(ParametersSeen).read.append(ParametersRead(node=node, values=values))
 
 
+TRIES = 2
+"""An answer that has no way back yet is lost without a word: who gave none is asked once more."""
 ENDS = {"ListParameters": "list_parameters", "GetParameters": "get_parameters"}
 
 
@@ -130,14 +132,20 @@ def _answers(
     """Node to its answer; all are asked before the first answer is waited for."""
     type_ = f"rcl_interfaces/srv/{kind}"
     with ExitStack() as stack:
-        callers = [
-            stack.enter_context(Caller(scene.probe, f"{node}/{ENDS[kind]}", type_))
+        callers = {
+            node: stack.enter_context(Caller(scene.probe, f"{node}/{ENDS[kind]}", type_))
             for node in nodes
-        ]
-        scene.until(lambda: all(each.ready for each in callers), FIRST_MESSAGE_WITHIN_S)
-        pairs = zip(callers, requests, strict=True)
-        calls = [each.send(request) if each.ready else None for each, request in pairs]
-        for call in filter(None, calls):
-            call.wait(ANSWERS_WITHIN_S, scene.arena.all_alive)
-        answers = [call.seen.response if call else None for call in calls]
-    return {node: said for node, said in zip(nodes, answers, strict=True) if said}
+        }
+        scene.until(lambda: all(each.ready for each in callers.values()), FIRST_MESSAGE_WITHIN_S)
+        wanted = dict(zip(nodes, requests, strict=True))
+        found: dict[str, dict[str, Any]] = {}
+        for _ in range(TRIES):
+            left = {n: wanted[n] for n, each in callers.items() if each.ready and n not in found}
+            found |= _answers_now(scene, {n: callers[n].send(asked) for n, asked in left.items()})
+    return found
+
+
+def _answers_now(scene: Scene, calls: Mapping[str, Call]) -> dict[str, dict[str, Any]]:
+    for call in calls.values():
+        call.wait(ANSWERS_WITHIN_S, scene.arena.all_alive)
+    return {node: call.seen.response for node, call in calls.items() if call.seen.response}

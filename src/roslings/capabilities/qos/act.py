@@ -234,11 +234,12 @@ class Pressing:
         with Caller(self._scene.probe, self._service.service, self._service.type) as caller:
             if not self._scene.until(lambda: caller.ready, SHOWS_WITHIN_S):
                 return False
-            began_ns = time.monotonic_ns()
+            began_ns, told = time.monotonic_ns(), self._scene.heard(self._topic)
             call = caller.send(dict(answer.request))
             call.seen.part, call.seen.number = self._service.service, number
             self._scene.seen.recording(ServicesSeen).calls.append(call.seen)
             answered = call.wait(SHOWS_WITHIN_S)
+            self._scene.until(lambda: self._scene.heard(self._topic) > told, SHOWS_WITHIN_S)
             self._scene.until(lambda: False, QUIET_S)
         self._said += 1
         self.seen.presses.append(
