@@ -75,7 +75,8 @@ def view(*nodes: str, ends: tuple[Endpoint, ...] = (), **more: Any) -> Experimen
     read = [ParametersRead(node=name, values=values) for name, values in fields["read"].items()]
     seen = ExperimentSeen(
         name="launch", clock="wall", processes={LABEL: process},
-        graph=GraphSeen(nodes=[*{*nodes, *fields["read"]}], endpoints=[*ends]), held_up=fields.get("held_up", {}),
+        graph=GraphSeen(nodes=[*dict.fromkeys((*nodes, *fields["read"]))], endpoints=[*ends]),
+        held_up=fields.get("held_up", {}),
         parts={"launch": fields["launch"], "parameters": ParametersSeen(read=read)},
     )  # fmt: skip
     return ExperimentView(seen)
