@@ -140,8 +140,8 @@ def _answers(
         wanted = dict(zip(nodes, requests, strict=True))
         found: dict[str, dict[str, Any]] = {}
         for _ in range(TRIES):
-            left = {n: wanted[n] for n, each in callers.items() if each.ready and n not in found}
-            found |= _answers_now(scene, {n: callers[n].send(asked) for n, asked in left.items()})
+            left = [node for node in nodes if callers[node].ready and node not in found]
+            found |= _answers_now(scene, {node: callers[node].send(wanted[node]) for node in left})
     return found
 
 

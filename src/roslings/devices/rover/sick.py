@@ -24,8 +24,8 @@ class NeedsName(DeviceTrouble):
 class CannotWriteBag(DeviceTrouble):
     """The bag cannot be written there."""
 
-    def __init__(self, trouble: BagError) -> None:
-        super().__init__(f"{trouble}\nGive another place: --to FOLDER")
+    def __init__(self, error: BagError) -> None:
+        super().__init__(f"{error}\nGive another place: --to FOLDER")
 
 
 def write_sick_rover(name: str, folder: Path) -> float:
@@ -39,6 +39,6 @@ def write_sick_rover(name: str, folder: Path) -> float:
         raise NeedsName from None
     try:
         write_drive(as_drive(rover.plan, tuple(rover.said)), folder)
-    except BagError as trouble:
-        raise CannotWriteBag(trouble) from trouble
+    except BagError as error:
+        raise CannotWriteBag(error) from error
     return rover.plan.seconds

@@ -10,10 +10,10 @@ from roslings.rosbag2.errors import BagError
 
 
 class BagProblem(Problem):
-    """A trouble with the bag, in the form of the real command."""
+    """An error about the bag, in the form of the real command."""
 
-    def __init__(self, trouble: BagError | str) -> None:
-        super().__init__(f"[ERROR] [ros2bag]: {trouble}")
+    def __init__(self, error: BagError | str) -> None:
+        super().__init__(f"[ERROR] [ros2bag]: {error}")
 
 
 class WrongWords(Problem):
@@ -37,8 +37,8 @@ class NotInBag(Problem):
 
 @contextmanager
 def told() -> Iterator[None]:
-    """A trouble with a bag in the block is a problem of the command. Raises BagProblem."""
+    """An error about a bag in the block is a problem of the command. Raises BagProblem."""
     try:
         yield
-    except BagError as trouble:
-        raise BagProblem(trouble) from trouble
+    except BagError as error:
+        raise BagProblem(error) from error
