@@ -192,3 +192,14 @@ def test_what_the_devices_waited_is_not_a_nodes_own_time() -> None:
     programs.devices_ns = {"7": 61_000_000_000}
     assert own.waited_s() >= 60.0
     assert not own.is_past(0.0)
+
+
+def test_what_was_waited_is_not_forgotten_when_the_process_goes() -> None:
+    """Nothing is told of one that has just ended, until it is known that it has."""
+    programs = Programs()
+    programs.devices_ns = {"7": 1_000_000_000}
+    own = OwnTime(cast(Arena, programs))
+    programs.devices_ns = {"7": 61_000_000_000}
+    assert own.waited_s() >= 60.0
+    programs.devices_ns = {}
+    assert own.waited_s() >= 60.0

@@ -14,7 +14,7 @@ from roslings.capabilities.actions import act as acting
 from roslings.capabilities.robot.act import FLOOR, Robot, start_near
 from roslings.capabilities.robot.record import RobotSeen
 from roslings.devices.rover import Pose, Rover
-from roslings.evidence import ExperimentSeen
+from roslings.evidence import Endpoint, ExperimentSeen, Qos
 from roslings.experiment.scene import Scene
 from roslings.probe import Probe
 
@@ -54,6 +54,28 @@ def test_it_does_what_it_was_told_last(probe: Probe) -> None:
     assert [c.forward_m_s for c in drive.commands] == [0.5, 0.0]
     assert drive.path[0].x_m == pytest.approx(1.0, abs=0.2)
     assert drive.path[-1].x_m == pytest.approx(robot.pose.x_m, abs=0.02)
+
+
+@pytest.mark.parametrize("reliability", ["reliable", "best_effort"])
+def test_a_node_knows_where_it_is_when_its_reader_got_a_message(
+    probe: Probe, reliability: str
+) -> None:
+    """One that confirms nothing is believed when it was told a few times."""
+    from nav_msgs.msg import Odometry
+    from rclpy.qos import QoSProfile, ReliabilityPolicy
+
+    heard: list[Odometry] = []
+    quality = QoSProfile(depth=10, reliability=ReliabilityPolicy[reliability.upper()])
+    probe.eye.create_subscription(Odometry, "/odom", heard.append, quality)
+    ear = Endpoint(
+        kind="subscription", node="/it", topic="/odom", type="nav_msgs/msg/Odometry",
+        qos=Qos(reliability=reliability), gid="",
+    )  # fmt: skip
+    with Robot(probe, Rover(FLOOR)) as robot:
+        assert not robot.is_known
+        robot.speak_to(ear)
+        assert probe.until(lambda: robot.is_known, WITHIN_S)
+        assert probe.until(lambda: bool(heard), WITHIN_S)
 
 
 @pytest.mark.parametrize("wrong", ["std_msgs/msg/String", "nowhere/msg/Nothing"])

@@ -223,7 +223,12 @@ class Pressing:
         self.seen = scene.seen.recording(QosSeen)
 
     def press_each(self, answers: Sequence[AnswerContract]) -> None:
-        """Call once for each answer; after each, look what somebody gets who comes then."""
+        """Call once for each answer; after each, look what somebody gets who comes then.
+
+        What was said at the start has been heard before: on a busy computer it can come so late
+        that it looks like an answer to the first call.
+        """
+        self._scene.until(lambda: self._scene.heard(self._topic) > 0, SHOWS_WITHIN_S)
         for number, answer in enumerate(answers):
             if self._press(number, answer):
                 words = ", ".join(f"{name}: {value}" for name, value in answer.request.items())

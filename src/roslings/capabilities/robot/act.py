@@ -35,6 +35,9 @@ With one message kept, Fast DDS says with each message that the earlier ones are
 says so every 3 s, its `heartbeat_period`, and a node would not know where the robot is until then.
 """
 
+HEARD_S = 0.01
+"""So long the robot waits after each message for the reader to confirm it, until it once has."""
+
 STANDS_M_S = 0.005
 STANDS_RAD_S = 0.02
 STANDS_WITHIN_S = 1.5
@@ -55,6 +58,8 @@ class Robot:
         self._voice: Any = None
         self.told = 0
         """Messages sent while somebody was there to hear them."""
+        self.heard = False
+        """The reader has said that it got one, if it is one that says so (reliable)."""
         self.seen = DriveSeen()
 
     def __enter__(self) -> Robot:
@@ -73,6 +78,15 @@ class Robot:
     def pose(self) -> Pose:
         """Where it really is."""
         return self._rover.pose
+
+    @property
+    def is_known(self) -> bool:
+        """The node has been told often enough, and its reader got one.
+
+        That we have found the reader does not say that it has found us: on a busy computer what
+        is sent in between, for seconds, is dropped there.
+        """
+        return self.told >= KNOWS_AFTER and self.heard
 
     @property
     def stands(self) -> bool:
@@ -144,6 +158,13 @@ class Robot:
             stamp = self._probe.eye.get_clock().now().to_msg()
             self._voice.publish(odometry(self._rover, stamp))
             self.told += 1
+            self.heard = self.heard or self._is_confirmed()
+
+    def _is_confirmed(self) -> bool:
+        """A reader that confirms nothing (best effort) is not waited for."""
+        from rclpy.duration import Duration
+
+        return bool(self._voice.wait_for_all_acked(Duration(seconds=HEARD_S)))
 
 
 @contextmanager
@@ -162,7 +183,7 @@ def robot_beside(
             robot.listen_to(commands.topic, commands.type)
         if ear and ear.type == tells.type:
             robot.speak_to(ear)
-            scene.until(lambda: robot.told >= KNOWS_AFTER, FIRST_MESSAGE_WITHIN_S)
+            scene.until(lambda: robot.is_known, FIRST_MESSAGE_WITHIN_S)
         yield robot
 
 
