@@ -198,6 +198,18 @@ def test_an_import_of_another_package_is_named_in_package_xml() -> None:
     assert made.texts["package.xml"].count("<exec_depend>rcl_interfaces</exec_depend>") == 1
 
 
+def test_values_are_noted_after_a_node_has_agreed() -> None:
+    """Who may refuse a value must not find it noted already."""
+    judges = TALKER.replace(
+        "        self.create_timer", "        self.add_on_set_parameters_callback(self.judge)\n"
+        "        self.create_timer", 1,
+    )  # fmt: skip
+    made = changed("noted by a callback", judges)
+    assert "self.add_post_set_parameters_callback(self.take_parameters)" in made
+    assert made.count("add_on_set_parameters_callback") == 1
+    assert "return SetParametersResult" not in made
+
+
 @pytest.mark.parametrize(
     ("name", "code"),
     [

@@ -5,7 +5,6 @@ It is written by the package `rosbags`, after the watch, so that writing delays 
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,6 +13,7 @@ from typing import Any, Literal
 from roslings.evidence import Endpoint, ExperimentSeen, Qos, Spoken
 from roslings.probe.content import from_plain
 from roslings.probe.recorder import Recorder
+from roslings.probe.wall_clock import to_wall_ns
 from roslings.rosbag2.definition import definition_of
 
 VERSION: Literal[9] = 9
@@ -58,26 +58,26 @@ def fresh_folder(folder: Path) -> Path:
 
 
 def _lines(seen: ExperimentSeen, recorders: Mapping[str, Recorder]) -> Iterator[Line]:
-    to_wall_ns = time.time_ns() - time.monotonic_ns()
+    later_ns = to_wall_ns()
     for recorder in recorders.values():
         topic = recorder.seen
         qos = tuple(e.qos for e in seen.graph.endpoints if _publishes(e, topic.name))
         for message, raw in recorder.raw_messages():
-            stamp_ns = message.source_ns or message.arrival_ns + to_wall_ns
+            stamp_ns = message.source_ns or message.arrival_ns + later_ns
             yield Line(stamp_ns, topic.name, topic.type, raw, qos)
     for spoken in seen.spoken:
-        yield _spoken_line(spoken, to_wall_ns)
+        yield _spoken_line(spoken, later_ns)
 
 
 def _publishes(endpoint: Endpoint, topic: str) -> bool:
     return endpoint.kind == "publisher" and endpoint.topic == topic
 
 
-def _spoken_line(spoken: Spoken, to_wall_ns: int) -> Line:
+def _spoken_line(spoken: Spoken, later_ns: int) -> Line:
     from rclpy.serialization import serialize_message
 
     raw = serialize_message(from_plain(spoken.type, spoken.content))
-    return Line(spoken.sent_ns + to_wall_ns, spoken.topic, spoken.type, raw, (spoken.offered,))
+    return Line(spoken.sent_ns + later_ns, spoken.topic, spoken.type, raw, (spoken.offered,))
 
 
 def _within(lines: Iterable[Line], most_bytes: int) -> list[Line]:

@@ -8,6 +8,7 @@ from typing import Any
 
 from roslings.probe.budget import MB, Budget
 from roslings.probe.events import no_ear_events
+from roslings.probe.wall_clock import to_wall_ns
 
 QUEUE_DEPTH = 5000
 """A raw observer with this depth missed none of 6,000 messages at 1 kHz."""
@@ -123,10 +124,15 @@ def _holds_blob(kind: type[Any]) -> bool:
     return BLOB in kind.get_fields_and_field_types().values()
 
 
-def waited_ns(info: Any) -> int:
-    """How long a message waited here, since the middleware received it.
+def arrival_ns(info: Any) -> int:
+    """When the middleware received a message, by the monotonic clock.
 
-    The middleware stamps by the wall clock, which may have been set meanwhile: then it is 0.
+    The middleware stamps by the wall clock, which may have been set meanwhile: then it is now.
     """
-    ago_ns = time.time_ns() - int(info["received_timestamp"])
-    return ago_ns if 0 <= ago_ns < LONGEST_BACKLOG_NS else 0
+    arrived_ns, now_ns = int(info["received_timestamp"]) - to_wall_ns(), time.monotonic_ns()
+    return arrived_ns if 0 <= now_ns - arrived_ns < LONGEST_BACKLOG_NS else now_ns
+
+
+def waited_ns(info: Any) -> int:
+    """How long a message waited here, since the middleware received it."""
+    return time.monotonic_ns() - arrival_ns(info)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from roslings.evidence import Endpoint, MessageSeen, TopicSeen
 from roslings.probe.budget import Store, size_of
 from roslings.probe.content import UnknownType, message_class, to_plain
-from roslings.probe.ear import QUEUE_DEPTH, Ear, Queues, waited_ns
+from roslings.probe.ear import QUEUE_DEPTH, Ear, Queues, arrival_ns
 
 MOST_MESSAGES = 20_000
 LARGEST_CONTENT = 64 * 1024
@@ -63,11 +62,11 @@ class Recorder:
         return len(self.seen.messages) + self.seen.not_kept
 
     def _take(self, raw: bytes, info: Any) -> None:
-        arrival_ns = time.monotonic_ns() - waited_ns(info)
+        arrived_ns = arrival_ns(info)
         content = self._read_now(raw)
         taken = self._taken_for(raw, content)
         if len(self.seen.messages) < MOST_MESSAGES and self._share.take(taken):
-            self._keep(raw, info, arrival_ns, content)
+            self._keep(raw, info, arrived_ns, content)
         else:
             self._share.full = True
             self.seen.not_kept += 1
@@ -79,14 +78,14 @@ class Recorder:
         later = _guess(raw) if len(raw) <= LARGEST_CONTENT else 0
         return MESSAGE_BYTES + later + (0 if content is None else size_of(content))
 
-    def _keep(self, raw: bytes, info: Any, arrival_ns: int, content: Any) -> None:
+    def _keep(self, raw: bytes, info: Any, arrived_ns: int, content: Any) -> None:
         fits = len(raw) <= LARGEST_CONTENT or self._store.large.take(len(raw))
         self._raw.append(raw if fits else b"")
         self.seen.messages.append(
             MessageSeen(
                 source_ns=info["source_timestamp"] or None,
                 sequence=info["publication_sequence_number"],
-                arrival_ns=arrival_ns,
+                arrival_ns=arrived_ns,
                 size=len(raw),
                 content=content,
             )

@@ -37,8 +37,9 @@ CALLBACK = '''def take_parameters(self, parameters):
     """Note the new values; called when somebody changes one."""
     for parameter in parameters:
 {lines}
-    return SetParametersResult(successful=True)
 '''
+AGREES = "    return SetParametersResult(successful=True)\n"
+ON_SET, POST_SET = "add_on_set_parameters_callback", "add_post_set_parameters_callback"
 NOTE = "        if parameter.name == {name}:\n            self.{kept} = parameter.value"
 
 
@@ -175,14 +176,24 @@ def _noting(one: cst.ClassDef) -> cst.ClassDef:
         for each in functions(one) if each is not begin
         for read in _reads(each, "get_parameter") if _name(_call(read)) in kept
     }  # fmt: skip
-    new = swapped(one, others | {begin: _with_first_values(begin, kept)})
+    new = swapped(
+        one, others | {begin: _with_first_values(begin, kept, POST_SET if _judges(one) else ON_SET)}
+    )
     lines = "\n".join(NOTE.format(name=name, kept=attribute) for name, attribute in kept.items())
-    (callback,) = statements(CALLBACK.format(lines=lines))
+    agrees = "" if _judges(one) else AGREES
+    (callback,) = statements(CALLBACK.format(lines=lines) + agrees)
     callback = callback.with_changes(leading_lines=[cst.EmptyLine(indent=False)])
     return with_body(new, [*body_of(new), callback])
 
 
-def _with_first_values(begin: cst.FunctionDef, kept: dict[str, str]) -> cst.FunctionDef:
+def _judges(one: cst.ClassDef) -> bool:
+    """It has a callback of its own, which may refuse: new values are noted after it then."""
+    return any(called(call) == ON_SET for call in all_of(one, cst.Call))
+
+
+def _with_first_values(
+    begin: cst.FunctionDef, kept: dict[str, str], register: str
+) -> cst.FunctionDef:
     """Each value is noted once behind its declaration, and the callback registered behind all."""
     lines: list[Statement] = []
     for line in body_of(begin):
@@ -191,5 +202,4 @@ def _with_first_values(begin: cst.FunctionDef, kept: dict[str, str]) -> cst.Func
             if called(call) == "declare_parameter" and _name(call) in kept:
                 value = f"self.get_parameter({_name(call)}).value"
                 lines += statements(f"self.{kept[_name(call)]} = {value}\n")
-    register = statements("self.add_on_set_parameters_callback(self.take_parameters)\n")
-    return with_body(begin, [*lines, *register])
+    return with_body(begin, [*lines, *statements(f"self.{register}(self.take_parameters)\n")])

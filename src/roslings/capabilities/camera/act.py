@@ -20,6 +20,7 @@ from roslings.experiment.scene import Scene, publishes, says
 from roslings.experiment.start import Start
 from roslings.experiment.timing import accounting
 from roslings.matching import nearest, nearest_endpoint
+from roslings.probe.wall_clock import to_wall_ns
 
 PICTURES = 16
 """In a film that begins again; each is told from all others."""
@@ -155,8 +156,10 @@ class Filming:
         topic = self._shows
         found = nearest_endpoint(self._scene.seen.graph, "publisher", topic.topic, topic.type)
         came = self._scene.probe.messages(found.topic) if found else []
-        to_wall_ns = time.time_ns() - time.monotonic_ns()
-        sent_ns = ((each.source_ns or each.arrival_ns + to_wall_ns) - to_wall_ns for each in came)
+        later_ns = to_wall_ns()
+        sent_ns = (
+            each.source_ns - later_ns if each.source_ns else each.arrival_ns for each in came
+        )
         return sum(at_ns > began_ns for at_ns in sent_ns)
 
 

@@ -23,6 +23,8 @@ import time
 from pathlib import Path
 from typing import Any
 
+LOOKS_UP_EVERY_S = 0.2
+
 
 def class_of(type_name: str) -> Any:
     """The class of `std_msgs/msg/Bool`. Raises ImportError."""
@@ -177,9 +179,12 @@ def _profile(plan: dict[str, Any], depth: int, latched: bool = False) -> Any:
 
 
 def main(plan: dict[str, Any]) -> None:
-    """Play until nobody tells us anything any more, or Ctrl-C."""
+    """Play until nobody tells us anything any more, or Ctrl-C.
+
+    It looks up now and then: once in a thousand times, Ctrl-C alone has not woken who waits.
+    """
     import rclpy
-    from rclpy.executors import ExternalShutdownException
+    from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 
     rclpy.init(args=["--ros-args", "--disable-external-lib-logs"])
     player = Player(plan)
@@ -190,8 +195,11 @@ def main(plan: dict[str, Any]) -> None:
         rclpy.try_shutdown()
 
     threading.Thread(target=listen, daemon=True).start()
+    executor = SingleThreadedExecutor()
+    executor.add_node(player.node)
     try:
-        rclpy.spin(player.node)
+        while rclpy.ok():
+            executor.spin_once(timeout_sec=LOOKS_UP_EVERY_S)
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
     finally:
