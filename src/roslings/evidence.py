@@ -314,7 +314,8 @@ class ExperimentSeen(Record):
     devices_wait_s: float = Field(
         default=0.0,
         description="While a rate was watched beside stand-ins for devices: how long one of their"
-        " threads was ready to run and the processor was not free",
+        " threads was ready to run and the processor was not free, or the device kept its user"
+        " waiting",
     )
     machine_fault: str | None = Field(
         default=None, description="Why its times say nothing about the student"

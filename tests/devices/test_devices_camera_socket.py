@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import socket
 import threading
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -54,6 +55,20 @@ def test_each_letter_brings_the_next_picture(camera: SocketCamera) -> None:
         assert number == 0
         assert [picture(caller) for _ in range(3)] == [bytes([n]) * PICTURE_BYTES for n in range(3)]
     assert camera.given >= 2  # it counts when the bytes are out
+
+
+def test_it_knows_how_long_it_kept_its_user_waiting(tmp_path: Path) -> None:
+    """Beyond its pace: here it takes its time over each picture."""
+
+    def slow(number: int) -> Frame:
+        time.sleep(0.2)
+        return film(number)
+
+    with SocketCamera(tmp_path / "slow", slow) as camera:
+        camera.plug_in()
+        with opened(camera) as (caller, _):
+            assert [len(picture(caller)) for _ in range(2)] == [PICTURE_BYTES] * 2
+        assert camera.late_ns > 0.2e9  # of the first one; the second may be counted later
 
 
 def test_a_second_program_finds_it_busy_until_the_first_goes(camera: SocketCamera) -> None:

@@ -65,6 +65,8 @@ class Arena:
         self.domain_id = domain_id
         self.processes: list[Process] = []
         self.on_change = on_change
+        self.devices_late_ns: dict[str, Callable[[], int]] = {}
+        """By device that knows it: for how long it has kept its user waiting."""
         self._installed = installed
         self._place = place
 
@@ -111,8 +113,15 @@ class Arena:
         return max(waits_ns, default=0) / 1e9
 
     def devices_waits_ns(self) -> dict[str, int]:
-        """As `waits_ns`, of this process, which plays the devices; empty without any."""
-        return waits([os.getpid()]) if any(self.devices.iterdir()) else {}
+        """As `waits_ns`, of this process, which plays the devices; empty without any.
+
+        A thread of ours may be ready and wait for another one of ours, of which the kernel knows
+        nothing: a device that tells of it stands among the threads.
+        """
+        if not any(self.devices.iterdir()):
+            return {}
+        late = {name: late_ns() for name, late_ns in self.devices_late_ns.items()}
+        return {**waits([os.getpid()]), **late}
 
     def all_alive(self) -> bool:
         """Every process that was started still runs."""

@@ -56,6 +56,7 @@ def camera_beside(
     scene.probe.read_as_it_comes(IMAGE, looker.read)
     path = scene.arena.devices / CAMERA
     with SocketCamera(path, lambda number: film[number % PICTURES]) as camera:
+        scene.arena.devices_late_ns[CAMERA] = lambda: camera.late_ns
         if plugged_in:
             camera.plug_in()
         yield Filming(scene, shows, camera, looker, parameter)

@@ -39,6 +39,9 @@ class SocketCamera:
         """The number of the error that opening it answers with: `errno.EACCES`, say."""
         self.given = 0
         """Pictures that were given so far."""
+        self.late_ns = 0
+        """For so long, all pictures together, whoever asked waited for more than the camera's pace:
+        a picture goes in pieces, and each waits for this thread to be run."""
         self._film = film
         self._ear: socket.socket | None = None
         self._answering: threading.Thread | None = None
@@ -107,10 +110,12 @@ class SocketCamera:
         with user, suppress(OSError):
             user.settimeout(None)
             while user.recv(1) and self._ear:
+                due_s = max(next_s, time.monotonic())
                 picture = self._film(self.given).pixels().tobytes()
                 time.sleep(max(0.0, next_s - time.monotonic()))
                 next_s = time.monotonic() + 1 / PICTURES_A_SECOND
                 user.sendall(picture)
+                self.late_ns += round((time.monotonic() - due_s) * 1e9)
                 self.given += 1
         self._user = None
 
