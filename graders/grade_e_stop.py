@@ -77,6 +77,9 @@ STOPS, HOSTS = GUARD.stops, CARD.hosts
 ROADS = Roads(commands=COMMANDS, button=HEARD, motors=CMD_VEL, alive=ALIVE)
 DEADLINE_S = IN_TIME.deadline_s
 IN_A_ROW = 20
+TWICE = 2
+"""Silences: the second one brings events of which there were two before."""
+
 FAR_S = HOSTS.stops_within_s
 FAR, CUT = "pressed far away", "the cable is cut"
 
@@ -115,10 +118,12 @@ def guarding(scene: Scene) -> None:
             guard.stops("pressed", STOPS["pressed"], "a press", lambda: operator.tell(say=press))
             operator.tell(say={"data": RELEASED.state})
             guard.drives("pressed, again", "when the stop is released")
-            guard.stops(
-                "silent", STOPS["silent"], "the last command", lambda: operator.tell(drive=None)
-            )
-            guard.drives("silent, again", "when commands come again")
+            for _ in range(TWICE):
+                guard.stops(
+                    "silent", STOPS["silent"], "the last command", lambda: operator.tell(drive=None)
+                )
+                if not guard.drives("silent, again", "when commands come again"):
+                    return
 
 
 @experiment
@@ -132,6 +137,8 @@ def losing(scene: Scene) -> None:
         operator.tell(drive={"linear.x": 0.5})
         guard.rests("still", "while no button was ever there")
         with beside(scene, "button", button_plan(ROADS)) as button:
+            guard.hears(button)
+            guard.rests("still", "while the button has said nothing yet")
             button.tell(say={"data": PRESSED.state})
             guard.rests("still", "while the stop was never released")
             button.tell(say={"data": RELEASED.state})

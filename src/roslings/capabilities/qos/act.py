@@ -137,6 +137,10 @@ class Watched:
         )
         return self.moving
 
+    def hears(self, button: Companion) -> None:
+        """Wait until this button has found it."""
+        self._scene.until_own(lambda: bool(button.told("joined")), SHOWS_WITHIN_S)
+
     def rests(self, part: str, cause: str) -> None:
         """It has every reason to stand, and is watched for a while."""
         self.stands(part, cause, lambda: None, STANDS_WITHIN_S)

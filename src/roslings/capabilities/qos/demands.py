@@ -37,6 +37,9 @@ AFTER_S = 0.5
 """So long after a stop was undone its line may still come."""
 
 DOES = {"publisher": "publishes on", "subscription": "subscribes to"}
+LONGEST_PAUSE_S = 0.5
+"""Ten turns of a timer: whoever leaves out so many is held up by itself."""
+
 MOST_LATE_PART = 0.75
 """Of a deadline: where a command of our own was so late, the guard may have heard of it."""
 
@@ -285,12 +288,28 @@ def _judge_stop(experiment: ExperimentView, topic: str, stop: StopSeen, within_s
     driven = [move.at_ns for move in moves if move.fields]
     late_s = (max(driven, default=stop.began_ns) - stop.began_ns) / NS_PER_S
     if late_s <= within_s and not moves[-1].fields:
+        _judge_pauses(experiment, topic, stop, moves)
         return
     require_its_time(experiment.seen, stop.part, late_s - within_s, "the stop")
     if moves[-1].fields:
         watched_s = (stop.until_ns - stop.began_ns) / NS_PER_S
         raise faults.DoesNotStop(topic, stop.cause, within_s, watched_s)
     raise faults.StopsLate(topic, stop.cause, within_s, late_s)
+
+
+def _judge_pauses(
+    experiment: ExperimentView, topic: str, stop: StopSeen, moves: Sequence[MoveSeen]
+) -> None:
+    """Whoever tells the motors zero tells it all the time.
+
+    Judged where the operator's commands show that who watches was not held up itself.
+    """
+    if not (watched_s := _longest_gap_s(experiment, stop)):
+        return
+    pause_s = max((later.at_ns - one.at_ns for one, later in pairwise(moves)), default=0) / NS_PER_S
+    if pause_s > LONGEST_PAUSE_S + watched_s:
+        require_its_time(experiment.seen, stop.part, pause_s - LONGEST_PAUSE_S, "a message")
+        raise faults.SilentMeanwhile(topic, stop.cause, LONGEST_PAUSE_S, pause_s)
 
 
 def tell_why(

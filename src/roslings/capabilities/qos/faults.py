@@ -211,6 +211,23 @@ class StopsLate(DoesNotStop):
 
 
 @dataclass(eq=False)
+class SilentMeanwhile(Fault):
+    """While there is a reason to stop, the motors hear nothing for a while."""
+
+    topic: str
+    cause: str
+    most_s: float
+    found_s: float
+    why = "Motors that hear nothing do what they were told last."
+    expected = "after {cause}, {topic} has a message every {most_s:g} s at least"
+    measured = "for {found_s:.2f} s there was none"
+    hint = (
+        "Something in your node waits: a time.sleep(), or a loop, in the function of an event or of"
+        " a subscription. Nothing else of the node runs meanwhile, its timer neither."
+    )
+
+
+@dataclass(eq=False)
 class DrivesUnasked(Fault):
     """It drives before anybody released the stop."""
 

@@ -6,7 +6,8 @@ It is a process of its own, so that it can freeze, be killed, or run on another 
 what to do by lines of JSON, and tells what it sees and does in the same way:
 
     <- {"drive": {"linear.x": 0.3}}   {"drive": null}   {"say": true}   {"call": {"data": false}}
-    -> {"ready": true}  {"sent": NS}  {"matched": COUNT}  {"heard": true, "at": NS}
+    -> {"ready": true}  {"joined": true}  {"sent": NS}  {"matched": COUNT}
+       {"heard": true, "at": NS}
        {"moved": {"linear.x": 0.3, ...}, "at": NS}  {"answer": {...}, "at": NS}
 
 Times are nanoseconds of the monotonic clock, which all hosts of an arena share. It imports nothing
@@ -117,6 +118,12 @@ class Player:
         self._button = self.node.create_publisher(
             self._button_kind, plan["topic"], profile, event_callbacks=_no_events("pub")
         )
+        self._alone = self.node.create_timer(0.05, self._look_for_ear)
+
+    def _look_for_ear(self) -> None:
+        if self._button.get_subscription_count():
+            self._alone.cancel()
+            self.tell({"joined": True})
 
     def _be_motors(self, plan: dict[str, Any]) -> None:
         """Who does what the last command says."""
