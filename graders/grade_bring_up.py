@@ -217,14 +217,19 @@ def retuning(scene: Scene) -> None:
         scene.hear(BEAT)
         if setter is None:
             return
-        with accounting(scene, "pace"):
-            setter.set_one("pace", RATE.name, RATE.tried)
-            scene.hear(BEAT, count=scene.heard(BEAT) + BEATS)
+        _change_pace(scene, setter)
         least, most = RATE.ends
         for value in (most, most + 1, least, least - 1, 7.5, RATE.default):
             setter.set_one("beat", RATE.name, value)
+        _change_pace(scene, setter)  # a later one is obeyed as the first one
         setter.set_one("name", NAME.name, NAME.tried)
         scene.hear(BEAT, count=scene.heard(BEAT) + 2)
+
+
+def _change_pace(scene: Scene, setter: Setter) -> None:
+    with accounting(scene, "pace"):
+        setter.set_one("pace", RATE.name, RATE.tried)
+        scene.hear(BEAT, count=scene.heard(BEAT) + BEATS)
 
 
 @experiment
@@ -405,6 +410,8 @@ def test_read_only(retuning: ExperimentView) -> None:
 
 BOTH = ["limiter_runs", "beacon_runs"]
 NO_PARAMETERS = {"limiter_parameters": NO_PARAMETER, "beacon_parameters": NO_PARAMETER}
+HANGS = {"limiter_topics": "NoTopic", "rate": "NoMessages"}
+"""A node that hangs gives no answer in a launch, either."""
 
 
 @check(needs=BOTH, explained_by=NO_PARAMETERS)
@@ -426,6 +433,7 @@ def test_alike(brought_up: ExperimentView, otherwise: ExperimentView) -> None:
     needs=["launch"],
     explained_by={
         **NO_PARAMETERS,
+        **HANGS,
         "limiter_name": "WrongNodeName",
         "beacon_name": "WrongNodeName",
         "beacon_topic": ("WrongField", "WrongTopic"),
@@ -450,6 +458,7 @@ def test_arguments(asked: ExperimentView) -> None:
     needs=["launch"],
     explained_by={
         **NO_PARAMETERS,
+        **HANGS,
         "arguments": "WrongArguments",
         "values": "WrongValueAfterLaunch",
     },
@@ -459,7 +468,7 @@ def test_params_file(otherwise: ExperimentView) -> None:
     otherwise.must(follow_the_file(LAUNCH, CARD.node))
 
 
-@check(needs=["launch"], explained_by={**NO_PARAMETERS, "arguments": "WrongArguments"})
+@check(needs=["launch"], explained_by={**NO_PARAMETERS, **HANGS, "arguments": "WrongArguments"})
 def test_careful(brought_up: ExperimentView, otherwise: ExperimentView) -> None:
     """The argument {CAREFULLY.name} wins over the file, in each namespace."""
     brought_up.must(follow_the_argument(LAUNCH, CAREFULLY, CARD.node))
@@ -474,7 +483,7 @@ def test_one_rover(one_rover: ExperimentView) -> None:
 
 @check(
     needs=["launch"],
-    explained_by={**NO_PARAMETERS, "one_rover": ("LaunchFailed", "LaunchMissesNode")},
+    explained_by={**NO_PARAMETERS, **HANGS, "one_rover": ("LaunchFailed", "LaunchMissesNode")},
 )
 def test_respawn(one_rover: ExperimentView) -> None:
     """A limiter that was killed is back within {LAUNCH.respawns_within_s:g} s."""

@@ -138,7 +138,8 @@ def losing(scene: Scene) -> None:
         guard.rests("still", "while no button was ever there")
         with beside(scene, "button", button_plan(ROADS)) as button:
             guard.hears(button)
-            guard.rests("still", "while the button has said nothing yet")
+            # Its sign of life comes once in the lease, and only then it counts as there.
+            guard.rests("still", "while the button has said nothing yet", ALIVE.lease_s or 0.0)
             button.tell(say={"data": PRESSED.state})
             guard.rests("still", "while the stop was never released")
             button.tell(say={"data": RELEASED.state})

@@ -264,13 +264,14 @@ def test_a_busy_computer_is_not_the_guards_fault(busy: dict[str, float]) -> None
     assert found(DRIVES, driven(moves((1, 3, {})), **busy)) is Inconclusive
 
 
-def stopped(seen: list[MoveSeen], held_s: float = 0.0) -> ExperimentView:
-    """At 2 s there is a reason to stop, until 4 s."""
+def stopped(seen: list[MoveSeen], held_s: float = 0.0, sent_s: float = 0.0) -> ExperimentView:
+    """At 2 s there is a reason to stop, until 4 s; commands come every `sent_s`, or none."""
+    sent = [2 * S + int(n * sent_s * S) for n in range(int(2 / sent_s))] if sent_s else []
     stop = StopSeen(
         part="shut", reason="shut", cause="the door opens", began_ns=2 * S, until_ns=4 * S
     )
     held = {"shut": HeldUp(cpu_wait_s=held_s, stall_s=0.0)}
-    return view(QosSeen(stops=[stop], moves=seen), held_up=held)
+    return view(QosSeen(stops=[stop], moves=seen, sent_ns=sent), held_up=held)
 
 
 STANDS = demands.stop_for(MOTORS, "shut", 0.3)
@@ -299,6 +300,24 @@ def test_a_late_stop_is_inconclusive_where_the_computer_made_it_late() -> None:
     late = moves((1, 3, COMMAND), (3, 4, {}))
     assert found(STANDS, stopped(late, held_s=0.8)) is Inconclusive
     assert found(STANDS, stopped(late, held_s=0.2)) is faults.StopsLate
+
+
+def test_who_falls_silent_with_a_command_has_not_stopped() -> None:
+    """However soon that was."""
+    assert found(STANDS, stopped(moves((1, 2.2, COMMAND)), held_s=0.1)) is faults.DoesNotStop
+
+
+@pytest.mark.parametrize(
+    ("sent_s", "held_s", "fault"),
+    [(0.05, 0.0, faults.SilentMeanwhile), (0.7, 0.0, None), (0.0, 0.0, None),
+     (0.05, 0.8, Inconclusive)],
+)  # fmt: skip
+def test_a_guard_that_waits_while_it_stops_is_told(
+    sent_s: float, held_s: float, fault: type[Exception] | None
+) -> None:
+    """Not where who watches was held up as long, or where nobody knows; nor where it was itself."""
+    seen = moves((1, 2.2, COMMAND), (3, 4, {}))
+    assert found(STANDS, stopped(seen, held_s, sent_s)) is fault
 
 
 def test_who_was_never_released_drives_nowhere() -> None:

@@ -141,9 +141,9 @@ class Watched:
         """Wait until this button has found it."""
         self._scene.until_own(lambda: bool(button.told("joined")), SHOWS_WITHIN_S)
 
-    def rests(self, part: str, cause: str) -> None:
+    def rests(self, part: str, cause: str, holds_s: float = HOLDS_S) -> None:
         """It has every reason to stand, and is watched for a while."""
-        self.stands(part, cause, lambda: None, STANDS_WITHIN_S)
+        self.stands(part, cause, lambda: None, STANDS_WITHIN_S, holds_s=holds_s)
 
     def stops(
         self, reason: str, contract: StopContract, cause: str, make: Callable[[], object]
@@ -158,13 +158,14 @@ class Watched:
         make: Callable[[], object],
         within_s: float,
         reason: str = "",
+        holds_s: float = HOLDS_S,
     ) -> None:
         """The same for a reason that the card does not name by a word."""
         with timing(self._scene, part):
             began_ns = time.monotonic_ns()
             make()
             self._scene.until_own(lambda: self._stand_since(began_ns), within_s + STOPS_WITHIN_S)
-            self._scene.until(lambda: False, HOLDS_S)
+            self._scene.until(lambda: False, holds_s)
             until_ns = time.monotonic_ns()
         self.seen.stops.append(
             StopSeen(part=part, reason=reason, cause=cause, began_ns=began_ns, until_ns=until_ns)

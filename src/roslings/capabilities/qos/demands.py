@@ -290,10 +290,11 @@ def _judge_stop(experiment: ExperimentView, topic: str, stop: StopSeen, within_s
     if late_s <= within_s and not moves[-1].fields:
         _judge_pauses(experiment, topic, stop, moves)
         return
-    require_its_time(experiment.seen, stop.part, late_s - within_s, "the stop")
     if moves[-1].fields:
         watched_s = (stop.until_ns - stop.began_ns) / NS_PER_S
+        require_its_time(experiment.seen, stop.part, watched_s - within_s, "the stop")
         raise faults.DoesNotStop(topic, stop.cause, within_s, watched_s)
+    require_its_time(experiment.seen, stop.part, late_s - within_s, "the stop")
     raise faults.StopsLate(topic, stop.cause, within_s, late_s)
 
 
