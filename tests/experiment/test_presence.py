@@ -113,6 +113,20 @@ def test_waiting_is_in_vain_only_for_a_complete_node(domain: int) -> None:
     assert absences.holds(["it"], "a lamp")
 
 
+def test_where_a_node_waited_for_a_processor_more_may_be_lost(domain: int) -> None:
+    """What was announced, and not taken, is announced again after seconds."""
+    programs = Programs()
+    programs.devices_ns = {"7": 0}
+    with probing(domain) as probe, node(domain) as (_, begin):
+        presence = Presence(probe, cast(Arena, programs), Absences())
+        begin()
+        assert probe.until(lambda: bool(probe.seen.graph.nodes), WITHIN_S)
+        assert not probe.until(lambda: presence.in_vain("a lamp"), GRACE_S / 3)
+        programs.devices_ns = {"7": 500_000_000}
+        assert not probe.until(lambda: presence.in_vain("a lamp"), GRACE_S * 2)
+        assert probe.until(lambda: presence.in_vain("a lamp"), WITHIN_S)
+
+
 def test_what_one_experiment_missed_no_other_waits_for(domain: int) -> None:
     """When its node is complete; for other things it has the whole time."""
     absences = Absences()

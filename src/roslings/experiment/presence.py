@@ -19,6 +19,13 @@ from roslings.probe.clock import Barrier
 GRACE_S = 1.5
 """Of a complete node's own time: a timer of a second may still make something."""
 
+LOST_FOR_S = 4.0
+"""What was announced, and lost because nobody had a processor to take it, is announced again after
+seconds: the middleware's heartbeat period is 3 s."""
+
+LOSES = 8.0
+"""So often the time that a node waited for a processor is waited for what may be lost."""
+
 SIMULATED_GRACE_S = 0.3
 """Where the clock stands still, no timer makes anything."""
 
@@ -93,7 +100,11 @@ class Presence:
             return self._since.is_past(TURNS_WITHIN_S)
         if self.simulated:
             return self._since.is_past(SIMULATED_GRACE_S)
-        return self.is_known(what) or self._since.is_past(grace_s)
+        return self.is_known(what) or self._since.is_past(grace_s + self._lost_for_s())
+
+    def _lost_for_s(self) -> float:
+        """Nearly nothing on a free computer."""
+        return min(LOST_FOR_S, LOSES * self._since.waited_s())
 
     def is_known(self, what: str) -> bool:
         """It was waited for, here or in another experiment."""
