@@ -8,14 +8,17 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import nullcontext
 from functools import partial
 from itertools import accumulate
 
 import pytest
 from judge_messages import messages
 
+from roslings.capabilities.topics.demands import require_carried
 from roslings.capabilities.topics.faults import rhythm as faults
 from roslings.experiment.on_the_wall import LONGEST_PERIODS, SHORTEST_PERIODS
+from roslings.judge.faults import Inconclusive
 from roslings.rates import Rate, measure_rate
 
 LIMITS_HZ = (1.9, 2.1)
@@ -130,3 +133,13 @@ def test_what_is_sent_again_is_told_in_numbers() -> None:
     fault = faults.SentAgain("/chatter", 2.0, 0.05, watch(sent_again(2)(lambda: 0.0)))
     assert "each time 2 of them, one right after the other" in fault.measured
     assert "publish() runs 2 times" in fault.hint
+
+
+@pytest.mark.parametrize(("lost", "tells"), [(2, True), (20, False)])
+def test_who_is_slow_on_a_computer_that_loses_messages_is_not_judged(
+    lost: int, tells: bool
+) -> None:
+    """A sender that is seldom gives no reason to lose any."""
+    rate = Rate(hz=7.0, uncertainty_hz=0.5, periods_s=(1 / 7,) * 40, lost=lost, from_stamps=True)
+    with nullcontext() if tells else pytest.raises(Inconclusive):
+        require_carried(rate)

@@ -11,12 +11,14 @@ from roslings.capabilities.topics.faults.messages import (
     NoMessages,
     WrongText,
 )
-from roslings.capabilities.topics.faults.rhythm import Bursts, SentAgain, rate_fault
+from roslings.capabilities.topics.faults.rhythm import Bursts, SentAgain, TooSlow, rate_fault
 from roslings.course import RateContract, TopicContract
 from roslings.judge.demands import require_believable, require_steady, written
 from roslings.judge.faults import Inconclusive
 from roslings.judge.views import Demand, TopicView, text_pattern
 from roslings.rates import Rate
+
+MOST_LOST_PART = 0.1
 
 
 def have_rate(contract: TopicContract) -> Demand[TopicView]:
@@ -35,6 +37,8 @@ def have_rate(contract: TopicContract) -> Demand[TopicView]:
         if kind:
             if topic.experiment.clock == "wall" and not rate.far_above(limit.high_hz):
                 require_steady(topic.experiment.stall_s)
+            if issubclass(kind, TooSlow):
+                require_carried(rate)
             raise kind(topic.name, limit.hz, limit.within, rate)
 
     return demand
@@ -49,6 +53,19 @@ def require_enough(topic: TopicView, rate: Rate, limit: RateContract) -> None:
         raise Inconclusive(
             f"too little evidence: {rate.hz:.3f} Hz (±{rate.uncertainty_hz:.3f}) was seen, too"
             f" near to the limits, {limit.low_hz:g} Hz and {limit.high_hz:g} Hz; check again"
+        )
+
+
+def require_carried(rate: Rate) -> None:
+    """Before slowness is held against a node: this computer carried what it sent.
+
+    Who sends seldom gives a free computer no reason to lose anything. Raises Inconclusive.
+    """
+    sent = len(rate.periods_s) + rate.lost
+    if rate.lost > MOST_LOST_PART * sent:
+        raise Inconclusive(
+            f"this computer lost {rate.lost} of {sent} messages on their way, so it was too busy to"
+            " send them in time; close other programs and check again"
         )
 
 
