@@ -255,7 +255,10 @@ def test_across_a_bad_link_a_short_stop_is_no_fault() -> None:
     """A sign of life may be lost; to stand for ever is one all the same."""
     demand = demands.drive(MOTORS, "a", deadline_s=0.4, steadily=False, again=True)
     assert found(demand, driven(moves((1, 2, COMMAND), (2, 2.2, {}), (2.2, 3, COMMAND)))) is None
-    assert found(demand, driven(moves((1, 3, {})))) is faults.DoesNotGoOn
+    still = moves((1, 3, {}))
+    assert found(demand, driven(still)) is faults.DoesNotGoOn
+    assert found(demand, driven(still, held_s=3.0)) is faults.DoesNotGoOn
+    assert found(demand, driven(still, held_s=5.0)) is Inconclusive
 
 
 @pytest.mark.parametrize("busy", [{"sent_s": 0.35}, {"held_s": 2.0}])

@@ -40,6 +40,10 @@ DOES = {"publisher": "publishes on", "subscription": "subscribes to"}
 LONGEST_PAUSE_S = 0.5
 """Ten turns of a timer: whoever leaves out so many is held up by itself."""
 
+LINK_REPAIRS_S = 4.0
+"""On a link that loses packets, what finds each other is told again after seconds; who gets no
+processor for longer than this needs several times as long."""
+
 MOST_LATE_PART = 0.75
 """Of a deadline: where a command of our own was so late, the guard may have heard of it."""
 
@@ -208,7 +212,8 @@ def drive(
         if not drives:
             raise NothingToJudge("the guard could not be let drive")
         for each in drives:
-            _judge_drive(experiment, topic.topic, each, deadline_s, again)
+            waits_s = None if steadily else LINK_REPAIRS_S
+            _judge_drive(experiment, topic.topic, each, deadline_s, again, waits_s)
             if steadily:
                 _judge_steadiness(experiment, topic.topic, each, deadline_s)
 
@@ -216,8 +221,10 @@ def drive(
 
 
 def _judge_drive(
-    experiment: ExperimentView, topic: str, seen: DriveSeen, deadline_s: float, again: bool
-) -> None:
+    experiment: ExperimentView, topic: str, seen: DriveSeen, deadline_s: float, again: bool,
+    waits_s: float | None,
+) -> None:  # fmt: skip
+    """Who was held up for `waits_s` is not judged; None: for as long as was waited."""
     moves = _moves(experiment, seen.began_ns, seen.until_ns)
     if not moves:
         require_steady(experiment.seen.stall_s)
@@ -226,7 +233,7 @@ def _judge_drive(
     words = (topic, seen.after, _fields(seen.command))
     if first is None:
         _require_commands(experiment, seen, deadline_s)
-        require_its_time(experiment.seen, seen.part, None, "the operator's command")
+        require_its_time(experiment.seen, seen.part, waits_s, "the operator's command")
         if any(move.fields for move in moves[len(moves) // 2 :]):
             raise faults.OtherCommand(*words, _fields(moves[-1].fields))
         raise (faults.DoesNotGoOn if again else faults.StandsStill)(*words)

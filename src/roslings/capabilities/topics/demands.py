@@ -18,7 +18,7 @@ from roslings.judge.faults import Inconclusive
 from roslings.judge.views import Demand, TopicView, text_pattern
 from roslings.rates import Rate
 
-MOST_LOST_PART = 0.1
+MOST_LOST_PART = 0.05
 
 
 def have_rate(contract: TopicContract) -> Demand[TopicView]:
