@@ -34,6 +34,7 @@ LOOK_EVERY_S = 0.04
 REST_AFTER_LOOK = 3.0
 """Times the look's own duration: to read a graph of 2,000 topics takes long, and a processor."""
 HEARTBEAT_S = 0.02
+BETWEEN_WITHIN_S = 20.0
 MOST_LOG_LINES = 2000
 LONGEST_LOG_LINE = 2000
 LARGEST_LOG_BYTES = 4 * MB
@@ -222,6 +223,23 @@ class Probe:
         """Something changed elsewhere: look again at once."""
         with self._changed:
             self._changed.notify_all()
+
+    def between_waits(self, work: Callable[[], object]) -> None:
+        """Have the probe's own thread do this, and wait until it has.
+
+        What an executor waits for can go in between only: an action server that goes meanwhile
+        ends the thread (rclpy's `add_to_wait_set` takes it without holding it).
+        """
+        done = threading.Event()
+
+        def turn() -> None:
+            try:
+                work()
+            finally:
+                done.set()
+
+        self._executor.create_task(turn)
+        done.wait(BETWEEN_WITHIN_S)
 
     def say(self, ear: Endpoint, content: dict[str, Any], within_s: float) -> Spoken:
         """Send one message to the subscription `ear`, with the quality of service it asks for.

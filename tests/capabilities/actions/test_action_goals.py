@@ -98,3 +98,14 @@ def test_a_misspelt_field_is_an_error(giver: GoalGiver) -> None:
     """Not a goal without it."""
     with pytest.raises(AttributeError):
         giver.give({"ordre": 3}, "first")
+
+
+@pytest.mark.filterwarnings("error::pytest.PytestUnhandledThreadExceptionWarning")
+def test_a_server_that_goes_leaves_the_probe_running(probe: Probe) -> None:
+    """Again and again, while its executor waits for it."""
+    for _ in range(30):
+        with GoalTaker(probe, "/count", FIBONACCI):
+            pass
+    ran: list[str] = []
+    probe.between_waits(lambda: ran.append("here"))
+    assert ran == ["here"]

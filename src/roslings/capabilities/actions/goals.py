@@ -175,7 +175,7 @@ class GoalTaker:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        self._server.destroy()
+        self._probe.between_waits(self._server.destroy)
 
     @property
     def has_goal(self) -> bool:
