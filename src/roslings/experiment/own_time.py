@@ -24,7 +24,7 @@ class OwnTime:
         self._devices_before = arena.devices_waits_ns()
         self._asking_s = time.monotonic() - self._began_s
         """On a busy computer the account comes seconds late, and holds what was waited then."""
-        self._waited_s = 0.0
+        self._most_waited_s = 0.0
         """The most that was told so far: of a process that is about to go, nothing is told."""
 
     def is_past(self, limit_s: float) -> bool:
@@ -38,8 +38,8 @@ class OwnTime:
         A node waits for its board or its camera, too: what those waited comes on top.
         """
         told_s = waited_s(self._arena.processes, self._before) + self._devices_waited_s()
-        self._waited_s = max(self._waited_s, told_s)
-        return self._waited_s + self._asking_s
+        self._most_waited_s = max(self._most_waited_s, told_s)
+        return self._most_waited_s + self._asking_s
 
     def _devices_waited_s(self) -> float:
         now_ns = self._arena.devices_waits_ns()

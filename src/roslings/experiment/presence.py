@@ -100,11 +100,17 @@ class Presence:
             return self._since.is_past(TURNS_WITHIN_S)
         if self.simulated:
             return self._since.is_past(SIMULATED_GRACE_S)
-        return self.is_known(what) or self._since.is_past(grace_s + self._lost_for_s())
+        return self.is_known(what) or self._is_over(grace_s)
 
-    def _lost_for_s(self) -> float:
-        """Nearly nothing on a free computer."""
-        return min(LOST_FOR_S, LOSES * self._since.waited_s())
+    def _is_over(self, grace_s: float) -> bool:
+        """The grace, and what may be lost: nearly nothing on a free computer.
+
+        The kernel is not asked before the grace alone is over: this is called at every look.
+        """
+        since = self._since
+        return since.is_past(grace_s) and since.is_past(
+            grace_s + min(LOST_FOR_S, LOSES * since.waited_s())
+        )
 
     def is_known(self, what: str) -> bool:
         """It was waited for, here or in another experiment."""

@@ -188,7 +188,7 @@ def _profile(plan: dict[str, Any], depth: int, latched: bool = False) -> Any:
 def main(plan: dict[str, Any]) -> None:
     """Play until nobody tells us anything any more, or Ctrl-C.
 
-    It looks up now and then: once in a thousand times, Ctrl-C alone has not woken who waits.
+    It looks up now and then: once, one that waited was not seen to end by Ctrl-C alone.
     """
     import rclpy
     from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
