@@ -130,6 +130,15 @@ def test_a_command_that_does_not_come(held_s: float, is_told: bool) -> None:
     assert told("on", held_s, demand, cable_faults.WrongDrive, board=board()) is is_told
 
 
+@pytest.mark.parametrize(("held_s", "is_told"), [(0.6, True), (1.6, False)])
+def test_a_node_that_sent_nothing_for_two_seconds(held_s: float, is_told: bool) -> None:
+    """Who had nothing from it for so long asks for more than one late command."""
+    told_long_ago = [board().marks[0].model_copy(update={"since_s": -1.0})]
+    silent = BoardSeen(marks=told_long_ago)
+    demand = drive_as_told("on", 0.3, 0.0)
+    assert told("on", held_s, demand, cable_faults.DoesNotDrive, board=silent) is is_told
+
+
 @pytest.mark.parametrize(("held_s", "is_told"), [(0.1, True), (0.6, False)])
 def test_a_late_stop(held_s: float, is_told: bool) -> None:
     """It came half a second late."""

@@ -198,7 +198,7 @@ def test_publishers_that_differed_and_a_profile_of_a_file(empty: Shell) -> None:
     other = reliable(QosDurability.TRANSIENT_LOCAL)
     write_bag(empty.folder / "b", ["a"] * 30, qos=[reliable(), other])
     (empty.folder / "qos.yaml").write_text("/heard: {reliability: best_effort, depth: 4}\n")
-    with empty.start("bag", "play", "b") as player:
+    with empty.start("bag", "play", "b", "--loop") as player:
         player.wait_for('Not all original publishers on topic "/heard" offered the same QoS')
         eventually(lambda: "Reliability: RELIABLE" in empty("topic", "info", "-v", "/heard").out)
         player.interrupt()

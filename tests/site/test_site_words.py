@@ -112,12 +112,12 @@ def test_without_javascript_a_word_is_a_link(browser: object, site: Path) -> Non
     page.locator(".page-words summary").click()  # folded, and opened without a script
     assert page.locator(".page-words dd").first.is_visible()
     link.click()
-    assert page.url.endswith("glossary.html#word-node")
-    assert page.locator("#word-node").is_visible()
+    page.wait_for_url("**/glossary.html#word-node")
+    page.locator("#word-node").wait_for(state="visible")
     page.goto((site / "days/01-install/quiz.html").as_uri())
     assert page.locator("form.question").count() == 3
     page.locator("noscript a").click()
-    assert page.get_by_text("Sourcing changes the variables").is_visible()
+    page.get_by_text("Sourcing changes the variables").wait_for(state="visible")
     page.goto((site / "review.html").as_uri())
     assert page.locator("form.question").first.is_visible()
     context.close()

@@ -138,10 +138,11 @@ class Cable:
         if ear is None:
             return
         with timing(self._scene, part):
-            until_s = self._now_s + for_s
-            while self._now_s < until_s and self.say(ear, forward_m_s, turn_rad_s):
+            self.say(ear, forward_m_s, turn_rad_s)
+            since_s = self._now_s
+            while self._now_s < since_s + for_s and self.say(ear, forward_m_s, turn_rad_s):
                 self._scene.until(self._goes_on, SAY_EVERY_S)
-            self.mark(part)
+            self.mark(part, since_s)
 
     def flood(self, topic: TopicContract, motions: Sequence[tuple[float, float]]) -> None:
         """Say many motions without a pause between them."""
@@ -203,8 +204,8 @@ class Cable:
         until_s = self._now_s + for_s
         self._scene.until(lambda: self._now_s >= until_s, 5 * for_s + STANDS_WITHIN_S)
 
-    def mark(self, part: str) -> None:
-        """Write down how things really are now."""
+    def mark(self, part: str, since_s: float | None = None) -> None:
+        """Write down how things really are now, after a motion was said since a board's time."""
         truth = self._chip.truth
         self._note_place()
         self.seen.marks.append(
@@ -217,6 +218,7 @@ class Cable:
                 heading_rad=truth.pose.heading_rad,
                 left_pwm=truth.left_pwm,
                 right_pwm=truth.right_pwm,
+                since_s=since_s,
             )
         )
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -39,8 +39,11 @@ FASTEST_M_S, FASTEST_RAD_S = 0.3, 1.2
 PWM_WITHIN = 3
 FULL_PWM = 255
 STOPS_WITHIN_S = 1.0
+BOARD_STOPS_S = 0.5
+"""After so long without a command the board stops its motors: days/06-serial-bridge says so."""
+
 LATE_COMMAND_S = 0.4
-"""A node that is held up for so long lets the board stop by itself: it does after half a second."""
+"""A node that is held up for so long may let the board stop by itself."""
 
 FEWEST = 10
 
@@ -158,7 +161,7 @@ def tell_the_motion(experiment: ExperimentView, part: str, body: Body) -> Demand
         before = [m for m in topic.messages if m.arrival_ns <= mark.arrival_ns and m.content]
         really = _motions_at(experiment, mark, body)
         if not before or not any(abs(each.forward_m_s) > MOTION_WITHIN_M_S for each in really):
-            _require_its_command(experiment, part)
+            _require_its_command(experiment, part, _runs)
             raise faults.NothingToJudge("the wheels did not turn")
         twist = before[-1].content["twist"]["twist"]
         told = Motion(_number(twist["linear"]["x"]), _number(twist["angular"]["z"]))
@@ -254,7 +257,7 @@ def drive_as_told(
     def demand(experiment: ExperimentView) -> None:
         got = _pwm_at(experiment, part)
         if not _alike(got, wanted):
-            _require_its_command(experiment, part)
+            _require_its_command(experiment, part, _makes(wanted))
             raise _drive_fault((forward_m_s, turn_rad_s), wanted, got)
 
     return demand
@@ -290,7 +293,7 @@ def drive_at_most(part: str, forward_m_s: float, turn_rad_s: float) -> Demand[Ex
     def demand(experiment: ExperimentView) -> None:
         got = _pwm_at(experiment, part)
         if not _alike(got, wanted):
-            _require_its_command(experiment, part)
+            _require_its_command(experiment, part, _makes(wanted))
             sent = _last_sent(experiment, _mark(experiment, part))
             raise cable_faults.TooFast((forward_m_s, turn_rad_s), wanted, got, sent)
 
@@ -313,10 +316,30 @@ def _alike(got: tuple[int, int], wanted: tuple[int, int]) -> bool:
     return max(abs(g - w) for g, w in zip(got, wanted, strict=True)) <= PWM_WITHIN
 
 
-def _require_its_command(experiment: ExperimentView, part: str) -> None:
-    """Before the motors are held against the student: this computer did not hold it up."""
+def _require_its_command(
+    experiment: ExperimentView, part: str, follows: Callable[[Drive], bool]
+) -> None:
+    """Before the motors are held against the student: this computer did not hold it up.
+
+    `follows` says whether a command is one that the node was told to send.
+    """
     require_steady(experiment.seen.stall_s)
-    require_its_time(experiment.seen, part, LATE_COMMAND_S, "a command")
+    late_s = _without_command_s(experiment, _mark(experiment, part), follows) - BOARD_STOPS_S
+    require_its_time(experiment.seen, part, max(LATE_COMMAND_S, late_s), "a command")
+
+
+def _without_command_s(
+    experiment: ExperimentView, mark: BoardMark, follows: Callable[[Drive], bool]
+) -> float:
+    """How long before a mark the node had sent nothing that follows, by the board's clock."""
+    begin_s = mark.board_s if mark.since_s is None else mark.since_s
+    sent = (at for at, drive in _commands(experiment) if at <= mark.board_s and follows(drive))
+    return mark.board_s - max((begin_s, *sent))
+
+
+def _makes(wanted: tuple[int, int]) -> Callable[[Drive], bool]:
+    """Whether a command makes the motors run with this PWM."""
+    return lambda drive: _alike((drive.left_pwm, drive.right_pwm), wanted)
 
 
 def _last_sent(experiment: ExperimentView, mark: BoardMark) -> str:
@@ -426,7 +449,7 @@ def drive_again(part: str, after: str) -> Demand[ExperimentView]:
         begin_s = _mark(experiment, f"{after}, over").board_s
         later = [each for each in _board(experiment).motors if each.board_s >= begin_s]
         if not any(each.left_pwm or each.right_pwm for each in later):
-            _require_its_command(experiment, part)
+            _require_its_command(experiment, part, _runs)
             raise cable_faults.DeafAfterNonsense((0, 0))
 
     return demand

@@ -34,6 +34,9 @@ class BoardMark(Record):
     heading_rad: float
     left_pwm: int
     right_pwm: int
+    since_s: float | None = Field(
+        default=None, description="The board's clock when this motion was first said, if one was"
+    )
 
 
 class BoardSeen(Record):
