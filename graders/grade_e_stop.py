@@ -161,23 +161,23 @@ def apart(scene: Scene) -> None:
         if hosts is None:
             return
         with (
-            running_on(scene, hosts.first, BUTTON),
             beside(
                 scene, "operator", operator_plan(ROADS), client_plan(PRESS), host=hosts.first
             ) as operator,
             beside(
                 scene, "rover", motors_plan(ROADS), joiner_plan(E_STOP), host=hosts.second
             ) as rover,
+            running_on(scene, hosts.first, BUTTON),
         ):
             far = Far(scene, operator, rover)
-            if not far.finds_the_button():
+            if not far.finds_the_button(E_STOP):
                 return
             far.call(RELEASED)
             with (
                 running_on(scene, hosts.second, GUARD),
                 watching(scene, operator, rover) as guard,
             ):
-                if not far.finds_the_guard():
+                if not far.finds_the_guard(COMMANDS):
                     return
                 if not guard.drives("far", "on two computers", within_s=FAR_WITHIN_S):
                     return

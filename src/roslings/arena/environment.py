@@ -28,6 +28,7 @@ MIDDLEWARE = "rmw_fastrtps_cpp"
 QUICK_DISCOVERY = HERE / "quick_discovery.xml"
 LOOPBACK_ONLY = HERE / "loopback_only.xml"
 PACED = HERE / "paced.xml"
+LOSSY_LINK = HERE / "lossy_link.xml"
 
 TRANSPORT: dict[Wall, dict[str, str]] = {
     # A private /dev/shm has no use for shared memory, and LOCALHOST would ignore UDPv4: a wrong

@@ -25,7 +25,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from roslings.arena import kernel
-from roslings.arena.environment import HERE, MIDDLEWARE, QUICK_DISCOVERY
+from roslings.arena.environment import HERE, LOSSY_LINK, MIDDLEWARE
 
 TUN = Path("/dev/net/tun")
 LINK = HERE / "link.py"
@@ -62,7 +62,7 @@ class Host:
         """
         return {
             "RMW_IMPLEMENTATION": MIDDLEWARE,
-            "FASTRTPS_DEFAULT_PROFILES_FILE": str(QUICK_DISCOVERY),
+            "FASTRTPS_DEFAULT_PROFILES_FILE": str(LOSSY_LINK),
             "FASTDDS_BUILTIN_TRANSPORTS": "UDPv4",
             "ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET",
             "ROS_STATIC_PEERS": self.peer,

@@ -19,7 +19,7 @@ from pathlib import Path
 
 from roslings.arena import cgroup
 from roslings.arena.bounds import MB, Bounds
-from roslings.arena.environment import HERE, PACED, QUICK_DISCOVERY, base_environment
+from roslings.arena.environment import HERE, LOSSY_LINK, PACED, QUICK_DISCOVERY, base_environment
 
 USER = "1000"
 """The same for everybody, as in arena/etc."""
@@ -115,7 +115,7 @@ def _once_for_all() -> tuple[Path, ...]:
     folders = [Path(name) for name in SYSTEM if not Path(name).is_symlink()]
     settings = [Path("/etc", name) for name in SETTINGS]
     guardian = [*GUARDIAN, *map(compiled, GUARDIAN)]
-    shown = [*folders, *settings, QUICK_DISCOVERY, PACED, *guardian, *STAND_INS]
+    shown = [*folders, *settings, QUICK_DISCOVERY, PACED, LOSSY_LINK, *guardian, *STAND_INS]
     return tuple(filter(Path.exists, shown))
 
 
