@@ -16,6 +16,14 @@ from roslings.lessons.path import Path as DayPath
 
 Axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe
 
+COVERS_THE_FIRST_LINE = """button => {
+    const pre = button.previousElementSibling, style = getComputedStyle(pre);
+    const { left, width } = button.getBoundingClientRect();
+    const above = parseFloat(style.borderTopWidth) + parseFloat(style.paddingTop);
+    pre.scrollIntoView({ block: "center" });
+    const y = pre.getBoundingClientRect().top + above + parseFloat(style.lineHeight) / 2;
+    return document.elementFromPoint(left + width / 2, y) === button;
+}"""
 MUST_BE_THERE = {
     "index", "glossary", "review", "search", "labs/index", "labs/topics", "reference/commands",
     "reference/doctor", "reference/messages", "reference/lifecycle", "reference/tf-and-scan",
@@ -207,7 +215,9 @@ def test_code_can_be_read_and_copied(visit: Visit) -> None:
     colour = "part => getComputedStyle(part).color"
     assert diff.locator(".gd").evaluate(colour) != diff.locator(".gi").evaluate(colour)
     if visit.base.startswith("http"):  # a file has no clipboard
-        assert page.locator(".highlight-diff button.copy").is_visible()
+        button = page.locator(".highlight-diff button.copy")
+        assert button.is_visible()
+        assert not button.evaluate(COVERS_THE_FIRST_LINE)
 
 
 def test_a_lab_is_a_card_with_its_names(visit: Visit) -> None:
