@@ -61,11 +61,14 @@ FASTEST = BRIDGE.parameter("max_wheel_speed")
 WHEELS, ODOM = BRIDGE.publishes
 CMD_VEL = BRIDGE.subscribes[0]
 STRAIGHT, TURN, ARC = (0.3, 0.0), (0.0, 1.2), (0.25, -0.4)
-"""The motions of the test drive: metres a second forward, radians a second to the left.
+"""The motions of the test drive: metres a second forward, radians a second to the left."""
 
-The turn and the arc take the rover as far along x as along y: it ends well off both axes.
-"""
 DRIVE = {"straight": STRAIGHT, "turn": TURN, "arc": ARC}
+LASTS_S = {"straight": 1.5, "turn": 0.5, "arc": 1.5}
+"""The arc begins 65 degrees to the left and ends 20: as far along x as along y.
+
+Who reckons wrongly with either of the two is found far from where the rover is.
+"""
 TOO_FAST = {"backward": (-2.0, 0.0), "round": (0.0, 12.0)}
 """Motions for which both wheels would have to turn faster than they can."""
 
@@ -102,7 +105,7 @@ def driving(scene: Scene) -> None:
         cable.begin(ODOM)
         list_parameters(scene, BRIDGE)
         for part, motion in DRIVE.items():
-            cable.drive(f"{part}, driving", CMD_VEL, *motion)
+            cable.drive(f"{part}, driving", CMD_VEL, *motion, for_s=LASTS_S[part])
             cable.rest(part, ODOM)
         cable.flood(CMD_VEL, [(n / 200 - 0.3, 0.0) for n in range(100)])
         cable.drive("after many", CMD_VEL, *STRAIGHT, for_s=0.4)
