@@ -112,7 +112,7 @@ def test_a_goal_without_an_answer(held_s: float, is_told: bool) -> None:
 def board(*, stops_at_s: float | None = None) -> BoardSeen:
     """A board whose motors were told to run, and to stop later."""
     mark = BoardMark(
-        part="on", arrival_ns=0, board_s=1.0, x_m=0, y_m=0, heading_rad=0, left_pwm=0, right_pwm=0
+        part="on", arrival_ns=0, board_s=1.0, x_m=0, y_m=0, heading_rad=0, left_pwm=9, right_pwm=9
     )
     commands = [(0.5, Drive(1, 100, 100))]
     commands += [(stops_at_s, Drive(2, 0, 0))] if stops_at_s else []
@@ -133,7 +133,8 @@ def test_a_command_that_does_not_come(held_s: float, is_told: bool) -> None:
 @pytest.mark.parametrize(("held_s", "is_told"), [(0.6, True), (1.6, False)])
 def test_a_node_that_sent_nothing_for_two_seconds(held_s: float, is_told: bool) -> None:
     """Who had nothing from it for so long asks for more than one late command."""
-    told_long_ago = [board().marks[0].model_copy(update={"since_s": -1.0})]
+    stood = {"since_s": -1.0, "left_pwm": 0, "right_pwm": 0}
+    told_long_ago = [board().marks[0].model_copy(update=stood)]
     silent = BoardSeen(marks=told_long_ago)
     demand = drive_as_told("on", 0.3, 0.0)
     assert told("on", held_s, demand, cable_faults.DoesNotDrive, board=silent) is is_told
@@ -145,6 +146,11 @@ def test_a_late_stop(held_s: float, is_told: bool) -> None:
     demand = stop_by_itself("on")
     late = board(stops_at_s=2.5)
     assert told("on", held_s, demand, cable_faults.DoesNotStop, board=late) is is_told
+
+
+def test_a_stop_that_came_in_the_moment_of_the_mark() -> None:
+    """The motors ran when it was set: on a busy computer the node's own stop is as early."""
+    view("on", 0.0, board=board(stops_at_s=1.0)).must(stop_by_itself("on"))
 
 
 def slow_board(passed_s: float) -> BoardSeen:

@@ -373,12 +373,11 @@ def stop_by_itself(after: str) -> Demand[ExperimentView]:
     """After the mark `after`, when nobody commands any more, it sends a stop of its own."""
 
     def demand(experiment: ExperimentView) -> None:
-        begun_s = _mark(experiment, after).board_s
-        moving = [d for at, d in _commands(experiment) if at <= begun_s]
-        if not moving or not (moving[-1].left_pwm or moving[-1].right_pwm):
+        mark = _mark(experiment, after)
+        if not (mark.left_pwm or mark.right_pwm):
             raise faults.NothingToJudge("the motors were not running")
-        stops = (at for at, d in _commands(experiment) if at > begun_s and not _runs(d))
-        stop_s = next(stops, None)
+        begun_s = mark.board_s
+        stop_s = _first_stop_s(experiment, begun_s)
         if stop_s is not None and stop_s - begun_s <= STOPS_WITHIN_S:
             _require_real_time(experiment, begun_s, stop_s)
         else:
@@ -389,6 +388,17 @@ def stop_by_itself(after: str) -> Demand[ExperimentView]:
             raise cable_faults.DoesNotStop(STOPS_WITHIN_S, stop_s and stop_s - begun_s)
 
     return demand
+
+
+def _first_stop_s(experiment: ExperimentView, after_s: float) -> float | None:
+    """When the node sent the stop that ended the motion of this moment, by the board's clock.
+
+    It may have reached the board in that very moment, just before the motors heard of it.
+    """
+    commands = _commands(experiment)
+    ran = (n for n, (at, each) in enumerate(commands) if at <= after_s and _runs(each))
+    later = commands[max(ran, default=-1) + 1 :]
+    return next((at for at, each in later if not _runs(each)), None)
 
 
 def _require_real_time(experiment: ExperimentView, from_s: float, to_s: float) -> None:
