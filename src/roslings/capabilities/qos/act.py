@@ -9,7 +9,6 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
-from functools import partial
 from typing import Any
 
 from roslings.arena import Host, Hosts, NoHosts, Process, two_hosts
@@ -342,10 +341,9 @@ class Far:
     def finds_the_button(self, topic: TopicContract) -> bool:
         """The service is found beside it, and what it says on the topic, on the other computer."""
         self._scene.until_own(lambda: bool(self._operator.told("served")), READY_WITHIN_S)
-        heard = partial(self._rover.told, "heard")
-        self._scene.until_back(lambda: bool(heard()), says(topic), FAR_WITHIN_S)
+        self._scene.until_back(lambda: bool(self._rover.told("heard")), says(topic), FAR_WITHIN_S)
         self.seen.served = bool(self._operator.told("served"))
-        self.seen.heard = [each["heard"].get("data") for each in heard()]
+        self.seen.heard = [each["heard"].get("data") for each in self._rover.told("heard")]
         return self.seen.served and bool(self.seen.heard)
 
     def call(self, answer: AnswerContract) -> None:

@@ -40,7 +40,7 @@ PWM_WITHIN = 3
 FULL_PWM = 255
 STOPS_WITHIN_S = 1.0
 BOARD_STOPS_S = 0.5
-"""After so long without a command the board stops its motors: days/06-serial-bridge says so."""
+"""After so long without a command the board stops its motors: STOPS_AFTER_MS of its sketch."""
 
 LATE_COMMAND_S = 0.4
 """A node that is held up for so long may let the board stop by itself."""
@@ -373,10 +373,9 @@ def stop_by_itself(after: str) -> Demand[ExperimentView]:
     """After the mark `after`, when nobody commands any more, it sends a stop of its own."""
 
     def demand(experiment: ExperimentView) -> None:
-        mark = _mark(experiment, after)
-        if not (mark.left_pwm or mark.right_pwm):
+        if not any(_pwm_at(experiment, after)):
             raise faults.NothingToJudge("the motors were not running")
-        begun_s = mark.board_s
+        begun_s = _mark(experiment, after).board_s
         stop_s = _first_stop_s(experiment, begun_s)
         if stop_s is not None and stop_s - begun_s <= STOPS_WITHIN_S:
             _require_real_time(experiment, begun_s, stop_s)
