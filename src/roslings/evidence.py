@@ -168,6 +168,11 @@ class ProcessSeen(Record):
         description="What it wanted more of than a sandbox has: processes, memory, files",
     )
 
+    @property
+    def ended_after_ctrl_c(self) -> bool:
+        """It was asked to end, and ended before it had to be killed."""
+        return self.ending is not None and self.ending.after_s is not None
+
 
 class Spoken(Record):
     """One message that the grader sent, and whether somebody was there to hear it."""

@@ -25,24 +25,41 @@ def is_late(seen: ProcessSeen, limit_s: float) -> bool:
 
 def is_unclean(seen: ProcessSeen) -> bool:
     """It ended after Ctrl-C, with another exit code than 0 or with a traceback of the student's."""
-    if seen.ending is None or seen.ending.after_s is None:
+    if not seen.ended_after_ctrl_c:
         return False
     traces = tracebacks(seen)
     return (seen.status != 0 or bool(traces)) and not _is_race_in_rclpy(seen.status, traces)
 
 
+def is_whole(seen: ProcessSeen) -> bool:
+    """It ended after Ctrl-C, and all that it did then was seen.
+
+    Of a node that ended in a race of rclpy's nobody knows what it would have done next: one that
+    shuts down a second time got no further than the first.
+    """
+    if not seen.ended_after_ctrl_c:
+        return False
+    return seen.status == 0 or not _is_race_in_rclpy(seen.status, tracebacks(seen))
+
+
 def must_end_again(seen: ExperimentSeen, earlier: Iterable[ExperimentSeen], limit_s: float) -> bool:
-    """A process ended badly, and no other experiment has shown the same of its executable.
+    """An end is in doubt, and no other experiment has told more of its executable.
 
     One bad end is no proof: of some thousand nodes that end well, one did not, on a busy computer,
-    and nothing that was measured told why.
+    and nothing that was measured told why. One that is not whole is no proof either.
     """
     known = [process for each in earlier for process in each.processes.values()]
     return any(
-        _is_bad(process, limit_s)
-        and not any(p.executable == process.executable and _is_bad(p, limit_s) for p in known)
+        _is_in_doubt(process, [p for p in known if p.executable == process.executable], limit_s)
         for process in seen.processes.values()
     )
+
+
+def _is_in_doubt(seen: ProcessSeen, others: Iterable[ProcessSeen], limit_s: float) -> bool:
+    """`others`: how the same executable ended elsewhere."""
+    if _is_bad(seen, limit_s):
+        return not any(_is_bad(each, limit_s) for each in others)
+    return seen.ended_after_ctrl_c and not any(map(is_whole, [seen, *others]))
 
 
 def _is_bad(seen: ProcessSeen, limit_s: float) -> bool:

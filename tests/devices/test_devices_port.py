@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from program import environment, run, running
 
-from roslings.devices.board import Board, Drive, LineReader, Mega, Spoiler
+from roslings.devices.board import Board, Drive, LineReader, Mega, Spoiler, framed
 from roslings.devices.board.wire import HELD_S, Wire
 from roslings.devices.rover import Box, Rover, World
 
@@ -224,6 +224,17 @@ def test_a_bad_cable_costs_lines_and_never_changes_one(spoil: Spoiler) -> None:
     assert set(bodies) <= whole
     assert 50 < len(bodies) < len(LINES) - 50
     assert rejected > 50
+
+
+def test_a_wrong_checksum_is_all_that_is_wrong_with_a_line() -> None:
+    """It is as long as the line was; who does not compare the checksum takes another number."""
+    spoil = Spoiler(wrong_checksums=1.0)
+    assert spoil(framed("W,7,140,-6100,5327")).startswith(b"$W,7,140,-6100,0327*")
+    for line in LINES:
+        came = spoil(line)
+        numbers, others = line[1:-6].split(b","), came[1:-6].split(b",")
+        assert came[-6:] == line[-6:] and len(came) == len(line)
+        assert numbers[:-1] == others[:-1] and int(numbers[-1]) != int(others[-1])
 
 
 def test_a_good_cable_and_a_silent_one() -> None:

@@ -8,6 +8,7 @@ from watching import HERE, NODE, watched
 from roslings.evidence import Ending, ExperimentSeen, ProcessSeen
 from roslings.experiment import Scene, experiment
 from roslings.experiment.measuring import doubtful
+from roslings.grader import Clock
 from roslings.judge import end_within, exit_cleanly
 from roslings.judge.faults import Inconclusive, UncleanExit
 from roslings.judge.views import ExperimentView, ProcessView
@@ -15,9 +16,9 @@ from roslings.judge.views import ExperimentView, ProcessView
 ENDS_WITHIN_S = 2.0
 
 
-def ended(name: str) -> ProcessView:
-    """The process of a script that was run twice, since its first end was bad."""
-    first, second = watched(HERE / "ends" / f"{name}.py")
+def ended(name: str, clock: Clock = "auto") -> ProcessView:
+    """The process of a script that was run twice, since its first end was in doubt."""
+    first, second = watched(HERE / "ends" / f"{name}.py", clock)
     return ExperimentView(second, (first,)).process(NODE)
 
 
@@ -31,6 +32,12 @@ def test_a_late_end_that_comes_once_is_unclear() -> None:
     """Whatever kept it: the computer, or the student's code."""
     with pytest.raises(Inconclusive, match="talker ended late in one of two runs"):
         ended("late_once").must(end_within(ENDS_WITHIN_S))
+
+
+def test_a_second_shutdown_that_a_race_has_hidden_is_a_fault() -> None:
+    """The first run ends inside rclpy, the second shows what the node does after it."""
+    with pytest.raises(UncleanExit, match="exit code 1"):
+        ended("in_a_race_once", "wall").must(exit_cleanly)
 
 
 @experiment

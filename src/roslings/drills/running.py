@@ -280,7 +280,7 @@ def _doubtful(seen: ExperimentSeen, verdict: DrillVerdict, runs: Sequence[Experi
     if verdict.outcome == "pass":
         return False
     if verdict.first and verdict.first.id in ("ends", "clean_exit"):
-        return verdict.outcome == "fail" and len(runs) == 1
+        return len(runs) == 1
     if verdict.first and verdict.first.id in BY_GRAPH:
         return verdict.outcome == "inconclusive"
     return verdict.outcome == "inconclusive" or seen.doubt is not None

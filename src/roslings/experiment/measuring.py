@@ -135,7 +135,7 @@ def run_all(stage: Stage, declared: Sequence[Experiment]) -> dict[str, list[Expe
         runs = {each.name: [*alongside.runs_of(each)] for each in declared}
         again = doubtful(declared, runs, stage.ends_within_s)
         for each in again:
-            say("A node did not end well; once more, to be sure")
+            say("How a node ends is in doubt; once more, to be sure")
             alongside.begin(each, declared.index(each))
         for each in again:
             runs[each.name] += alongside.runs_of(each)
@@ -145,7 +145,7 @@ def run_all(stage: Stage, declared: Sequence[Experiment]) -> dict[str, list[Expe
 def doubtful(
     declared: Sequence[Experiment], runs: Mapping[str, Sequence[ExperimentSeen]], limit_s: float
 ) -> list[Experiment]:
-    """Those in which a node ended badly, and in no other run did its program.
+    """Those in which a node's end is in doubt, and no other run tells more of its program.
 
     Asked when all are over: most programs run in several experiments, and those agree.
     """

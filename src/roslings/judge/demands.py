@@ -5,11 +5,12 @@ from __future__ import annotations
 import difflib
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Sequence
+from dataclasses import replace
 from typing import TypeVar
 
 from roslings.course import CourseError, NodeContract, TopicContract
 from roslings.evidence import Ending, ExperimentSeen, ProcessSeen, Spoken
-from roslings.exits import is_late, is_unclean, tracebacks
+from roslings.exits import is_late, is_unclean, is_whole, tracebacks
 from roslings.judge import faults
 from roslings.judge.remarks import remark
 from roslings.judge.views import (
@@ -216,10 +217,11 @@ def end_within(limit_s: float) -> Demand[ProcessView]:
 
 
 def exit_cleanly(process: ProcessView) -> None:
-    """After Ctrl-C: exit code 0 and no traceback."""
-    seen = process.seen
-    if seen.ending is None or seen.ending.after_s is None:
+    """After Ctrl-C: exit code 0 and no traceback. Raises Inconclusive where no end was whole."""
+    if not process.seen.ended_after_ctrl_c:
         raise faults.NothingToJudge("it did not end after Ctrl-C")
+    process = _with_whole_ends(process)
+    seen = process.seen
     if agreed(process, is_unclean, "ended with an error"):
         how = describe_end(seen) + (", with a traceback" if tracebacks(seen) else "")
         raise faults.UncleanExit(seen.executable, how, log=process.last_lines())
@@ -228,6 +230,18 @@ def exit_cleanly(process: ProcessView) -> None:
             f"too much to keep: {seen.output_dropped_bytes} bytes that {seen.executable} wrote had"
             " no room in the evidence, some from after Ctrl-C; let it write less, then check again"
         )
+
+
+def _with_whole_ends(process: ProcessView) -> ProcessView:
+    """It as it ended where all was seen: in this experiment, else in another one."""
+    here = [*process.before, process.seen]
+    ends = list(filter(is_whole, here)) or list(filter(is_whole, process.elsewhere))
+    if not ends:
+        raise faults.Inconclusive(
+            f"Ctrl-C met {process.seen.executable} while rclpy itself was at work, and what it does"
+            " at its end was not seen; check again"
+        )
+    return replace(process, seen=ends[-1], before=tuple(ends[:-1]))
 
 
 def agreed(process: ProcessView, bad: Callable[[ProcessSeen], bool], what: str) -> bool:

@@ -85,6 +85,8 @@ class ProcessView(View):
     experiment: ExperimentSeen
     before: tuple[ProcessSeen, ...] = ()
     """As it ended in earlier runs of the experiment, which were made again for its end alone."""
+    elsewhere: tuple[ProcessSeen, ...] = ()
+    """The same executable in other runs, of this experiment or another."""
     doubted: tuple[tuple[ProcessSeen, ExperimentSeen], ...] = ()
     """It in runs of the experiment whose times were not believed."""
     soaked: ProcessSeen | None = None
@@ -239,6 +241,8 @@ class ExperimentView(View):
     """Earlier runs whose times were not believed: what a node did there, it did."""
     soaked: Mapping[str, ProcessSeen] = field(default_factory=dict)
     """Executable to its process in the soak."""
+    others: tuple[ExperimentSeen, ...] = ()
+    """All other runs, of this experiment and of others."""
 
     def process(self, node: NodeContract) -> ProcessView:
         """The process of a node. Raises NothingToJudge where it was never started."""
@@ -254,7 +258,18 @@ class ExperimentView(View):
             (each.processes[label], each) for each in self.doubted if label in each.processes
         )
         seen = self.seen.processes[label]
-        return ProcessView(seen, self.seen, before, doubted, self.soaked.get(seen.executable))
+        return ProcessView(
+            seen,
+            self.seen,
+            before,
+            elsewhere=self._elsewhere(seen.executable),
+            doubted=doubted,
+            soaked=self.soaked.get(seen.executable),
+        )
+
+    def _elsewhere(self, executable: str) -> tuple[ProcessSeen, ...]:
+        processes = (each for run in self.others for each in run.processes.values())
+        return tuple(each for each in processes if each.executable == executable)
 
     def node(self, node: NodeContract) -> NodeView:
         """The node, or the nearest to it. Raises NothingToJudge where there is none.
@@ -350,7 +365,9 @@ def views_of(evidence: Evidence) -> dict[str, View]:
     """What a check can ask for by name: `package`, and each experiment."""
     soaked = _soaked(evidence)
     experiments = {
-        name: ExperimentView(seen, *_runs_before(name, evidence), soaked)
+        name: ExperimentView(
+            seen, *_runs_before(name, evidence), soaked, tuple(_runs_but(seen, evidence))
+        )
         for name, seen in evidence.experiments.items()
     }
     return {"package": PackageView(evidence.package, evidence.build, evidence.lab), **experiments}
@@ -363,6 +380,11 @@ def _soaked(evidence: Evidence) -> dict[str, ProcessSeen]:
             if each.ended_by_itself}  # fmt: skip
     soaked = evidence.soak.processes if evidence.soak else {}
     return {name: seen for name, seen in soaked.items() if name not in told}
+
+
+def _runs_but(seen: ExperimentSeen, evidence: Evidence) -> Iterator[ExperimentSeen]:
+    runs = (*evidence.experiments.values(), *evidence.attempts)
+    return (each for each in runs if each is not seen)
 
 
 def _runs_before(

@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import random
+import re
 from dataclasses import dataclass, field
+
+_LAST_NUMBER = re.compile(rb"\d(?=\d*\*[0-9A-F]{4}\n)")
+"""The first digit of it."""
 
 
 @dataclass
@@ -19,7 +23,10 @@ class Spoiler:
     half_lines: float = 0.0
     """Share of lines of which the end is cut off."""
     wrong_checksums: float = 0.0
-    """Share of lines whose last digit is another one."""
+    """Share of lines whose last number before the checksum is another one, of as many digits.
+
+    Their form is right: only who compares the checksum knows.
+    """
     silent: bool = False
     """Nothing arrives."""
     babble: int = 0
@@ -51,9 +58,9 @@ class Spoiler:
         if self._chance.random() < self.half_lines:
             self.spoiled_lines += 1
             line = line[: self._chance.randrange(1, max(2, len(line) - 1))]
-        elif self._chance.random() < self.wrong_checksums and len(line) > 1:
+        elif self._chance.random() < self.wrong_checksums:
             self.spoiled_lines += 1
-            line = line[:-2] + (b"0" if line[-2:-1] != b"0" else b"1") + b"\n"
+            line = _LAST_NUMBER.sub(_another, line, count=1)
         return nonsense + line
 
     def _noisy(self, passing: bytes) -> bytes:
@@ -65,3 +72,7 @@ class Spoiler:
         if self._chance.random() >= self.noise:
             return byte
         return byte ^ (1 << self._chance.randrange(8))
+
+
+def _another(digit: re.Match[bytes]) -> bytes:
+    return b"%d" % ((int(digit[0]) + 5) % 10)

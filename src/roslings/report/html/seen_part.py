@@ -18,7 +18,7 @@ from roslings.verdict import CheckResult, Verdict
 
 WIDE, NARROW = (720.0, 270.0), (340.0, 230.0)
 CLOCKS = {"sim": "in simulated time", "wall": "in real time"}
-SECOND_END = "a node did not end well, so it was made once more, to be sure"
+SECOND_END = "how a node ends was in doubt, so it was made once more, to be sure"
 MOST_LOG_LINES = 400
 
 
