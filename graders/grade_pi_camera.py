@@ -87,6 +87,10 @@ LIT = (51, LIGHT, *BRIGHTNESS.ends)
 
 FIRST_HUE, LAST_HUE = HUE.ends
 SMALL, LARGE, ODD = (160, 120), (640, 480), (147, 101)
+SIZES = [LARGE, SMALL, SMALL, SMALL]
+"""Of the first pictures. A piece of a large one is lost more easily, and after a silence each is
+shown once only: so the large one comes first."""
+
 PARTS = ["ball", "none", "rgb8", "rows", "mono8"]
 PLAIN_PARTS = ["ball", "none"]
 """Where a picture needs no conversion: what goes wrong in others is told by other checks."""
@@ -215,7 +219,7 @@ def looking(scene: Scene) -> None:
     with scene.run(FINDER) as process:
         screen = Projector(scene, process, SEEN, BALL, DRAWN)
         screen.begin()
-        for size in (SMALL, LARGE, SMALL, SMALL):
+        for size in SIZES:
             screen.show("ball", shot(scene, size))
         screen.show("ball", smallest(scene))
         screen.show("ball", with_decoy(scene, RED, GREEN))
