@@ -73,6 +73,9 @@ TOO_FAST = {"backward": (-2.0, 0.0), "round": (0.0, 12.0)}
 """Motions for which both wheels would have to turn faster than they can."""
 
 SILENCE_S = 30.0
+LOOKS_WITHIN_S = 3.0
+"""Seconds of its own until a node works that waits for nothing; one that waits gets no more."""
+
 PULLED = {"came back": "the cable was pulled and put back"} | {
     f"came back {n}": f"the cable was pulled and put back {n} times" for n in range(2, 6)
 }
@@ -144,6 +147,7 @@ def unplugged(scene: Scene) -> None:
         board_beside(scene, plugged_in=False) as cable,
         scene.run(BRIDGE, start=cable.start()),
     ):
+        scene.turned(BRIDGE.node, LOOKS_WITHIN_S)  # so it has looked for its board, and found none
         cable.live(for_s=0.5)
         cable.board.plug_in()
         if not cable.await_return("came late", WHEELS, 10):
