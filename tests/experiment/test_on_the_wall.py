@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import pytest
 
 from roslings.course import RateContract
@@ -31,6 +33,30 @@ def test_without_its_canary_a_rate_tells_nothing(hz: float) -> None:
 def test_no_computer_makes_a_node_twice_as_fast(hz: float) -> None:
     """A node that takes all processors, so that the canary is late, gets its own rate told."""
     assert watched(hz, stall_s=3.0) is None
+
+
+class SingsOn(list[MessageSeen]):
+    """Songs to which each who reads them all hears one more afterwards."""
+
+    def __iter__(self) -> Iterator[MessageSeen]:
+        yield from list(super().__iter__())
+        self.append(song(len(self)))
+
+
+def song(number: int) -> MessageSeen:
+    """One message of a canary that is never late."""
+    at_ns = round(number * 1e9 / LIMIT.hz)
+    return MessageSeen(arrival_ns=at_ns, source_ns=at_ns, sequence=number, size=0)
+
+
+def test_a_canary_that_sings_on_is_measured_all_the_same() -> None:
+    """Beside two full processors another thread heard one more in the middle of the sum."""
+    canary = CanarySeen(wanted_hz=LIMIT.hz)
+    canary.messages = SingsOn(map(song, range(20)))
+    seen = ExperimentSeen(name="alone", clock="wall")
+    seen.canary = canary
+    rate = Rate(LIMIT.hz, 0.001, (1 / LIMIT.hz,) * 20, 0, True)
+    assert trouble(seen, rate, LIMIT) is None
 
 
 def kept_waiting(rate: Rate | None, waited_s: float, devices_s: float = 0.0) -> str | None:

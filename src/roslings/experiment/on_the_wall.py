@@ -170,7 +170,7 @@ def _within(rate: Rate, limits_hz: tuple[float, float]) -> bool:
 
 
 def _missed(canary: CanarySeen, limit: RateContract) -> str | None:
-    rate = measure_rate(canary.messages)
+    rate = measure_rate([*canary.messages])  # it sings on meanwhile, heard by another thread
     if rate is None:
         return "a talker that is known to be good did not come up beside yours"
     off_hz = abs(rate.hz - canary.wanted_hz) - rate.uncertainty_hz
