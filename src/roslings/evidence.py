@@ -477,6 +477,11 @@ class Evidence(Record):
         extra="forbid", validate_by_name=True, validate_by_alias=True, ser_json_inf_nan="strings"
     )
 
+    @property
+    def runs(self) -> list[ExperimentSeen]:
+        """Every run of every experiment: those that count, then the earlier ones."""
+        return [*self.experiments.values(), *self.attempts]
+
 
 def evidence_json(evidence: Evidence, indent: int | None = None) -> bytes:
     """JSON in UTF-8, in one piece: large evidence has no room for a text of it beside its bytes."""

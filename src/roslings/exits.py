@@ -25,10 +25,8 @@ def is_late(seen: ProcessSeen, limit_s: float) -> bool:
 
 def is_unclean(seen: ProcessSeen) -> bool:
     """It ended after Ctrl-C, with another exit code than 0 or with a traceback of the student's."""
-    if not seen.ended_after_ctrl_c:
-        return False
-    traces = tracebacks(seen)
-    return (seen.status != 0 or bool(traces)) and not _is_race_in_rclpy(seen.status, traces)
+    mistakes = [trace for trace in tracebacks(seen) if not _is_interrupted_destructor(trace)]
+    return is_whole(seen) and (seen.status != 0 or bool(mistakes))
 
 
 def is_whole(seen: ProcessSeen) -> bool:
@@ -37,9 +35,8 @@ def is_whole(seen: ProcessSeen) -> bool:
     Of a node that ended in a race of rclpy's nobody knows what it would have done next: one that
     shuts down a second time got no further than the first.
     """
-    if not seen.ended_after_ctrl_c:
-        return False
-    return seen.status == 0 or not _is_race_in_rclpy(seen.status, tracebacks(seen))
+    hidden = seen.status != 0 and _ends_in_a_race(tracebacks(seen))
+    return seen.ended_after_ctrl_c and not hidden
 
 
 def must_end_again(seen: ExperimentSeen, earlier: Iterable[ExperimentSeen], limit_s: float) -> bool:
@@ -74,7 +71,7 @@ def tracebacks(seen: ProcessSeen) -> list[list[str]]:
     return [texts[max(i - 1, 0) : end] for i, end in zip(starts, ends, strict=True)]
 
 
-def _is_race_in_rclpy(status: int | None, traces: Sequence[Sequence[str]]) -> bool:
+def _ends_in_a_race(traces: Sequence[Sequence[str]]) -> bool:
     """Ctrl-C ended rclpy's context while rclpy itself worked with it: no fault of the student's.
 
     rclpy's signal handler shuts the context down in another thread, whatever the node does then.
@@ -83,11 +80,7 @@ def _is_race_in_rclpy(status: int | None, traces: Sequence[Sequence[str]]) -> bo
     four with a 2 kHz timer. The last traceback is the one that the node ended with. One before
     it can be Ctrl-C in a destructor, where Python says so and goes on.
     """
-    if not traces:
-        return False
-    last = traces[-1]
-    if status == 0:
-        return all(_is_interrupted_destructor(trace) for trace in traces)
+    last = traces[-1] if traces else []
     return _between_two_steps_of_try_shutdown(last) or _in_the_executor(last)
 
 

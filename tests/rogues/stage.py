@@ -392,6 +392,6 @@ def said(evidence: Evidence) -> Iterator[str]:
     """Every line that the package's processes wrote, the build's too."""
     if evidence.build:
         yield from evidence.build.output
-    for seen in (*evidence.experiments.values(), *evidence.attempts):
+    for seen in evidence.runs:
         for process in seen.processes.values():
             yield from (line.text for line in process.lines)

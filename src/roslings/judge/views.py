@@ -366,7 +366,10 @@ def views_of(evidence: Evidence) -> dict[str, View]:
     soaked = _soaked(evidence)
     experiments = {
         name: ExperimentView(
-            seen, *_runs_before(name, evidence), soaked, tuple(_runs_but(seen, evidence))
+            seen,
+            *_runs_before(name, evidence),
+            soaked,
+            others=tuple(run for run in evidence.runs if run is not seen),
         )
         for name, seen in evidence.experiments.items()
     }
@@ -375,16 +378,10 @@ def views_of(evidence: Evidence) -> dict[str, View]:
 
 def _soaked(evidence: Evidence) -> dict[str, ProcessSeen]:
     """Without what ended by itself in an experiment as well: checks that look there tell it."""
-    runs = (*evidence.experiments.values(), *evidence.attempts)
-    told = {each.executable for run in runs for each in run.processes.values()
+    told = {each.executable for run in evidence.runs for each in run.processes.values()
             if each.ended_by_itself}  # fmt: skip
     soaked = evidence.soak.processes if evidence.soak else {}
     return {name: seen for name, seen in soaked.items() if name not in told}
-
-
-def _runs_but(seen: ExperimentSeen, evidence: Evidence) -> Iterator[ExperimentSeen]:
-    runs = (*evidence.experiments.values(), *evidence.attempts)
-    return (each for each in runs if each is not seen)
 
 
 def _runs_before(

@@ -46,7 +46,7 @@ def read_evidence(path: Path, lab: str) -> Evidence:
         evidence = read_json(content)
     except ValidationError as error:
         raise BadEvidence(file, f"damaged: {_first(error)}.") from error
-    for seen in [*evidence.experiments.values(), *evidence.attempts]:
+    for seen in evidence.runs:
         if any(not 0 <= s.first <= s.last < len(seen.ticks) for s in seen.segments):
             raise BadEvidence(file, f"damaged: {seen.name}: a segment without its ticks.")
     return evidence
