@@ -3,8 +3,9 @@
     python .ci/summary.py STAGES COSTS
 
 STAGES has a line `SECONDS CPU_SECONDS STATUS NAME` for each stage, COSTS a line of JSON for each
-test (`tests/costs.py`). Ends with 1 where a stage failed, or where a mutant or a rogue that lies in
-this clone was not graded.
+test (`tests/costs.py`). The last line says what is proven and no more: what was skipped is not.
+Ends with 1 where a stage failed, where nothing asked for a mutant or a rogue that lies in this
+clone, or where fewer than `FEWEST` of a kind were graded.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from __future__ import annotations
 import json
 import re
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -22,6 +23,9 @@ SLOWEST = 20
 MUTANT = re.compile(r"test_verdicts\.py::test_a_mutant_fails_where_it_says\[(.+)\]$")
 ROGUE = re.compile(r"test_rogues\.py::test_a_(?:wild_)?rogue_is_contained\[(.+)\]$")
 USERS = ("ordinary", "root")
+MUTANTS, ROGUES = "mutants", "rogues"
+FEWEST = {MUTANTS: 120, ROGUES: 30}
+"""A run that graded fewer of them has shown too little, whatever kept it from more."""
 
 
 @dataclass(frozen=True)
@@ -41,19 +45,32 @@ class Count:
     kind: str
     there: frozenset[str]
     outcomes: dict[str, str]
+    name: str
+    """With whom, where the same kind is graded for more than one."""
+
+    def number(self, *words: str) -> int:
+        """How many came to one of these outcomes."""
+        return sum(found in words for found in self.outcomes.values())
+
+    @property
+    def graded(self) -> int:
+        """Those with a verdict, right or wrong."""
+        return self.number("passed", "failed")
+
+    @property
+    def unproven(self) -> int:
+        """Those that no verdict was told of."""
+        return len(self.there) - self.graded
 
     @property
     def missing(self) -> list[str]:
-        """Those that nothing looked at."""
+        """Those that nothing asked for."""
         return sorted(self.there - set(self.outcomes))
 
     def lines(self) -> Iterator[str]:
         """How many were graded, and what became of the others."""
-        passed, wrong, skipped = (
-            sum(found == word for found in self.outcomes.values())
-            for word in ("passed", "failed", "skipped")
-        )
-        yield f"{self.kind}: {passed + wrong} of {len(self.there)} graded, {wrong} wrong"
+        wrong, skipped = self.number("failed"), self.number("skipped")
+        yield f"{self.name}: {self.graded} of {len(self.there)} graded, {wrong} wrong"
         if skipped:
             yield f"  {skipped} skipped: no room or no time on this machine; the tests say which."
         if self.missing:
@@ -83,7 +100,7 @@ def outcomes(tests: list[Test], name: re.Pattern[str]) -> dict[str, str]:
 
 def counts(tests: list[Test]) -> Iterator[Count]:
     """Of mutants, and of rogues by user."""
-    yield Count("Mutants", mutants(), outcomes(tests, MUTANT))
+    yield Count(MUTANTS, mutants(), outcomes(tests, MUTANT), "Mutants")
     of_users = outcomes(tests, ROGUE)
     for user in USERS:
         own = {
@@ -91,17 +108,20 @@ def counts(tests: list[Test]) -> Iterator[Count]:
             for rogue in rogues(user)
             if (name := f"{user}-{rogue}") in of_users
         }
-        yield Count(f"Rogues as {user}", rogues(user), own)
+        yield Count(ROGUES, rogues(user), own, f"Rogues as {user}")
 
 
-def stages(file: Path) -> list[tuple[float, float, int, str]]:
+Stages = Sequence[tuple[float, float, int, str]]
+
+
+def stages(file: Path) -> Stages:
     """Seconds, CPU seconds, status and name."""
     rows = (line.split(maxsplit=3) for line in file.read_text("utf-8").splitlines())
     return [(float(wall), float(cpu), int(status), name) for wall, cpu, status, name in rows]
 
 
 def main(stages_file: Path, costs_file: Path) -> int:
-    """Print all of it; whether all is well."""
+    """Print all of it; 0 where the run has passed."""
     lines = costs_file.read_text("utf-8").splitlines() if costs_file.exists() else []
     tests = [Test(**json.loads(line)) for line in lines]
     print(f"== The {SLOWEST} slowest tests ==\n   wall s   CPU s")
@@ -116,9 +136,35 @@ def main(stages_file: Path, costs_file: Path) -> int:
     found = list(counts(tests))
     for count in found:
         print("\n".join(count.lines()))
-    failed = any(status for _, _, status, _ in run) or any(count.missing for count in found)
-    print("FAILED" if failed else "All is well.")
-    return int(failed)
+    wrong = [*broken(run, found)]
+    print(f"FAILED: {'; '.join(wrong)}" if wrong else proven(tests, found))
+    return int(bool(wrong))
+
+
+def broken(run: Stages, found: Sequence[Count]) -> Iterator[str]:
+    """Each reason for which this run has not passed."""
+    if failed := [name for _, _, status, name in run if status]:
+        yield f"these stages failed: {', '.join(failed)}"
+    if missing := sum(len(count.missing) for count in found):
+        yield f"nothing asked for {missing} mutants and rogues"
+    for kind, fewest in FEWEST.items():
+        graded = sum(count.graded for count in found if count.kind == kind)
+        if graded < fewest:
+            yield f"{graded} {kind} were graded, and {fewest} are the fewest that show something"
+
+
+def proven(tests: Sequence[Test], found: Sequence[Count]) -> str:
+    """The last line of a run that passed: it says no more than was proven."""
+    skipped = sum(each.outcome == "skipped" for each in tests)
+    if not skipped and not any(count.unproven for count in found):
+        return "All is well: every mutant and every rogue was graded, and no test was skipped."
+    open_ones = ", ".join(f"{each.unproven} of {len(each.there)} {_named(each)}" for each in found)
+    return f"Passed, but NOT PROVEN: {open_ones}; {skipped} of {len(tests)} tests skipped."
+
+
+def _named(count: Count) -> str:
+    """In the middle of a sentence."""
+    return count.name[0].lower() + count.name[1:]
 
 
 if __name__ == "__main__":

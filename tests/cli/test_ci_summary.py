@@ -7,6 +7,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 from roslings.course import all_labs, root
 
 SUMMARY = root() / ".ci/summary.py"
@@ -41,21 +43,70 @@ def test_what_was_not_graded_is_named(tmp_path: Path) -> None:
     assert "Rogues as ordinary: 1 of" in words and ", 1 wrong\n  1 skipped" in words
     assert "writes-import" in words and "zip_bomb" in words
     assert "reads-run" in words.partition("Rogues as root")[2]
-    assert "MISSING" in words and words.endswith("FAILED\n")
+    assert "MISSING" in words and last(words).startswith("FAILED: nothing asked for ")
 
 
-def test_all_that_there_is_is_well(tmp_path: Path) -> None:
-    """What a run with no test misses is all that has to be graded."""
-    _, words = summary(tmp_path, {}, "1.0 1.0 0 One\n")
+def all_of_them(folder: Path) -> dict[str, list[str]]:
+    """The tests of all mutants and of all rogues: what a run with no test misses."""
+    _, words = summary(folder, {}, "1.0 1.0 0 One\n")
     mutants, ordinary, as_root = (
         line.partition(": ")[2].split(", ") for line in words.splitlines() if "MISSING" in line
     )
     assert sorted(mutants) == sorted(MUTANTS) and set(as_root) < set(ordinary)
-    names = [*(f"{VERDICTS}[{name}]" for name in mutants),
-             *(f"{ROGUES}[ordinary-{name}]" for name in ordinary),
-             *(f"{ROGUES}[root-{name}]" for name in as_root)]  # fmt: skip
-    status, words = summary(tmp_path, dict.fromkeys(names, "passed"), "1.0 1.0 0 One\n")
-    assert (status, "MISSING" in words) == (0, False), words
+    rogues = [*(f"ordinary-{name}" for name in ordinary), *(f"root-{name}" for name in as_root)]
+    return {
+        "mutants": [f"{VERDICTS}[{name}]" for name in mutants],
+        "rogues": [f"{ROGUES}[{name}]" for name in rogues],
+    }
+
+
+def last(words: str) -> str:
+    """The line that is believed."""
+    return words.splitlines()[-1]
+
+
+def of_all(folder: Path, **skipped: int) -> tuple[int, str]:
+    """The end of a run in which so many of each kind were skipped, and all others passed."""
+    outcomes: dict[str, str] = {}
+    for kind, tests in all_of_them(folder).items():
+        outcomes |= dict.fromkeys(tests, "passed")
+        outcomes |= dict.fromkeys(tests[: skipped.get(kind, 0)], "skipped")
+    return summary(folder, outcomes, "1.0 1.0 0 One\n")
+
+
+def test_all_that_there_is_is_well(tmp_path: Path) -> None:
+    """Nothing was skipped: only then all is well."""
+    status, words = of_all(tmp_path)
+    assert (status, "MISSING" in words, last(words)[:13]) == (0, False, "All is well: "), words
+
+
+@pytest.mark.parametrize("kind", ["mutants", "rogues"])
+def test_what_was_skipped_is_not_called_well(kind: str, tmp_path: Path) -> None:
+    """One is enough; the last line has its number."""
+    status, words = of_all(tmp_path, **{kind: 1})
+    assert (status, "All is well" in words) == (0, False)
+    assert last(words).startswith("Passed, but NOT PROVEN: ")
+    assert "; 1 of " in last(words) and last(words).endswith(" tests skipped.")
+
+
+def test_another_test_that_was_skipped_counts_too(tmp_path: Path) -> None:
+    """It need not be a mutant or a rogue."""
+    outcomes = dict.fromkeys([*all_of_them(tmp_path)["mutants"]], "passed")
+    outcomes |= dict.fromkeys([*all_of_them(tmp_path)["rogues"]], "passed")
+    _, words = summary(
+        tmp_path, {**outcomes, "tests/test_it.py::test_it": "skipped"}, "1 1 0 One\n"
+    )
+    assert last(words).endswith(f"; 1 of {len(outcomes) + 1} tests skipped.")
+
+
+@pytest.mark.parametrize(("kind", "fewest"), [("mutants", 120), ("rogues", 30)])
+def test_a_run_that_showed_too_little_fails(kind: str, fewest: int, tmp_path: Path) -> None:
+    """All skipped, or all but a few: that is no proof, whatever the reason."""
+    there = len(all_of_them(tmp_path)[kind])
+    for skipped, wanted in ((there, 1), (there - fewest + 1, 1), (there - fewest, 0)):
+        status, words = of_all(tmp_path, **{kind: skipped})
+        assert status == wanted, words
+        assert last(words).startswith("FAILED: " if wanted else "Passed, but NOT PROVEN: ")
 
 
 def test_a_stage_that_failed_fails_all(tmp_path: Path) -> None:
