@@ -420,6 +420,10 @@ class PackageSeen(Record):
     documents: dict[str, str] = Field(
         default_factory=dict, description="Texts that the card asks for, by path"
     )
+    content: str = Field(
+        default="",
+        description="Digest of its files; of Python without comments and docstrings",
+    )
     handed_in_as: str = Field(
         default="", description="What the submission is called; empty where nobody handed it in"
     )

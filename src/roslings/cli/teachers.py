@@ -146,6 +146,17 @@ def prove_options(word: argparse.ArgumentParser) -> None:
         help="write the solution in other ways; each must get 100",
     )  # fmt: skip
     word.add_argument(
+        "--kept", action="store_true",
+        help="judge all proofs that are kept, and say which are stale; runs no node",
+    )  # fmt: skip
+    word.add_argument(
+        "--record", action="store_true",
+        help="measure what is stale, and keep the proofs of it; with --due: all that is due",
+    )  # fmt: skip
+    word.add_argument(
+        "--due", action="store_true", help="measure what must be measured before a landing"
+    )
+    word.add_argument(
         "--jobs", metavar="N", type=whole_number, help="how many at once (default: measured)"
     )
 

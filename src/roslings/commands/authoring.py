@@ -30,6 +30,8 @@ def prove(options: argparse.Namespace) -> int:
     """Prove labs' packages and contracts, and say what is not as it must be."""
     if options.drills is not None:
         return _prove_drills(options)
+    if options.kept or options.record or options.due:
+        return _prove_kept(options)
     if not options.labs:
         print("roslings: name a lab, or --drills. For example: topics", file=sys.stderr)
         return WRONG_USE
@@ -71,6 +73,30 @@ def _prove_drills(options: argparse.Namespace) -> int:
     wrong = [line for line in lines if not line.holds]
     if not wrong:
         print(f"{len(drills)} drills are proven.")
+        return OK
+    return INCONCLUSIVE if all(proof.is_open for proof in wrong) else FAILED
+
+
+def _prove_kept(options: argparse.Namespace) -> int:
+    """Judge kept proofs; measure what is stale or due."""
+    from roslings.authoring.proofs.command import due, kept, labs_or_all, recorded
+    from roslings.authoring.prove import Proof
+    from roslings.authoring.telling import told
+    from roslings.batch.command import Teller
+    from roslings.report import Progress
+
+    labs = labs_or_all(options.labs)
+    with Progress() as progress:
+        teller = Teller(progress)
+        lines = [
+            *(kept(labs) if options.kept else ()),
+            *(recorded(labs, teller, options.jobs, due=options.due) if options.record else ()),
+            *(due(labs, teller, options.jobs) if options.due and not options.record else ()),
+        ]
+    for text in told(lines, all_of_them=options.all):
+        print(text)
+    wrong = [line for line in lines if isinstance(line, Proof) and not line.holds]
+    if not wrong:
         return OK
     return INCONCLUSIVE if all(proof.is_open for proof in wrong) else FAILED
 

@@ -14,6 +14,7 @@ from roslings.workspace import code
 from roslings.workspace.documents import text_of
 from roslings.workspace.errors import reading
 from roslings.workspace.manifest import read_manifest
+from roslings.workspace.normal import digest_of_files
 from roslings.workspace.pictures import look_at
 from roslings.workspace.sources import files
 
@@ -71,6 +72,7 @@ def _inspect(
         entry_points=setup.console_scripts,
         pictures=dict(_pictures(folder, card)),
         documents={path: text_of(found[path]) for path in card.documents if path in found},
+        content=digest_of_files(found),
     )
 
 

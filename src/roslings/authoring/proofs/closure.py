@@ -1,0 +1,237 @@
+"""What a program of ours is made of: its modules, and the files that lie beside them.
+
+Followed are imports, those inside of functions too, and texts that name a module or a file beside
+the one that they stand in: what is started by `-m NAME` or read by `with_name("x.xml")` counts.
+Imports for the type checker alone do not.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Collection, Iterable, Iterator
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+
+from roslings.workspace.normal import digest_of, normal
+
+TABLE = re.compile(r"roslings\.(capability|capabilities\.[a-z]+)")
+"""Modules whose texts name others that they do not need: a table of what may be there."""
+
+
+@dataclass(frozen=True)
+class Tree:
+    """Where modules lie: the folder above the package `roslings`."""
+
+    src: Path
+
+    def file_of(self, module: str) -> Path | None:
+        """Its file; None where it is none of ours."""
+        if not module.startswith("roslings"):
+            return None
+        place = self.src.joinpath(*module.split("."))
+        found = (place / "__init__.py", place.with_suffix(".py"))
+        return next((file for file in found if file.is_file()), None)
+
+    def name_of(self, file: Path) -> str:
+        """The module that lies in a file."""
+        parts = file.relative_to(self.src).with_suffix("").parts
+        return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+@dataclass(frozen=True)
+class Import:
+    """One name that a module takes, and from which module of ours; None: from another package."""
+
+    name: str
+    known_as: str
+    module: str | None
+
+    def words(self, tree: Modules) -> str:
+        """The name, and what the module it comes from holds; where that lies does not count."""
+        source = tree.content(self.module) if self.module else ""
+        return f"{self.name} {self.known_as} {source}\n"
+
+
+@dataclass(frozen=True)
+class Code:
+    """Some statements of a file, and what they reach."""
+
+    file: Path
+    body: ast.Module
+    tree: Tree
+
+    @cached_property
+    def imports(self) -> tuple[Import, ...]:
+        """All names that come from elsewhere, in no order that counts."""
+        nodes = walk_at_run_time(self.body)
+        return tuple(found for node in nodes for found in _imports_of(node, self))
+
+    def absolute(self, node: ast.ImportFrom) -> str:
+        """The module that `from ... import` names; dots before it count from where this lies."""
+        if not node.level:
+            return node.module or ""
+        folder = self.file.parents[node.level - 1]
+        parts = [*folder.relative_to(self.tree.src).parts, *filter(None, [node.module])]
+        return ".".join(parts)
+
+    @cached_property
+    def modules(self) -> frozenset[str]:
+        """Those of ours that it imports or names, and the packages that they lie in."""
+        taken = {each.module for each in self.imports if each.module}
+        named = {name for text in self._texts for name in [self.module_named(text)] if name}
+        return frozenset(each for name in taken | named for each in with_parents(name))
+
+    @cached_property
+    def files(self) -> frozenset[Path]:
+        """Files beside it that its texts name, and all in a folder that they name."""
+        return frozenset(file for text in self._texts for file in self._beside(text))
+
+    @cached_property
+    def _texts(self) -> tuple[str, ...]:
+        nodes = (node for node in ast.walk(self.body) if isinstance(node, ast.Constant))
+        return tuple(node.value for node in nodes if isinstance(node.value, str))
+
+    def module_named(self, text: str) -> str | None:
+        """The module that a text names, as `a.b`, `a.b:NAME` or the file `b.py` beside it."""
+        if self.tree.file_of(name := text.partition(":")[0]) and name != "roslings":
+            return name
+        file = self._named(text)
+        return self.tree.name_of(file) if file and file.is_file() and _is_ours(file) else None
+
+    def _named(self, text: str) -> Path | None:
+        if not 0 < len(text) <= LONGEST_NAME or {"\0", "\n", "/"} & set(text) or text in ".. ":
+            return None
+        return self.file.parent / text
+
+    def _beside(self, text: str) -> Iterator[Path]:
+        place = self._named(text)
+        if place and place.is_dir() and not (place / "__init__.py").exists():
+            yield from (file for file in place.rglob("*") if file.is_file() and _counts(file))
+        elif place and place.is_file() and not _is_ours(place):
+            yield place
+
+
+LONGEST_NAME = 60
+
+
+def _is_ours(file: Path) -> bool:
+    return file.suffix == ".py"
+
+
+def _counts(file: Path) -> bool:
+    return "__pycache__" not in file.parts
+
+
+def with_parents(module: str) -> Iterator[str]:
+    """A module and the packages around it: their `__init__` runs, too."""
+    parts = module.split(".")
+    yield from (".".join(parts[: length + 1]) for length in range(len(parts)))
+
+
+def walk_at_run_time(tree: ast.AST) -> Iterator[ast.AST]:
+    """Every node but those that only a type checker reads."""
+    todo = [tree]
+    while todo:
+        node = todo.pop()
+        yield node
+        todo += (each for each in ast.iter_child_nodes(node) if not is_for_types(each))
+
+
+def is_for_types(node: ast.AST) -> bool:
+    """`if TYPE_CHECKING:`, as our modules write it."""
+    return (
+        isinstance(node, ast.If)
+        and isinstance(node.test, ast.Name)
+        and node.test.id == "TYPE_CHECKING"
+    )
+
+
+def _imports_of(node: ast.AST, code: Code) -> Iterator[Import]:
+    if isinstance(node, ast.Import):
+        for each in node.names:
+            known_as = each.asname or each.name.partition(".")[0]
+            ours = each.name if code.tree.file_of(each.name) else None
+            yield Import("" if ours else each.name, known_as, ours)
+    elif isinstance(node, ast.ImportFrom):
+        module = code.absolute(node)
+        yield from (_taken(module, each, code.tree) for each in node.names)
+
+
+def _taken(module: str, name: ast.alias, tree: Tree) -> Import:
+    known_as = name.asname or name.name
+    if tree.file_of(inner := f"{module}.{name.name}"):
+        return Import("", known_as, inner)
+    if tree.file_of(module):
+        return Import(name.name, known_as, module)
+    return Import(inner, known_as, None)
+
+
+@dataclass
+class Modules:
+    """The modules of a tree; each is read once."""
+
+    tree: Tree
+    _code: dict[str, Code] = field(default_factory=dict)
+    _content: dict[str, str] = field(default_factory=dict)
+    _digest: dict[str, str] = field(default_factory=dict)
+
+    def code(self, module: str) -> Code:
+        """What stands in a module of ours."""
+        if module not in self._code:
+            file = self.tree.file_of(module)
+            assert file, module
+            self._code[module] = Code(file, ast.parse(file.read_bytes()), self.tree)
+        return self._code[module]
+
+    def reached(self, start: Iterable[str]) -> frozenset[str]:
+        """These modules, and all that they lead to."""
+        found: set[str] = set()
+        todo = [each for name in start for each in with_parents(name)]
+        while todo:
+            module = todo.pop()
+            if module not in found:
+                found.add(module)
+                todo += self.next_to(module)
+        return frozenset(found)
+
+    def next_to(self, module: str) -> Collection[str]:
+        """The modules that one leads to; a table leads only to what it imports."""
+        code = self.code(module)
+        if not TABLE.fullmatch(module):
+            return code.modules
+        taken = {each.module for each in code.imports if each.module}
+        return {each for name in taken for each in with_parents(name)}
+
+    def content(self, module: str) -> str:
+        """What a module does by itself: of what it imports, the names alone count."""
+        if module not in self._content:
+            code = self.code(module)
+            names = sorted(f"{each.name} {each.known_as}\n" for each in code.imports)
+            self._content[module] = digest_of("".join(names).encode() + self.body(code))
+        return self._content[module]
+
+    def digest(self, module: str) -> str:
+        """What a module does, and with which things of which others: another module of the same
+        names is another thing. Where any of them lies does not count."""
+        if module not in self._digest:
+            self._digest[module] = self.digest_of_code(self.code(module))
+        return self._digest[module]
+
+    def digest_of_code(self, code: Code) -> str:
+        """The same of some statements."""
+        taken = sorted(each.words(self) for each in code.imports)
+        return digest_of("".join(taken).encode() + self.body(code))
+
+    def body(self, code: Code) -> bytes:
+        """Its statements without the imports, and a module that a text names by what it holds."""
+
+        def special(node: ast.AST) -> str | None:
+            if isinstance(node, ast.Import | ast.ImportFrom) or is_for_types(node):
+                return ""
+            if isinstance(node, ast.Constant) and isinstance(node.value, str):
+                return "(module)" if self.tree.file_of(node.value) else None
+            return None
+
+        return normal(code.body, special)
