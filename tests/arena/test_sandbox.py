@@ -123,9 +123,7 @@ def test_no_setting_of_the_kernel_can_be_written(sandbox: Sandbox) -> None:
 
 
 @needs_root
-def test_the_bind_is_what_holds_root_off(
-    sandbox: Sandbox, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_bind_is_what_holds_root_off(sandbox: Sandbox, monkeypatch: pytest.MonkeyPatch) -> None:
     """Without these words of bubblewrap's command, settings can be opened for writing."""
     words = sandbox_module._read_only_settings()
     assert words == ("--ro-bind-try", "/proc/sys", "/proc/sys")
