@@ -495,8 +495,8 @@ def test_careful(
 ) -> None:
     """The argument {CAREFULLY.name} wins over the file, in each namespace."""
     for demand in (follow_the_argument, win_over_its_section):
-        for experiment in (brought_up, otherwise, carelessly):
-            experiment.must(demand(LAUNCH, CAREFULLY, CARD.node))
+        for launch in (brought_up, otherwise, carelessly):
+            launch.must(demand(LAUNCH, CAREFULLY, CARD.node))
 
 
 @check(needs=["launch"], explained_by={"arguments": "WrongArguments"})

@@ -147,7 +147,7 @@ class ArgumentIgnored(WrongValueAfterLaunch):
 
 @dataclass(eq=False)
 class SectionOfTheNodeWins(ArgumentIgnored):
-    """The argument wins over what the file says for all nodes, and not over what it says for one."""
+    """The argument wins over what the file says for all nodes, and not for this one."""
 
     measured = "it is {found}, as the file says in its section {node}"
     hint = (

@@ -35,8 +35,8 @@ class OtherPromise(Fault):
         """Which profile gets it."""
         return (
             f"Give the QoSProfile of {CALLS[self.kind]}(...) for {self.topic} the word"
-            f" {self.advice}, from {self.source}. Where a number stands in its place, write a QoSProfile."
-            f" `ros2 topic info -v {self.topic}` shows what is set."
+            f" {self.advice}, from {self.source}. Where a number stands in its place, write a"
+            f" QoSProfile. `ros2 topic info -v {self.topic}` shows what is set."
         )
 
 

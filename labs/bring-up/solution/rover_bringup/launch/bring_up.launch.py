@@ -17,7 +17,7 @@ def rover(name, condition=None):
     """All nodes of one rover."""
     parameters = [
         LaunchConfiguration('params_file'),
-        # Wins: it comes later, and a Node with a name writes it for the node's full name.
+        # Wins: it comes later, and with name=... it counts for the full name.
         {'careful': LaunchConfiguration('careful')},
     ]
     return GroupAction(
