@@ -13,6 +13,7 @@ from roslings.capabilities.launch.act import (
     launched,
     values_file,
 )
+from roslings.capabilities.launch.contract import NamespaceContract
 from roslings.capabilities.launch.demands import (
     be_alike,
     come_back,
@@ -23,6 +24,7 @@ from roslings.capabilities.launch.demands import (
     leave_out,
     show_its_arguments,
     start_in_each_namespace,
+    win_over_its_section,
 )
 from roslings.capabilities.parameters.act import list_parameters
 from roslings.capabilities.parameters.demands import declare_its_parameters
@@ -174,14 +176,29 @@ def command(scene: Scene, speed: float) -> dict[str, float]:
 
 
 def other_values(scene: Scene) -> dict[str, Plain]:
-    """Values that no file of the student's can have; the argument must win over the last one."""
+    """Values that no file of the student's can have."""
     return {
         f"{LIMITER.executable}.{MAX.name}": scene.between(0.6, 0.9),
         f"{LIMITER.executable}.{SLOW.name}": scene.between(0.2, 0.4),
         f"{BEACON.executable}.{NAME.name}": scene.sentence().partition(" ")[0],
         f"{BEACON.executable}.{RATE.name}": round(scene.between(11, 40)),
-        f"{LIMITER.executable}.{CAREFUL.name}": CAREFUL.default,
     }
+
+
+def launch_against_a_file(
+    scene: Scene, careful: str, named: NamespaceContract, values: dict[str, Plain]
+) -> None:
+    """Launch both rovers with a file that says the opposite of the argument, and read what holds.
+
+    The file says so to all nodes, and then once more to one of them by its full name. So one rover
+    shows whether the argument wins over the first, and the other one whether over both.
+    """
+    opposite = CAREFUL.default if careful == CAREFULLY.tried else CAREFUL.tried
+    for_all = {**values, f"{LIMITER.executable}.{CAREFUL.name}": opposite}
+    by_name = {named.namespace + LIMITER.node: {CAREFUL.name: opposite}}
+    given = {FILE.name: str(values_file(scene, for_all, by_name)), CAREFULLY.name: careful}
+    with launched(scene, CARD.package, LAUNCH, given):
+        read_all(scene)
 
 
 # --- experiments: run the nodes, alone and by the launch file ----------------------------------
@@ -244,10 +261,13 @@ def brought_up(scene: Scene) -> None:
 @experiment
 def otherwise(scene: Scene) -> None:
     """Both rovers, with another file, and carefully."""
-    file = values_file(scene, other_values(scene))
-    given = {FILE.name: str(file), CAREFULLY.name: CAREFULLY.tried}
-    with launched(scene, CARD.package, LAUNCH, given):
-        read_all(scene)
+    launch_against_a_file(scene, CAREFULLY.tried, LAUNCH.namespaces[-1], other_values(scene))
+
+
+@experiment
+def carelessly(scene: Scene) -> None:
+    """Both rovers, with a file that tells them to be careful, and an argument that does not."""
+    launch_against_a_file(scene, CAREFULLY.default, LAUNCH.namespaces[0], {})
 
 
 @experiment
@@ -419,8 +439,9 @@ def test_launch(
     brought_up: ExperimentView, limiting: ExperimentView, beating: ExperimentView
 ) -> None:
     """`ros2 launch` with {LAUNCH.name} starts both nodes in each namespace."""
-    plain = [limiting.node(LIMITER).near.found, beating.node(BEACON).near.found]
-    brought_up.must(start_in_each_namespace(LAUNCH, plain))
+    limiter = LIMITER.node, limiting.node(LIMITER).near.found
+    beacon = BEACON.node, beating.node(BEACON).near.found
+    brought_up.must(start_in_each_namespace(LAUNCH, limiter, beacon))
 
 
 @check(needs=["launch"])
@@ -469,10 +490,13 @@ def test_params_file(otherwise: ExperimentView) -> None:
 
 
 @check(needs=["launch"], explained_by={**NO_PARAMETERS, **HANGS, "arguments": "WrongArguments"})
-def test_careful(brought_up: ExperimentView, otherwise: ExperimentView) -> None:
+def test_careful(
+    brought_up: ExperimentView, otherwise: ExperimentView, carelessly: ExperimentView
+) -> None:
     """The argument {CAREFULLY.name} wins over the file, in each namespace."""
-    brought_up.must(follow_the_argument(LAUNCH, CAREFULLY, CARD.node))
-    otherwise.must(follow_the_argument(LAUNCH, CAREFULLY, CARD.node))
+    for demand in (follow_the_argument, win_over_its_section):
+        for launch in (brought_up, otherwise, carelessly):
+            launch.must(demand(LAUNCH, CAREFULLY, CARD.node))
 
 
 @check(needs=["launch"], explained_by={"arguments": "WrongArguments"})

@@ -4,7 +4,6 @@ The names, texts, times and points stand in labs/e-stop/card.yaml. Experiments r
 nodes between an operator, a button and motors of ours; checks read what was seen and run nothing.
 """
 
-from roslings.capabilities.camera.demands import offer_just_this
 from roslings.capabilities.qos.act import (
     FAR_WITHIN_S,
     Far,
@@ -58,6 +57,7 @@ from roslings.judge import (
     depends,
     end_within,
     exit_cleanly,
+    have_just_this_qos,
     install,
     match_qos,
     outlast_the_soak,
@@ -269,7 +269,7 @@ def test_guard_topics(idling: ExperimentView) -> None:
     """Its three topics have names, types, reliability and durability of the card."""
     for heard in (HEARD, COMMANDS):
         idling.subscription(GUARD, heard).must(be_there, carry_its_type, match_qos)
-    idling.subscription(GUARD, HEARD).must(offer_just_this)
+    idling.subscription(GUARD, HEARD).must(have_just_this_qos)
     idling.publisher(GUARD, CMD_VEL).must(be_there, be_the_only_one, carry_its_type, match_qos)
 
 

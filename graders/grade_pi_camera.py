@@ -16,7 +16,6 @@ from roslings.capabilities.camera.demands import (
     come_after,
     follow_brightness,
     hold_whole_rows,
-    offer_just_this,
     refuse,
     show_each_once,
     show_what_the_camera_saw,
@@ -59,6 +58,7 @@ from roslings.judge import (
     during,
     end_within,
     exit_cleanly,
+    have_just_this_qos,
     install,
     list_what_it_imports,
     match_qos,
@@ -305,7 +305,7 @@ def test_camera_name(filming: ExperimentView) -> None:
 def test_camera_topic(filming: ExperimentView) -> None:
     """It publishes {IMAGE.type} on {IMAGE.topic}, as sensors do."""
     publisher = filming.publisher(CAMERA, IMAGE)
-    publisher.must(be_there, be_the_only_one, carry_its_type, offer_just_this)
+    publisher.must(be_there, be_the_only_one, carry_its_type, have_just_this_qos)
 
 
 @check(needs=["camera_runs"])

@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from roslings.arena import Isolation, Launch, Process, Sandbox, choose_isolation
+from roslings.arena import sandbox as sandbox_module
 from roslings.arena.bounds import MB, Bounds
 from roslings.arena.environment import base_environment
 from roslings.arena.sandbox import installations
@@ -95,6 +96,39 @@ def test_a_folder_that_may_be_written_stays(sandbox: Sandbox, tmp_path: Path) ->
     lies.mkdir()
     run(sandbox.writing(lies, Path("/built/here")), "open('/built/here/it', 'w').write('done')")
     assert (lies / "it").read_text() == "done"
+
+
+OPENS_EACH_SETTING = """
+    import collections, errno, os
+    came = collections.Counter()
+    for folder, _, names in os.walk("/proc/sys"):
+        for path in (os.path.join(folder, name) for name in names):
+            if not os.stat(path).st_mode & 0o222:
+                continue
+            try:
+                os.close(os.open(path, os.O_WRONLY))  # nothing is written, so nothing is changed
+                came["opened"] += 1
+            except OSError as error:
+                came[errno.errorcode[error.errno]] += 1
+    print(*sorted(came))
+"""
+needs_root = pytest.mark.skipif(os.geteuid() != 0, reason="only root's are open to its processes")
+
+
+def test_no_setting_of_the_kernel_can_be_written(sandbox: Sandbox) -> None:
+    """They hold for the whole machine. They can be read, and the folder is there."""
+    came = set(said(sandbox, OPENS_EACH_SETTING).split())
+    assert "EROFS" in came
+    assert came <= {"EROFS", "EACCES"}
+
+
+@needs_root
+def test_the_bind_is_what_holds_root_off(sandbox: Sandbox, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without these words of bubblewrap's command, settings can be opened for writing."""
+    words = sandbox_module._read_only_settings()
+    assert words == ("--ro-bind-try", "/proc/sys", "/proc/sys")
+    monkeypatch.setattr(sandbox_module, "_read_only_settings", tuple)
+    assert "opened" in said(sandbox, OPENS_EACH_SETTING).split()
 
 
 def test_it_is_nobody_special(sandbox: Sandbox) -> None:

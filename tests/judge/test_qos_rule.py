@@ -6,8 +6,7 @@ import itertools
 
 import pytest
 
-from roslings.evidence import Qos
-from roslings.judge.faults import qos_conflict
+from roslings.judge.faults import EndpointKind, Matched, qos_conflicts
 
 RELIABILITY, DURABILITY = ("reliable", "best_effort"), ("volatile", "transient_local")
 PROFILES = list(itertools.product(RELIABILITY, DURABILITY))
@@ -16,7 +15,9 @@ PROFILES = list(itertools.product(RELIABILITY, DURABILITY))
 @pytest.mark.parametrize("ours", PROFILES)
 @pytest.mark.parametrize("theirs", PROFILES)
 @pytest.mark.parametrize("kind", ["publisher", "subscription"])
-def test_it_is_rclpys_own_rule(ours: tuple[str, str], theirs: tuple[str, str], kind: str) -> None:
+def test_it_is_rclpys_own_rule(
+    ours: tuple[str, str], theirs: tuple[str, str], kind: EndpointKind
+) -> None:
     """Every pair of profiles, on both sides."""
     qos = pytest.importorskip("rclpy.qos")
 
@@ -29,5 +30,5 @@ def test_it_is_rclpys_own_rule(ours: tuple[str, str], theirs: tuple[str, str], k
 
     pair = (ours, theirs) if kind == "publisher" else (theirs, ours)
     compatible, _ = qos.qos_check_compatible(profile(pair[0]), profile(pair[1]))
-    conflict = qos_conflict(kind, Qos(reliability=ours[0], durability=ours[1]), *theirs)
-    assert (conflict is None) == (compatible != qos.QoSCompatibility.ERROR)
+    conflicts = qos_conflicts(kind, Matched(*ours), Matched(*theirs))
+    assert (not conflicts) == (compatible != qos.QoSCompatibility.ERROR)

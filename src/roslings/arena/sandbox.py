@@ -31,6 +31,7 @@ OWN_SETTINGS = {name: HERE / "etc" / name for name in ("passwd", "group")}
 GUARDIAN = (HERE / "guardian.py", HERE / "kernel.py")
 STAND_INS = tuple(HERE.parent / name for name in ("__init__.py", "rosbag2", "stand_ins"))
 """Of the engine: packages of ROS that no wheel brings, and what they stand on."""
+KERNEL_SETTINGS = Path("/proc/sys")
 SHARED_MEMORY_BYTES = 64 * MB
 LISTS_OF_FOLDERS = ("AMENT_PREFIX_PATH", "LD_LIBRARY_PATH", "PYTHONPATH")
 
@@ -81,7 +82,7 @@ class Sandbox:
 
     def _view(self) -> Iterator[str]:
         """The mounts, in their order: what comes later lies over what comes earlier."""
-        yield from ("--proc", "/proc", "--dev", "/dev")
+        yield from ("--proc", "/proc", *_read_only_settings(), "--dev", "/dev")
         if self.terminals:
             yield from ("--dev-bind", "/dev/pts", "/dev/pts")
         yield from _empty(Path("/dev/shm"), SHARED_MEMORY_BYTES)
@@ -97,6 +98,16 @@ class Sandbox:
         if self.home:
             yield from _empty(self.home, self.bounds.home_bytes)
         yield from ("--remount-ro", "/dev", "--remount-ro", "/")
+
+
+def _read_only_settings() -> tuple[str, ...]:
+    """The kernel's settings are the whole machine's, and can be read.
+
+    Where root grades, the kernel takes the process for root as soon as it opens one of them: its
+    rights, of which it has none, are not asked (sysctl_perm), only its user. bubblewrap leaves
+    this folder open, for the folder itself nobody can write. A kernel may be built without it.
+    """
+    return "--ro-bind-try", str(KERNEL_SETTINGS), str(KERNEL_SETTINGS)
 
 
 def _empty(place: Path, most_bytes: int) -> Iterator[str]:

@@ -373,10 +373,21 @@ def carry_its_type(endpoint: EndpointView) -> None:
 
 def match_qos(endpoint: EndpointView) -> None:
     """It can be joined with the other side that the contract describes."""
-    other = endpoint.contract.qos
-    conflict = faults.qos_conflict(endpoint.kind, endpoint.qos, other.reliability, other.durability)
-    if conflict:
-        raise faults.QosCannotMatch(endpoint.found.topic, *conflict)
+    wanted, found = _wanted_and_found(endpoint)
+    if faults.qos_conflicts(endpoint.kind, found, wanted):
+        raise faults.QosCannotMatch(endpoint.found.topic, endpoint.kind, wanted, found)
+
+
+def have_just_this_qos(endpoint: EndpointView) -> None:
+    """The quality of service is the contract's, not only one that matches it."""
+    wanted, found = _wanted_and_found(endpoint)
+    if found != wanted:
+        raise faults.NotThisQos(endpoint.found.topic, endpoint.kind, wanted, found)
+
+
+def _wanted_and_found(endpoint: EndpointView) -> tuple[faults.Matched, faults.Matched]:
+    asked = endpoint.contract.qos
+    return faults.Matched(asked.reliability, asked.durability), faults.matched(endpoint.qos)
 
 
 def hold_just(nodes: Sequence[NodeContract], topic: TopicContract) -> Demand[ExperimentView]:

@@ -22,6 +22,7 @@ from roslings.capabilities.launch.demands import (
     leave_out,
     show_its_arguments,
     start_in_each_namespace,
+    win_over_its_section,
 )
 from roslings.capabilities.launch.record import LABEL, LaunchSeen, ProgramKilled
 from roslings.capabilities.parameters.record import ParametersRead, ParametersSeen
@@ -142,6 +143,32 @@ def test_the_file_that_was_given_counts_and_the_argument_wins() -> None:
         view(launch=launch, read={"/left/it": {**right, "loud": False}}).must(demands[1])
     with pytest.raises(NothingToJudge):
         view(read={"/left/it": right}).must(demands[0])
+
+
+def test_a_section_of_the_node_is_told_where_only_it_has_won() -> None:
+    """The file says no to all, and once more to /right/it; whoever launched it says yes."""
+    launch = LaunchSeen(
+        given={"loud": "true"}, values={"it.loud": False}, by_name={"/right/it": {"loud": False}}
+    )
+    quiet, loud = {"loud": False}, {"loud": True}
+    every, own = follow_the_argument(TWO, LOUD, node), win_over_its_section(TWO, LOUD, node)
+    view(launch=launch, read={"/left/it": loud, "/right/it": loud}).must(every, own)
+    named = view(launch=launch, read={"/left/it": loud, "/right/it": quiet})
+    named.must(every)
+    with pytest.raises(faults.SectionOfTheNodeWins, match="in its section /right/it") as caught:
+        named.must(own)
+    assert "name=..." in caught.value.hint
+    with pytest.raises(faults.ArgumentIgnored) as nobody:
+        view(launch=launch, read={"/left/it": quiet, "/right/it": quiet}).must(every)
+    assert type(nobody.value) is faults.ArgumentIgnored
+
+
+def test_a_launch_file_may_name_a_node_as_the_card_does() -> None:
+    """Whatever it is called in its code: that is the fault of another check."""
+    demand = start_in_each_namespace(TWO, ["/it", "/coded"])
+    view("/left/it", "/right/coded").must(demand)
+    with pytest.raises(faults.LaunchMissesNode, match="starts /right/coded"):
+        view("/left/it", "/right/other").must(demand)
 
 
 def test_what_an_argument_leaves_out() -> None:

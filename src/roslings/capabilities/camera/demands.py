@@ -16,7 +16,7 @@ from roslings.course import NodeContract, TopicContract
 from roslings.evidence import LogLine, MessageSeen, StageMark
 from roslings.judge.demands import most_similar, require_its_time, require_steady, written
 from roslings.judge.faults import Fault, NothingToJudge
-from roslings.judge.views import Demand, EndpointView, ExperimentView, TopicView
+from roslings.judge.views import Demand, ExperimentView, TopicView
 
 SAME_LEVELS = 2.5
 """A picture of the film, as far as rounding tells; any other is off by twice as much."""
@@ -31,14 +31,6 @@ AFTER_A_CHANGE = 4
 
 
 # --- what each message says of itself ----------------------------------------------------------
-
-
-def offer_just_this(endpoint: EndpointView) -> None:
-    """The quality of service is the card's, not only one that matches it."""
-    wanted, found = endpoint.contract.qos, endpoint.qos
-    words = (wanted.reliability, wanted.durability), (found.reliability, found.durability)
-    if words[0] != words[1]:
-        raise faults.NotThisQos(endpoint.found.topic, *(", ".join(pair) for pair in words))
 
 
 def hold_whole_rows(topic: TopicView) -> None:

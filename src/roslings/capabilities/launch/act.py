@@ -98,17 +98,28 @@ def ask_for_arguments(scene: Scene, package: str, contract: LaunchContract) -> N
         scene.until_own(lambda: not process.alive, TELLS_WITHIN_S)
 
 
-def values_file(scene: Scene, values: Mapping[str, Plain]) -> Path:
+def values_file(
+    scene: Scene, values: Mapping[str, Plain], by_name: Mapping[str, Mapping[str, Plain]]
+) -> Path:
     """A parameter file that gives these values to every node, where the nodes can read it.
 
-    `values` have names of the form EXECUTABLE.PARAMETER.
+    `values` have names of the form EXECUTABLE.PARAMETER. After the section for every node comes one
+    for each full name in `by_name`.
     """
-    scene.seen.recording(LaunchSeen).values = dict(values)
-    lines = [f"    {name.partition('.')[2]}: {as_typed(value)}" for name, value in values.items()]
+    seen = scene.seen.recording(LaunchSeen)
+    seen.values = dict(values)
+    seen.by_name = {name: dict(each) for name, each in by_name.items()}
+    for_all = {name.partition(".")[2]: value for name, value in values.items()}
     file = scene.arena.devices / "values.yaml"
-    file.write_text("\n".join(["/**:", "  ros__parameters:", *lines, ""]), "utf-8")
+    sections = [_section("/**", for_all), *(_section(*each) for each in by_name.items())]
+    file.write_text("".join(sections), "utf-8")
     file.chmod(0o644)
     return file
+
+
+def _section(nodes: str, values: Mapping[str, Plain]) -> str:
+    lines = [f"    {name}: {as_typed(value)}\n" for name, value in values.items()]
+    return "".join([f"{nodes}:\n  ros__parameters:\n", *lines])
 
 
 def kill_and_await(

@@ -97,15 +97,22 @@ def _not_read(log: Sequence[str]) -> str:
 
 
 def start_in_each_namespace(
-    contract: LaunchContract, plain_names: Sequence[str]
+    contract: LaunchContract, *nodes: Sequence[str]
 ) -> Demand[ExperimentView]:
-    """In each namespace of the card there is each node; `plain_names` are theirs without it."""
-    names = [
-        f"{space.namespace}/{plain.rpartition('/')[2]}"
-        for space in contract.namespaces
-        for plain in plain_names
-    ]
-    return start_all(names)
+    """In each namespace of the card there is each node.
+
+    Of each node come the names that it may have there: a launch file may name it as the card does,
+    else it keeps the name of its code. The last one is missed where none is there.
+    """
+
+    def demand(experiment: ExperimentView) -> None:
+        for space in contract.namespaces:
+            for names in nodes:
+                full = [f"{space.namespace}/{name.rpartition('/')[2]}" for name in names]
+                there = [name for name in full if name in experiment.seen.graph.nodes]
+                experiment.must(start_all(there or full[-1:]))
+
+    return demand
 
 
 def be_alike(contract: LaunchContract, *again: ExperimentView) -> Demand[ExperimentView]:
@@ -204,14 +211,34 @@ def follow_the_file(contract: LaunchContract, node: Node) -> Demand[ExperimentVi
 def follow_the_argument(
     contract: LaunchContract, argument: ArgumentContract, node: Node
 ) -> Demand[ExperimentView]:
-    """In each namespace, the parameter that the argument sets has the value that it was given."""
+    """In each namespace, the parameter that the argument sets has the value that it was given.
 
+    Left out are namespaces for whose nodes the file has sections of their own.
+    """
+    return _obeyed(contract, argument, node, False, faults.ArgumentIgnored)
+
+
+def win_over_its_section(
+    contract: LaunchContract, argument: ArgumentContract, node: Node
+) -> Demand[ExperimentView]:
+    """The same of the namespaces that `follow_the_argument` leaves out.
+
+    To be asked after it: where only these are wrong, it is the section that has won.
+    """
+    return _obeyed(contract, argument, node, True, faults.SectionOfTheNodeWins)
+
+
+def _obeyed(
+    contract: LaunchContract, argument: ArgumentContract, node: Node, has_section: bool,
+    kind: type[faults.ArgumentIgnored],
+) -> Demand[ExperimentView]:  # fmt: skip
     def demand(experiment: ExperimentView) -> None:
-        given = experiment.seen.part(LaunchSeen).given
-        value = given.get(argument.name, argument.default)
+        seen = experiment.seen.part(LaunchSeen)
+        value = seen.given.get(argument.name, argument.default)
         for space in contract.namespaces:
-            name = argument.sets or ""
-            _insist_on_value(experiment, space, name, value, node, faults.ArgumentIgnored)
+            named = any(full.startswith(f"{space.namespace}/") for full in seen.by_name)
+            if named is has_section:
+                _insist_on_value(experiment, space, argument.sets or "", value, node, kind)
 
     return demand
 

@@ -146,6 +146,18 @@ class ArgumentIgnored(WrongValueAfterLaunch):
 
 
 @dataclass(eq=False)
+class SectionOfTheNodeWins(ArgumentIgnored):
+    """The argument wins over what the file says for all nodes, and not for this one."""
+
+    measured = "it is {found}, as the file says in its section {node}"
+    hint = (
+        "In the file, the section {node} comes after /**. Give the Node its name, name=..., beside"
+        " its namespace: then the dictionary in parameters=[FILE, {{NAME: ...}}] counts for this"
+        " full name. Without name=... it counts for /** only."
+    )
+
+
+@dataclass(eq=False)
 class WrongArguments(Fault):
     """An argument is missing, or has another default."""
 

@@ -39,6 +39,10 @@ class LaunchSeen(PartSeen):
         default_factory=dict,
         description="EXECUTABLE.PARAMETER to its value in the file that the launch was given",
     )
+    by_name: dict[str, dict[str, bool | int | float | str]] = Field(
+        default_factory=dict,
+        description="Full name of a node to what the file says, below `values`, for it alone",
+    )
     running: dict[str, int] = Field(
         default_factory=dict,
         description="Executable to how many of it ran when all nodes were there",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
-from typing import Any, Literal
+from typing import Any
 
 from roslings.capabilities.qos import faults
 from roslings.capabilities.qos.contract import (
@@ -25,7 +25,7 @@ from roslings.capabilities.services.contract import ServiceContract
 from roslings.capabilities.services.record import ServicesSeen
 from roslings.course import NodeContract, TopicContract
 from roslings.judge.demands import most_similar, require_its_time, require_steady, written
-from roslings.judge.faults import Inconclusive, NothingToJudge, NoTopic
+from roslings.judge.faults import EndpointKind, Inconclusive, NothingToJudge, NoTopic
 from roslings.judge.views import Demand, ExperimentView, ProcessView
 from roslings.rates import NS_PER_S
 
@@ -53,17 +53,16 @@ MOST_LATE_PART = 0.75
 
 def offer(contract: OfferContract) -> Demand[ExperimentView]:
     """The node's publisher offers these times."""
-    return _times("publisher", "offers", contract, {"lifespan": contract.lifespan_s})
+    return _times("publisher", contract, {"lifespan": contract.lifespan_s})
 
 
 def ask_for(contract: AskContract) -> Demand[ExperimentView]:
     """The node's subscription asks for these times."""
-    return _times("subscription", "asks for", contract, {})
+    return _times("subscription", contract, {})
 
 
 def _times(
-    kind: Literal["publisher", "subscription"],
-    verb: str,
+    kind: EndpointKind,
     contract: TimesContract,
     more: Mapping[str, float | None],
 ) -> Demand[ExperimentView]:
@@ -78,13 +77,11 @@ def _times(
             raise NoTopic(contract.topic, DOES[kind])
         qos = ends[0].qos
         if contract.lease_s and qos.liveliness != contract.liveliness:
-            raise faults.OtherLiveliness(contract.topic, verb, contract.liveliness, qos.liveliness)
+            raise faults.OtherLiveliness(contract.topic, kind, contract.liveliness, qos.liveliness)
         found = {"deadline": qos.deadline_ns, "lease": qos.lease_ns, "lifespan": qos.lifespan_ns}
         for word, limit_s in wanted.items():
             if limit_s and not _is_same(found[word], limit_s):
-                raise faults.OtherTime(
-                    contract.topic, verb, word, f"{limit_s:g} s", _shown(found[word])
-                )
+                raise faults.OtherTime(contract.topic, kind, word, limit_s, _shown(found[word]))
 
     return demand
 
@@ -117,10 +114,11 @@ def keep_for_late_joiners(contract: OfferContract) -> Demand[ExperimentView]:
 def _judge_join(experiment: ExperimentView, topic: str, join: JoinSeen, keeps: int) -> None:
     if not join.heard:
         require_steady(experiment.seen.stall_s)
-        raise faults.NothingForLateJoiners(topic, join.after)
+        raise faults.NothingForLateJoiners(topic, join.after, keeps)
     if len(join.heard) != min(keeps, join.said):
         heard = _values(join.heard)
-        raise faults.OtherCountForLateJoiners(topic, join.after, min(keeps, join.said), heard)
+        wanted = min(keeps, join.said)
+        raise faults.OtherCountForLateJoiners(topic, join.after, keeps, wanted, heard)
 
 
 def tell_late_joiners_the_truth(topic: TopicContract) -> Demand[ExperimentView]:

@@ -3,49 +3,88 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
-from roslings.judge.faults import Fault
+from roslings.judge.faults import CALLS, EndpointKind, Fault
 
 # --- what is offered and asked for -------------------------------------------------------------
 
 
 @dataclass(eq=False)
-class OtherTime(Fault):
-    """A publisher offers, or a subscription asks for, another time than the card's."""
+class OtherPromise(Fault):
+    """What a publisher offers, or a subscription asks for, is not the card's."""
+
+    source: ClassVar[str] = "rclpy.qos"
+    """Where the name in the advice is imported from."""
 
     topic: str
-    verb: str
-    """`offers` or `asks for`."""
-    word: str
-    wanted: str
-    found: str
-    why = "The middleware watches these times, and nobody else does: a wrong one is not noticed."
-    expected = "on {topic} the node {verb} a {word} of {wanted}"
-    measured = "it {verb} {found}"
+    kind: EndpointKind
+
+    @property
+    def verb(self) -> str:
+        """What a node does with it."""
+        return "offers" if self.kind == "publisher" else "asks for"
+
+    @property
+    def advice(self) -> str:
+        """The word of QoSProfile, as Python for rclpy."""
+        raise NotImplementedError
 
     @property
     def hint(self) -> str:
-        """Where it is set."""
-        name = "liveliness_lease_duration" if self.word == "lease" else self.word
+        """Which profile gets it."""
         return (
-            f"Give QoSProfile(...) the word {name}=Duration(seconds=...), and give that profile to"
-            " create_publisher or create_subscription in place of the number."
-            " `ros2 topic info -v TOPIC` shows what is set."
+            f"Give the QoSProfile of {CALLS[self.kind]}(...) for {self.topic} the word"
+            f" {self.advice}, from {self.source}. Where a number stands in its place, write a"
+            f" QoSProfile. `ros2 topic info -v {self.topic}` shows what is set."
         )
 
 
 @dataclass(eq=False)
-class OtherLiveliness(Fault):
+class OtherTime(OtherPromise):
+    """Another time."""
+
+    source = "rclpy.duration"
+
+    word: str
+    wanted_s: float
+    found: str
+    why = "The middleware watches these times, and nobody else does: a wrong one is not noticed."
+    expected = "on {topic} the node {verb} a {word} of {wanted_s:g} s"
+    measured = "it {verb} {found}"
+
+    @property
+    def advice(self) -> str:
+        """A Duration."""
+        name = "liveliness_lease_duration" if self.word == "lease" else self.word
+        return f"{name}=Duration(seconds={self.wanted_s!r})"
+
+
+@dataclass(eq=False)
+class OtherLiveliness(OtherPromise):
     """The other way to give signs of life."""
 
-    topic: str
-    verb: str
     wanted: str
     found: str
-    why = "With manual_by_topic a node must give each sign of life itself; who forgets it is dead."
     expected = "on {topic} the node {verb} the liveliness {wanted}"
     measured = "it {verb} {found}"
-    hint = "LivelinessPolicy.AUTOMATIC lets the middleware give the signs, while the program lives."
+
+    @property
+    def why(self) -> str:  # type: ignore[override]
+        """What is bad about the other way."""
+        if self.wanted == "automatic":
+            return (
+                "With manual_by_topic a node must give each sign of life itself; who forgets it is"
+                " dead."
+            )
+        return (
+            "With automatic the middleware gives signs of life also for a node that does nothing."
+        )
+
+    @property
+    def advice(self) -> str:
+        """The policy."""
+        return f"liveliness=LivelinessPolicy.{self.wanted.upper()}"
 
 
 # --- a latched topic ---------------------------------------------------------------------------
@@ -57,27 +96,35 @@ class NothingForLateJoiners(Fault):
 
     topic: str
     after: str
+    keeps: int
+    """So many messages the publisher keeps, as the card asks."""
     why = "A guard that starts after the press must still hear of it."
     expected = "who subscribes to {topic} after {after} gets the last message"
     measured = "it gets none"
     hint = (
-        "The publisher keeps messages for late joiners with DurabilityPolicy.TRANSIENT_LOCAL. A"
+        "Give create_publisher(...) for {topic} {profile}: it keeps messages for late joiners. A"
         " lifespan would throw them away again."
     )
 
+    @property
+    def profile(self) -> str:
+        """As Python for rclpy."""
+        return f"QoSProfile(depth={self.keeps}, durability=DurabilityPolicy.TRANSIENT_LOCAL)"
+
 
 @dataclass(eq=False)
-class OtherCountForLateJoiners(Fault):
+class OtherCountForLateJoiners(NothingForLateJoiners):
     """A late joiner gets more, or fewer, messages than the card says."""
 
-    topic: str
-    after: str
     wanted: int
     found: str
     why = "Old presses are over. Who gets them all obeys for a moment what holds no more."
     expected = "who subscribes to {topic} after {after} gets {wanted} message(s)"
     measured = "it gets {found}"
-    hint = "depth=1 in the publisher's QoSProfile keeps the last message, and no other."
+    hint = (
+        "Give create_publisher(...) for {topic} {profile}: depth says how many of the last messages"
+        " it keeps."
+    )
 
 
 @dataclass(eq=False)

@@ -24,12 +24,10 @@ from roslings.judge.faults.graph import (
     NodeTwice,
     NoTopic,
     NotTheAskedGraph,
-    QosCannotMatch,
     TwoPublishers,
     WrongNodeName,
     WrongTopic,
     WrongType,
-    qos_conflict,
 )
 from roslings.judge.faults.pictures import (
     BadPicture,
@@ -47,6 +45,15 @@ from roslings.judge.faults.processes import (
     StoppedByItself,
     UncleanExit,
 )
+from roslings.judge.faults.qos import (
+    CALLS,
+    EndpointKind,
+    Matched,
+    NotThisQos,
+    QosCannotMatch,
+    matched,
+    qos_conflicts,
+)
 from roslings.judge.faults.writing import (
     AlmostRepeats,
     DoesNotRepeat,
@@ -56,6 +63,7 @@ from roslings.judge.faults.writing import (
 )
 
 __all__ = [
+    "CALLS",
     "AlmostRepeats",
     "BadPicture",
     "BuildFailed",
@@ -64,12 +72,14 @@ __all__ = [
     "DoesNotRepeat",
     "EndedInTheSoak",
     "EndedWithError",
+    "EndpointKind",
     "Fault",
     "FixedText",
     "Inconclusive",
     "InvalidPackageXml",
     "LeavesProcesses",
     "LoggedAgain",
+    "Matched",
     "MissingFile",
     "NoExecutable",
     "NoPicture",
@@ -79,6 +89,7 @@ __all__ = [
     "NotAnAmentPackage",
     "NotLogged",
     "NotTheAskedGraph",
+    "NotThisQos",
     "NothingToJudge",
     "OneColour",
     "PictureTooSmall",
@@ -93,5 +104,6 @@ __all__ = [
     "WrongNodeName",
     "WrongTopic",
     "WrongType",
-    "qos_conflict",
+    "matched",
+    "qos_conflicts",
 ]

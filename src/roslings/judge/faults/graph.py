@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from roslings.evidence import Qos
 from roslings.judge.faults.base import Fault
 from roslings.matching import Near
 
@@ -103,29 +102,6 @@ class WrongType(Fault):
 
 
 @dataclass(eq=False)
-class QosCannotMatch(Fault):
-    """The quality of service keeps publisher and subscription apart."""
-
-    topic: str
-    policy: str
-    wanted: str
-    found: str
-    why = "If one side asks for more than the other offers, no message is delivered."
-    expected = "a QoS on {topic} that works with {policy} {wanted}"
-    measured = "{policy} is {found}: the two can never be joined"
-
-    @property
-    def hint(self) -> str:
-        """The simple way; a message that is kept for those who come late needs a profile."""
-        if self.policy == "durability":
-            return (
-                "Give QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL) in place of"
-                " the number: only so a message is kept for those who come late."
-            )
-        return "Give the number 10 in place of the QoS profile: that is the usual, reliable one."
-
-
-@dataclass(eq=False)
 class TwoPublishers(Fault):
     """One publisher was asked for, more are there."""
 
@@ -160,25 +136,6 @@ class NotTheAskedGraph(Fault):
     def measured(self) -> str:
         """What is there instead."""
         return f"{self.what}: {', '.join(self.found) or 'nothing'}"
-
-
-def qos_conflict(
-    kind: str, qos: Qos, reliability: str, durability: str
-) -> tuple[str, str, str] | None:
-    """Policy, asked, found where an endpoint cannot be joined with the contract's other side.
-
-    DDS joins a publisher and a subscription where the publisher offers at least what the
-    subscription asks for (OMG DDS 1.4, 2.2.3; the same rule as rclpy's
-    qos_check_compatible).
-    """
-    for policy, asked, found, weak in (
-        ("reliability", reliability, qos.reliability, "best_effort"),
-        ("durability", durability, qos.durability, "volatile"),
-    ):
-        offered, requested = (found, asked) if kind == "publisher" else (asked, found)
-        if offered == weak and requested != weak:
-            return policy, asked, found
-    return None
 
 
 def look_in_front(near: Near) -> str:

@@ -17,7 +17,8 @@ def rover(name, condition=None):
     """All nodes of one rover."""
     parameters = [
         LaunchConfiguration('params_file'),
-        {'careful': LaunchConfiguration('careful')},  # wins: it comes later
+        # Wins: it comes later, and with name=... it counts for the full name.
+        {'careful': LaunchConfiguration('careful')},
     ]
     return GroupAction(
         [
@@ -25,6 +26,7 @@ def rover(name, condition=None):
             Node(
                 package=PACKAGE,
                 executable='speed_limiter',
+                name='speed_limiter',
                 parameters=parameters,
                 respawn=True,
                 output='screen',
@@ -32,6 +34,7 @@ def rover(name, condition=None):
             Node(
                 package=PACKAGE,
                 executable='beacon',
+                name='beacon',
                 parameters=parameters,
                 output='screen',
             ),

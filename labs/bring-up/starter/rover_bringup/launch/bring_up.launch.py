@@ -21,10 +21,10 @@ VALUES = str(Path(get_package_share_directory(PACKAGE)) / 'config' / 'rovers.yam
 def rover(name, condition=None):
     """All nodes of one rover."""
     # TODO 14: return a GroupAction with a list and with this condition. The list
-    #          pushes the namespace, and starts both nodes of the package. One of
-    #          them comes back when it was killed: the card says which. Both get
-    #          parameters: a list with the file that the argument names, and behind
-    #          it the value of careful.
+    #          pushes the namespace, and starts both nodes of the package, each by
+    #          its name of the card. One of them comes back when it was killed: the
+    #          card says which. Both get parameters: a list with the file that the
+    #          argument names, and behind it the value of careful.
 
 
 def generate_launch_description():

@@ -11,24 +11,6 @@ OPEN_THE_PAGE = "Check again with `--html page.html` behind the command, and ope
 
 
 @dataclass(eq=False)
-class NotThisQos(Fault):
-    """The quality of service would match, and is not the asked one."""
-
-    topic: str
-    wanted: str
-    found: str
-    why = (
-        "A picture that is late is worth nothing. Reliable means: send the old one again, and let"
-        " the new one wait. On Wi-Fi the pictures then come seconds late."
-    )
-    hint = (
-        "Give qos_profile_sensor_data, from rclpy.qos, to create_publisher in place of the number."
-    )
-    expected = "{topic} is published as {wanted}"
-    measured = "it is published as {found}"
-
-
-@dataclass(eq=False)
 class WrongStep(Fault):
     """The step is not the length of a row."""
 
