@@ -157,6 +157,10 @@ def prove_options(word: argparse.ArgumentParser) -> None:
         "--due", action="store_true", help="measure what must be measured before a landing"
     )
     word.add_argument(
+        "--told", metavar="FILE", type=Path,
+        help="with --due: what came of each package, a line of JSON each",
+    )  # fmt: skip
+    word.add_argument(
         "--jobs", metavar="N", type=whole_number, help="how many at once (default: measured)"
     )
 

@@ -91,7 +91,11 @@ def _prove_kept(options: argparse.Namespace) -> int:
         lines = [
             *(kept(labs) if options.kept else ()),
             *(recorded(labs, teller, options.jobs, due=options.due) if options.record else ()),
-            *(due(labs, teller, options.jobs) if options.due and not options.record else ()),
+            *(
+                due(labs, teller, options.jobs, options.told)
+                if options.due and not options.record
+                else ()
+            ),
         ]
     for text in told(lines, all_of_them=options.all):
         print(text)

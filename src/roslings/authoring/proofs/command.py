@@ -11,6 +11,10 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from itertools import chain
 from multiprocessing import get_context
+from pathlib import Path
+from typing import Literal
+
+from pydantic import BaseModel
 
 from roslings.authoring.proofs.digests import measuring
 from roslings.authoring.proofs.due import Due, Proofs, Standing
@@ -82,16 +86,38 @@ def recorded(
     yield Tally(f"{after - before:+,} bytes; {after:,} bytes are kept in all")
 
 
-def due(labs: Sequence[Lab], watcher: Watcher, jobs: int | None) -> Iterator[HasLine]:
-    """Measure all that is due, as the gate does; write nothing."""
-    proofs = _proofs(labs)
-    asked = proofs.due(newest_commit())
+class Answer(BaseModel):
+    """One line of the file that `--told` names: a package that was due, and what came of it."""
+
+    package: str
+    why: str
+    outcome: Literal["passed", "failed", "skipped"]
+    """`skipped` where no time was left for it, or where it could not be told."""
+
+
+def due(
+    labs: Sequence[Lab], watcher: Watcher, jobs: int | None, file: Path | None = None
+) -> Iterator[HasLine]:
+    """Measure all that is due, as the gate does, and write no proof.
+
+    `file` gets a line of JSON for each package, as `Answer` has it.
+    """
+    asked = _proofs(labs).due(newest_commit())
     found = {
         each.package.name: each for each in measured(_packages(asked), watcher, jobs, _time_is_left)
     }
-    for each in asked:
-        yield _proof_of(each.package, found)
+    proofs = {each.package.name: _proof_of(each.package, found) for each in asked}
+    if file:
+        answers = [_answer(each, proofs[each.package.name]) for each in asked]
+        file.write_text("".join(f"{each.model_dump_json()}\n" for each in answers), "utf-8")
+    yield from proofs.values()
     yield from _told_due(asked, found)
+
+
+def _answer(each: Due, proof: Proof) -> Answer:
+    wrong: Literal["skipped", "failed"] = "skipped" if proof.is_open else "failed"
+    name = each.package.name
+    return Answer(package=name, why=each.why, outcome="passed" if proof.holds else wrong)
 
 
 def _proof_of(package: Package, found: dict[str, Measured]) -> Proof:
