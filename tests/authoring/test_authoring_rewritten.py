@@ -124,7 +124,9 @@ def test_each_rewrite_writes_what_it_says(name: str) -> None:
 
 def test_each_rewrite_is_shown() -> None:
     """Those of whole files below."""
-    below = {"one file into three", "all files into one", "other quotes in lines"}
+    below = {
+        "one file into three", "all files into one", "other quotes in lines", "logger for print",
+    }  # fmt: skip
     assert set(REWRITES) - set(EXPECTED) == below
 
 
@@ -140,6 +142,40 @@ def test_other_quotes_are_written(line: str, new: str) -> None:
     """In what the program says, where that leaves it a program of Python 3.10."""
     talker = TALKER.replace("short(message.data))", f"{line})")
     assert f"info({new})" in changed("other quotes in lines", talker)
+
+
+PROGRAM = """import sys
+
+
+def tell(word):
+    print(f'it is {word}')
+    print('nothing', word)
+    print(word)
+
+
+def main():
+    tell(sys.argv[1])
+"""
+
+
+def test_a_program_without_a_node_gets_one_to_log_with() -> None:
+    """For its texts; what a logger does not take stays as it is, and so does a node's own print."""
+    new = logging(PROGRAM)
+    assert "writer().get_logger().info(f'it is {word}')" in new
+    assert "    print('nothing', word)\n    print(word)\n" in new
+    assert "@cache\ndef writer():" in new and "import rclpy\n" in new
+    compile(new, "beacon", "exec")
+    assert logging(new) == new
+    node = TALKER.replace("self.get_logger().info(", "print(f'' + ")
+    assert logging(node) == node
+    assert logging(PROGRAM, allowed=()) == PROGRAM
+
+
+def logging(code: str, allowed: tuple[str, ...] = ("print() or get_logger()",)) -> str:
+    """The program with a logger, where the card leaves that free."""
+    given = sources(beacon=code)
+    free = replace(given, card=given.card.model_copy(update={"not_judged": allowed}))
+    return REWRITES["logger for print"](free).texts["beacon/beacon.py"]
 
 
 def test_one_file_becomes_three() -> None:
