@@ -25,6 +25,7 @@ from roslings.authoring.rewritten.table import COMBINATIONS, REWRITES, all_at_on
 from roslings.batch.gradebook import gradebook
 from roslings.batch.result import Result
 from roslings.course import Lab, all_labs, lab
+from roslings.evidence import Evidence
 from roslings.verdict import CheckResult, Environment, Timings, Verdict
 from roslings.workspace.inspect import inspect_package
 
@@ -389,6 +390,20 @@ def test_a_new_lab_takes_every_right_package(
     first = kept(tmp_path)
     subprocess.run(command, capture_output=True, check=True, cwd=tmp_path)
     assert kept(tmp_path) == first, "a second run goes on where the first one was"
+
+
+@pytest.mark.slow
+def test_a_program_that_logs_its_lines_gets_all_points(tmp_path: Path) -> None:
+    """For real: each line goes to the terminal and to /rosout, where the grader hears both."""
+    (logs,) = (each for each in rewritten(lab("black-box")) if each.made.name == "logger for print")
+    words = ["check", "black-box", str(logs.make(tmp_path)), "--evidence", str(tmp_path / "kept")]
+    command = [sys.executable, "-m", "roslings", *words]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "100 of 100" in done.stdout
+    seen = Evidence.model_validate_json((tmp_path / "kept" / "evidence.json").read_bytes())
+    process = seen.experiments["reading"].processes["drive"]
+    assert all(line.is_logged for line in process.lines)
 
 
 def kept(course: Path) -> dict[str, Result]:
