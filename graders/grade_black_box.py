@@ -9,10 +9,11 @@ from roslings.capabilities.bags.demands import (
     be_of_its_own_rover,
     find,
     read_to_the_end,
-    refuse,
     tell,
     tell_counts,
     tell_gaps,
+    tell_no_bag,
+    tell_no_drive,
     tell_rates,
 )
 from roslings.course import lab
@@ -131,13 +132,13 @@ def test_other_storage(elsewhere: ExperimentView) -> None:
 @check(needs=["reads"])
 def test_no_bag(nothing: ExperimentView) -> None:
     """With no bag there, it says so: exit code {READER.no_bag.exit_code}."""
-    nothing.must(*(refuse(READER, label, READER.no_bag) for label in ("missing", "folder")))
+    nothing.must(*(tell_no_bag(READER, label) for label in ("missing", "folder")))
 
 
 @check(needs=["reads"])
 def test_no_drive(nothing: ExperimentView) -> None:
     """With no message on {READER.odometry}, too: exit code {READER.no_drive.exit_code}."""
-    nothing.must(refuse(READER, "still", READER.no_drive))
+    nothing.must(tell_no_drive(READER, "still"))
 
 
 # --- the sick rover ----------------------------------------------------------------------------

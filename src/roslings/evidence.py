@@ -99,9 +99,14 @@ class LogLine:
     @property
     def plain(self) -> str:
         """A line of get_logger() without `[INFO] [1700000000.0] [talker]: ` before it."""
-        if self.text.startswith("[") and "]: " in self.text:
+        if self.source == "terminal" and self.text.startswith("[") and "]: " in self.text:
             return self.text.partition("]: ")[2]
         return self.text
+
+    @property
+    def is_logged(self) -> bool:
+        """Written by get_logger(), and not by print()."""
+        return self.source == "rosout" or self.plain != self.text
 
 
 class Ending(Record):

@@ -6,9 +6,10 @@ use it to judge.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 
-from roslings.evidence import ExperimentSeen, ProcessSeen
+from roslings.evidence import ExperimentSeen, LogLine, ProcessSeen
 
 NOT_READ_HERE = 69
 """Exit code of our own `ros2 launch` for a file that only the full ROS reads: EX_UNAVAILABLE of
@@ -69,6 +70,33 @@ def tracebacks(seen: ProcessSeen) -> list[list[str]]:
     starts = [i for i, text in enumerate(texts) if text.startswith("Traceback")]
     ends = [*starts, len(texts)][1:]
     return [texts[max(i - 1, 0) : end] for i, end in zip(starts, ends, strict=True)]
+
+
+def without_interrupt(seen: ProcessSeen) -> list[LogLine]:
+    """What it wrote, without the tracebacks that began after we had asked it to end.
+
+    Ctrl-C is ours: of a node that did not do its task, the KeyboardInterrupt is no explanation.
+    """
+    asked_ns, kept, inside = seen.asked_to_end_ns, [], False
+    for line in seen.lines:
+        asked = asked_ns is not None and line.arrival_ns >= asked_ns
+        text = LAUNCHED.sub("", line.text)
+        if asked and text.startswith(BEGINNINGS):
+            inside = True
+        elif not inside:
+            kept += [line] if text.strip() or not asked else []
+        elif text.strip() and not text.startswith(" "):  # the error itself: its last line
+            inside = False
+    return kept
+
+
+BEGINNINGS = (
+    "Traceback (most recent", "Exception ignored ", "Exception in thread", "During handling of ",
+    "The above exception was",
+)  # fmt: skip
+"""How the lines begin that Python writes of an error that nobody catches, or of one in a chain."""
+LAUNCHED = re.compile(r"^\[[^\]\s]+-\d+\] ")
+"""What `ros2 launch` writes before each line of a node."""
 
 
 def _ends_in_a_race(traces: Sequence[Sequence[str]]) -> bool:

@@ -25,6 +25,7 @@ from roslings.authoring.rewritten.table import COMBINATIONS, REWRITES, all_at_on
 from roslings.batch.gradebook import gradebook
 from roslings.batch.result import Result
 from roslings.course import Lab, all_labs, lab
+from roslings.evidence import Evidence
 from roslings.verdict import CheckResult, Environment, Timings, Verdict
 from roslings.workspace.inspect import inspect_package
 
@@ -124,7 +125,9 @@ def test_each_rewrite_writes_what_it_says(name: str) -> None:
 
 def test_each_rewrite_is_shown() -> None:
     """Those of whole files below."""
-    below = {"one file into three", "all files into one", "other quotes in lines"}
+    below = {
+        "one file into three", "all files into one", "other quotes in lines", "logger for print",
+    }  # fmt: skip
     assert set(REWRITES) - set(EXPECTED) == below
 
 
@@ -140,6 +143,40 @@ def test_other_quotes_are_written(line: str, new: str) -> None:
     """In what the program says, where that leaves it a program of Python 3.10."""
     talker = TALKER.replace("short(message.data))", f"{line})")
     assert f"info({new})" in changed("other quotes in lines", talker)
+
+
+PROGRAM = """import sys
+
+
+def tell(word):
+    print(f'it is {word}')
+    print('nothing', word)
+    print(word)
+
+
+def main():
+    tell(sys.argv[1])
+"""
+
+
+def test_a_program_without_a_node_gets_one_to_log_with() -> None:
+    """For its texts; what a logger does not take stays as it is, and so does a node's own print."""
+    new = logging(PROGRAM)
+    assert "writer().get_logger().info(f'it is {word}')" in new
+    assert "    print('nothing', word)\n    print(word)\n" in new
+    assert "@cache\ndef writer():" in new and "import rclpy\n" in new
+    compile(new, "beacon", "exec")
+    assert logging(new) == new
+    node = TALKER.replace("self.get_logger().info(", "print(f'' + ")
+    assert logging(node) == node
+    assert logging(PROGRAM, allowed=()) == PROGRAM
+
+
+def logging(code: str, allowed: tuple[str, ...] = ("print() or get_logger()",)) -> str:
+    """The program with a logger, where the card leaves that free."""
+    given = sources(beacon=code)
+    free = replace(given, card=given.card.model_copy(update={"not_judged": allowed}))
+    return REWRITES["logger for print"](free).texts["beacon/beacon.py"]
 
 
 def test_one_file_becomes_three() -> None:
@@ -353,6 +390,20 @@ def test_a_new_lab_takes_every_right_package(
     first = kept(tmp_path)
     subprocess.run(command, capture_output=True, check=True, cwd=tmp_path)
     assert kept(tmp_path) == first, "a second run goes on where the first one was"
+
+
+@pytest.mark.slow
+def test_a_program_that_logs_its_lines_gets_all_points(tmp_path: Path) -> None:
+    """For real: each line goes to the terminal and to /rosout, where the grader hears both."""
+    (logs,) = (each for each in rewritten(lab("black-box")) if each.made.name == "logger for print")
+    words = ["check", "black-box", str(logs.make(tmp_path)), "--evidence", str(tmp_path / "kept")]
+    command = [sys.executable, "-m", "roslings", *words]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "100 of 100" in done.stdout
+    seen = Evidence.model_validate_json((tmp_path / "kept" / "evidence.json").read_bytes())
+    process = seen.experiments["reading"].processes["drive"]
+    assert all(line.is_logged for line in process.lines)
 
 
 def kept(course: Path) -> dict[str, Result]:

@@ -253,7 +253,7 @@ def _of_ends(card: DrillCard) -> Iterator[Step]:
 
 
 def _lines(view: ExperimentView) -> list[str]:
-    return [line.plain for line in view.seen.processes[PROGRAM].lines if line.text.strip()]
+    return view.labelled(PROGRAM).texts
 
 
 def _prints(text: str) -> Callable[[ExperimentView], None]:
@@ -277,11 +277,11 @@ def _never_prints(text: str) -> Callable[[ExperimentView], None]:
 
 
 def _no_traceback(card: DrillCard) -> Callable[[ExperimentView], None]:
-    """Of a program that ends: an error that nobody caught is told before all else."""
+    """Of a program that ends: that it does not, or ends with an error, is told before all else."""
 
     def demand(view: ExperimentView) -> None:
-        lines = _lines(view)
-        if any(line.startswith("Traceback") for line in lines):
+        broke = any(line.startswith("Traceback") for line in _lines(view))
+        if broke or not view.seen.processes[PROGRAM].ended_by_itself:
             _require_exit(card, view)
 
     return demand
@@ -293,8 +293,8 @@ def _require_exit(card: DrillCard, view: ExperimentView) -> None:
         require_steady(view.seen.stall_s)
         raise faults.RunsOn(view.seen.watching_s)
     if seen.status != card.exits:
-        lines = tuple(line.text for line in seen.lines[-40:])
-        raise faults.WrongExitCode(card.exits or 0, describe_end(seen), log=lines)
+        log = view.labelled(PROGRAM).last_lines()
+        raise faults.WrongExitCode(card.exits or 0, describe_end(seen), log=log)
 
 
 # --- what comes of what it is told -------------------------------------------------------------

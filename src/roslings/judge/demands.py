@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import difflib
-from collections import Counter
-from collections.abc import Callable, Collection, Iterable, Sequence
+from collections import Counter, defaultdict
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import TypeVar
 
 from roslings.course import CourseError, NodeContract, TopicContract
-from roslings.evidence import Ending, ExperimentSeen, ProcessSeen, Spoken
-from roslings.exits import is_late, is_unclean, is_whole, tracebacks
+from roslings.evidence import Ending, ExperimentSeen, LogLine, ProcessSeen, Spoken
+from roslings.exits import is_late, is_unclean, is_whole, tracebacks, without_interrupt
 from roslings.judge import faults
+from roslings.judge.lines import times
 from roslings.judge.remarks import remark
 from roslings.judge.views import (
     Demand,
@@ -180,7 +181,7 @@ def outlast_the_soak(process: ProcessView) -> None:
     if soaked.ended_by_itself:
         raise faults.EndedInTheSoak(
             soaked.executable, lifetime_s(soaked), describe_end(soaked),
-            log=tuple(line.text for line in soaked.lines),
+            log=tuple(line.text for line in without_interrupt(soaked)),
         )  # fmt: skip
     remark(f"{lifetime_s(soaked):.0f} s left alone")
 
@@ -224,7 +225,7 @@ def exit_cleanly(process: ProcessView) -> None:
     seen = process.seen
     if agreed(process, is_unclean, "ended with an error"):
         how = describe_end(seen) + (", with a traceback" if tracebacks(seen) else "")
-        raise faults.UncleanExit(seen.executable, how, log=process.last_lines())
+        raise faults.UncleanExit(seen.executable, how, log=process.lines_of_its_end)
     if seen.ending_cut:
         raise faults.Inconclusive(
             f"too much to keep: {seen.output_dropped_bytes} bytes that {seen.executable} wrote had"
@@ -273,27 +274,27 @@ def log_each(node: NodeContract, texts: Sequence[str]) -> Demand[ProcessView]:
 
 
 def _insist_on_once(process: ProcessView, wanted: Sequence[tuple[str, ...]]) -> None:
-    """Of messages that differ; who publishes one text again and again may write it as often.
-
-    A line may be printed, and logged besides.
-    """
-    counts = Counter((line.plain, line.plain != line.text) for line in process.seen.lines)
-    for spelled, times in Counter(wanted).items():
-        found = max(sum(counts[line, logged] for line in spelled) for logged in (True, False))
-        if times < found:
+    """Of messages that differ; who publishes one text again and again may write it as often."""
+    lines = _by_text(process)
+    for spelled, allowed in Counter(wanted).items():
+        found = times(line for text in spelled for line in lines[text])
+        if allowed < found:
             raise faults.LoggedAgain(process.seen.executable, spelled[0], found)
 
 
-def insist_on_at_most(process: ProcessView, lines: Collection[str], times: int) -> None:
-    """All of these lines together stand there at most so often. Raises LoggedAgain.
+def insist_on_at_most(process: ProcessView, wanted: Collection[str], allowed: int) -> None:
+    """All of these lines together stand there at most so often. Raises LoggedAgain."""
+    lines = _by_text(process)
+    if times(line for text in set(wanted) for line in lines[text]) > allowed:
+        example = max(wanted, key=lambda text: times(lines[text]))
+        raise faults.LoggedAgain(process.seen.executable, example, times(lines[example]))
 
-    A line may be printed, and logged besides.
-    """
-    counts = Counter((line.plain, line.plain != line.text) for line in process.seen.lines)
-    for logged in (True, False):
-        if sum(counts[line, logged] for line in set(lines)) > times:
-            example = max(lines, key=lambda line: counts[line, logged])
-            raise faults.LoggedAgain(process.seen.executable, example, counts[example, logged])
+
+def _by_text(process: ProcessView) -> Mapping[str, list[LogLine]]:
+    lines = defaultdict[str, list[LogLine]](list)
+    for line in process.lines:
+        lines[line.plain].append(line)
+    return lines
 
 
 def spellings(template: str, text: str) -> tuple[str, ...]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import string
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Literal, TypeVar
 
 from roslings.course import NodeContract, PictureContract, TopicContract
@@ -21,7 +22,9 @@ from roslings.evidence import (
     Qos,
     TopicSeen,
 )
+from roslings.exits import without_interrupt
 from roslings.judge.faults import Inconclusive, NothingToJudge
+from roslings.judge.lines import texts_of, written_by
 from roslings.matching import Near, nearest, nearest_endpoint, own_endpoints
 from roslings.rates import (
     LONGEST_STALL_S,
@@ -92,10 +95,15 @@ class ProcessView(View):
     soaked: ProcessSeen | None = None
     """The same executable in the soak; None where none was made, or others tell of its end."""
 
+    @cached_property
+    def lines(self) -> list[LogLine]:
+        """Everything it wrote, each line once, whether it was printed or logged."""
+        return written_by(self.seen, self.experiment)
+
     @property
     def texts(self) -> list[str]:
-        """Everything it wrote: to the terminal and to the log, without logger's decorations."""
-        return [line.plain for line in self._lines() if line.text.strip()]
+        """The same without logger's decorations; what it printed and logged is one line."""
+        return list(texts_of(self.lines))
 
     def wrote(self, text: str) -> bool:
         """It wrote a line that is `text`, or holds it."""
@@ -103,8 +111,13 @@ class ProcessView(View):
         return text in texts or any(text in line for line in texts)
 
     def last_lines(self, count: int = LAST_LINES) -> tuple[str, ...]:
-        """The end of what it wrote to the terminal."""
-        return tuple(line.text for line in self.seen.lines[-count:])
+        """The end of what it wrote to the terminal, without a traceback that our Ctrl-C made."""
+        return tuple(line.text for line in without_interrupt(self.seen)[-count:])
+
+    @property
+    def lines_of_its_end(self) -> tuple[str, ...]:
+        """The same with it, for whom its end is the question."""
+        return tuple(line.text for line in self.seen.lines[-LAST_LINES:])
 
     @property
     def runs(self) -> Iterator[ProcessView]:
@@ -135,11 +148,6 @@ class ProcessView(View):
     def acted(self) -> bool:
         """It published something, so it came further than its own start."""
         return any(topic.messages for topic in self.experiment.topics.values())
-
-    def _lines(self) -> Iterator[LogLine]:
-        yield from self.seen.lines
-        for lines in self.experiment.rosout.values():
-            yield from lines
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 
 
@@ -16,6 +17,33 @@ class NoBag(BagError):
         super().__init__(
             f"no bag can be read at '{path}': {reason}."
             " A bag is a folder with metadata.yaml in it; give the path of that folder."
+        )
+
+
+class NoPath(BagError):
+    """An empty text is the path of nothing."""
+
+    def __init__(self) -> None:
+        super().__init__("the uri is empty. Give the path of the bag's folder")
+
+
+class UnknownStorage(BagError):
+    """Nobody has a storage of this name."""
+
+    def __init__(self, asked: str, known: Iterable[str]) -> None:
+        super().__init__(
+            f"no storage could be initialized: there is no storage '{asked}', only"
+            f" {' and '.join(known)}"
+        )
+
+
+class OtherStorage(BagError):
+    """The bag is stored in another way than it was asked to be read."""
+
+    def __init__(self, file: Path, found: str, asked: str) -> None:
+        super().__init__(
+            f"no storage could be initialized: '{file}' is stored as {found}, and cannot be opened"
+            f" as {asked}. With an empty storage_id, the reader finds out by itself"
         )
 
 

@@ -10,7 +10,14 @@ from typing import Any
 from roslings.rosbag2.errors import Damaged, NoBag, NoMetadata, reason_of
 from roslings.rosbag2.metadata import NAME, ROOT, File, Metadata, from_plain
 from roslings.rosbag2.packing import BROKEN
-from roslings.rosbag2.reindexing import STORAGES, span_of, storage_files, topics_of
+from roslings.rosbag2.reindexing import (
+    STORAGES,
+    require_storage,
+    span_of,
+    storage_files,
+    storage_of,
+    topics_of,
+)
 
 Message = tuple[str, int, bytes]
 """The topic, when the message came (ns since 1970), and its bytes as ROS serialises them."""
@@ -47,20 +54,24 @@ class BagReader:
 
 
 @contextmanager
-def opened(path: Path) -> Iterator[BagReader]:
-    """The bag at `path`, a folder or one of its files. Raises NoBag, NoMetadata, Damaged."""
-    reader = open_bag(path)
+def opened(path: Path, asked: str = "") -> Iterator[BagReader]:
+    """The bag at `path`, a folder or one of its files. `asked`: the storage that it must have.
+
+    Raises NoBag, NoMetadata, Damaged, UnknownStorage, OtherStorage.
+    """
+    reader = open_bag(path, asked)
     try:
         yield reader
     finally:
         reader.close()
 
 
-def open_bag(path: Path) -> BagReader:
+def open_bag(path: Path, asked: str = "") -> BagReader:
     """The same, for those who close it themselves."""
     from rosbags.rosbag2 import Reader
 
     _require(path)
+    require_storage(_files_of(path) if asked else (), asked)
     try:
         reader = Reader(path)
         reader.open()
@@ -76,6 +87,11 @@ def _require(path: Path) -> None:
         raise NoBag(path, "the file is neither .mcap nor .db3")
     if path.is_dir() and not (path / NAME).exists():
         raise NoMetadata(path) if storage_files(path) else NoBag(path, "metadata.yaml is not there")
+
+
+def _files_of(path: Path) -> list[Path]:
+    """Where its messages lie; of a folder, what metadata.yaml lists."""
+    return [path / file.name for file in read_metadata(path).files] if path.is_dir() else [path]
 
 
 def _faults() -> tuple[type[Exception], ...]:
@@ -96,7 +112,7 @@ def _metadata(path: Path, reader: Any) -> Metadata:
         return read_metadata(path)
     file = File(path.name, span_of(reader))
     found = Metadata(
-        storage=STORAGES[path.suffix], topics=topics_of(reader), files=(file,), span=file.span,
+        storage=storage_of(path), topics=topics_of(reader), files=(file,), span=file.span,
         distro="",
     )  # fmt: skip
     return found.measured(path.parent)

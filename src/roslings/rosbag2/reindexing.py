@@ -5,13 +5,13 @@ from __future__ import annotations
 import re
 import sqlite3
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from roslings.rosbag2.errors import NoBag, reason_of
+from roslings.rosbag2.errors import NoBag, OtherStorage, UnknownStorage, reason_of
 from roslings.rosbag2.files import mended
 from roslings.rosbag2.metadata import ENDINGS, NAME, File, Metadata, Span, Topic, as_yaml
 from roslings.rosbag2.packing import (
@@ -36,18 +36,20 @@ class Content:
     packed_messages: bool
 
 
-def reindex(folder: Path) -> Metadata:
+def reindex(folder: Path, asked: str = "") -> Metadata:
     """Write the metadata.yaml of the bag in `folder`, from its files alone.
 
-    A file that was cut off is made whole: what was in it before stays. Raises NoBag, OSError.
+    A file that was cut off is made whole: what was in it before stays. `asked`: the storage that
+    they must have. Raises NoBag, UnknownStorage, OtherStorage, OSError.
     """
     files = storage_files(folder)
     if not files:
         raise NoBag(folder, "it holds no file of messages")
+    require_storage(files, asked)
     by_file = any(file.suffix == ENDING for file in files)
     contents = [_content(folder, file, by_file) for file in files]
     metadata = Metadata(
-        storage=STORAGES[_plain(files[0]).suffix],
+        storage=storage_of(files[0]),
         topics=_together(contents),
         files=tuple(content.file for content in contents),
         span=sum((content.file.span for content in contents), Span()),
@@ -78,8 +80,24 @@ def place_of_metadata(folder: Path) -> Path:
 
 def storage_files(folder: Path) -> list[Path]:
     """The files of messages in a folder, in the order in which they were written."""
-    found = [file for file in folder.iterdir() if _plain(file).suffix in STORAGES]
+    found = [file for file in folder.iterdir() if storage_of(file)]
     return sorted(found, key=lambda file: (_number(file), file.name))
+
+
+def storage_of(file: Path) -> str:
+    """How a file is stored, as its name says; empty for other files."""
+    return STORAGES.get(_plain(file).suffix, "")
+
+
+def require_storage(files: Iterable[Path], asked: str) -> None:
+    """Raises UnknownStorage, OtherStorage. Where nothing is asked for, the files tell it."""
+    if not asked:
+        return
+    if asked not in ENDINGS:
+        raise UnknownStorage(asked, ENDINGS)
+    for file in files:
+        if (found := storage_of(file)) not in ("", asked):
+            raise OtherStorage(file, found, asked)
 
 
 def _plain(file: Path) -> Path:

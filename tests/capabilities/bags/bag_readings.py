@@ -13,6 +13,8 @@ import traceback
 from collections.abc import Iterator
 from pathlib import Path
 
+from ways_to_write import written
+
 from roslings.capabilities.bags.act import holding
 from roslings.capabilities.bags.record import BagGiven, BagsSeen
 from roslings.course import Lab
@@ -52,8 +54,8 @@ class Bags:
         self._holds = {"drive": holding(drives[0], self._reader),
                        "other": holding(drives[1], self._reader)}  # fmt: skip
 
-    def verdict_on(self, package: Path, handed_in_as: str = "") -> Verdict:
-        """Let the package read all of them, and judge it."""
+    def verdict_on(self, package: Path, handed_in_as: str = "", way: str = "print") -> Verdict:
+        """Let the package read all of them, and judge it; its lines were written in this way."""
         files = inspect_package(package, self.lab.card)
         files.handed_in_as = handed_in_as
         names = [name for name in files.entry_points if files.entry_points[name]]
@@ -61,7 +63,8 @@ class Bags:
             succeeded=True, recognised_as="ros.ament_python", seconds=1.0, executables=names
         )
         evidence = Evidence(lab=self.lab.name, seed=0, machine=HERE, package=files, build=built)
-        evidence.experiments.update(self._read_by(package))
+        for name, seen in self._read_by(package).items():
+            evidence.experiments[name] = written(seen, way)
         return judge(self.lab, evidence)
 
     def _read_by(self, package: Path) -> dict[str, ExperimentSeen]:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from bag_readings import Bags
+from ways_to_write import WAYS
 
 from roslings.capabilities.bags import diagnosis
 from roslings.capabilities.bags.lines import Template
@@ -35,6 +36,23 @@ def failed(verdict: Verdict) -> set[str]:
 def test_the_solution_passes(bags: Bags) -> None:
     """With every check."""
     assert {check.outcome for check in bags.verdict_on(SOLUTION).checks} == {"pass"}
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_the_solution_passes_however_it_writes_its_lines(way: str, bags: Bags) -> None:
+    """By print() or by get_logger(): each line counts once."""
+    assert not failed(bags.verdict_on(SOLUTION, way=way))
+
+
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("name", ["duration_twice", "no_bag_code_zero", "rate_is_a_mean"])
+def test_a_mutant_is_caught_however_it_writes_its_lines(
+    name: str, way: str, bags: Bags, tmp_path: Path
+) -> None:
+    """A line that stands there twice counts twice."""
+    mutant = MUTANTS[name]
+    package = mutant.make(SOLUTION, tmp_path / LAB.card.package)
+    assert failed(bags.verdict_on(package, way=way)) == set(mutant.fails)
 
 
 @pytest.mark.parametrize("name", MUTANTS)

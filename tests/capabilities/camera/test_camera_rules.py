@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 from seen_with import seen_with
+from ways_to_write import WAYS, written
 
 from roslings.capabilities.camera.demands import (
     MISSING,
@@ -28,6 +29,7 @@ from roslings.capabilities.camera.detection import (
     draw_on_each,
     find_nothing,
     find_the_ball,
+    tell_once,
 )
 from roslings.capabilities.camera.faults import detection as faults
 from roslings.capabilities.camera.faults import images as camera_faults
@@ -46,6 +48,7 @@ from roslings.evidence import (
     TopicSeen,
 )
 from roslings.judge import ExperimentView, Fault, Inconclusive, NothingToJudge
+from roslings.judge.faults.writing import LoggedAgain
 
 IMAGE, POINT = "sensor_msgs/msg/Image", "geometry_msgs/msg/PointStamped"
 FILMED = TopicContract(topic="/eye", type=IMAGE, fields={"step": 1920})
@@ -388,6 +391,21 @@ def test_a_bad_picture_is_answered_by_nothing() -> None:
     quiet = answer_nothing(SCREEN, "short", "a bad picture")
     looking([bad], []).must(quiet)
     assert fault_of(looking([bad], [place(1, 3.0, 4.0)]), quiet) is faults.AnswersBadPicture
+
+
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("count", [1, 2])
+def test_a_bad_picture_is_told_of_once(count: int, way: str) -> None:
+    """As often as it was shown, however the line is written."""
+    lines = [LogLine(arrival_ns=1100 * MS, text="Bad picture: 3 bytes", source="terminal")]
+    view = looking([shown(1, part="short", ball=None)], [], lines=lines * count)
+    node = FINDER.model_copy(update={"log": "Bad picture: {text}"})
+    demand = tell_once(replace(SCREEN, node=node), ["short"])
+    seen = ExperimentView(written(view.seen, way))
+    if count == 1:
+        seen.must(demand)
+    else:
+        assert fault_of(seen, demand) is LoggedAgain
 
 
 @pytest.mark.parametrize(("after_ms", "kind"), [(2900, None), (3100, camera_faults.TriesSeldom)])

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from ways_to_write import WAYS, written
 
 from roslings.capabilities.qos import demands, faults
 from roslings.capabilities.qos.contract import (
@@ -332,6 +333,7 @@ def test_who_was_never_released_drives_nowhere() -> None:
     assert found(demand, stopped([])) is faults.TellsTheMotorsNothing
 
 
+@pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize(
     ("lines", "fault"),
     [
@@ -342,13 +344,14 @@ def test_who_was_never_released_drives_nowhere() -> None:
     ],
 )
 def test_the_reason_is_told_once(
-    lines: list[tuple[float, str]], fault: type[Exception] | None
+    lines: list[tuple[float, str]], fault: type[Exception] | None, way: str
 ) -> None:
     """In the log, when the stop begins."""
-    written = [LogLine(arrival_ns=int(at * S), text=text, source="terminal") for at, text in lines]
+    printed = [LogLine(arrival_ns=int(at * S), text=text, source="terminal") for at, text in lines]
     seen = stopped(moves((1, 2, COMMAND), (2, 4, {}))).seen
-    seen.processes["porter"] = ProcessSeen(executable="porter", started_ns=0, lines=written)
-    assert found(demands.tell_why(NODE, STOPS, deadline_s=0.4), ExperimentView(seen)) is fault
+    seen.processes["porter"] = ProcessSeen(executable="porter", started_ns=0, lines=printed)
+    porter = ExperimentView(written(seen, way))
+    assert found(demands.tell_why(NODE, STOPS, deadline_s=0.4), porter) is fault
 
 
 # --- two computers -----------------------------------------------------------------------------

@@ -33,6 +33,7 @@ from roslings.authoring.rewritten.spinning import a_loop_of_spin_once, a_with_bl
 from roslings.authoring.rewritten.texts import (
     double_quotes,
     format_for_f_strings,
+    logger_for_print,
     other_quotes_in_lines,
     percent_for_f_strings,
     print_for_the_logger,
@@ -60,6 +61,7 @@ REWRITES: Mapping[str, Rewrite] = {
         longer_queues,
         another_qos_that_fits,
         print_for_the_logger,
+        logger_for_print,
         other_quotes_in_lines,
         format_for_f_strings,
         percent_for_f_strings,

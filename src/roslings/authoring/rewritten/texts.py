@@ -9,7 +9,18 @@ import libcst as cst
 import libcst.matchers as m
 
 from roslings.authoring.rewritten.source import SETUP, Sources
-from roslings.authoring.rewritten.trees import all_of, called, code_of, expression, swapped
+from roslings.authoring.rewritten.trees import (
+    all_of,
+    called,
+    classes,
+    code_of,
+    expression,
+    importing,
+    is_node,
+    names_in,
+    statements,
+    swapped,
+)
 
 PLAIN = re.compile(r"^([bBrRuU]?)'([^'\"\\\n]*)'$", re.DOTALL)
 LOGS = ("debug", "info", "warning", "error", "fatal")
@@ -172,6 +183,47 @@ def print_for_the_logger(sources: Sources) -> Sources:
         return swapped(tree, {call: call.with_changes(func=cst.Name("print")) for call in logs})
 
     return sources.mapped(change)
+
+
+WRITER = '''@cache
+def writer():
+    """The node that writes all lines."""
+    if not rclpy.ok():
+        rclpy.init()
+    return rclpy.create_node('writer')
+'''
+
+
+def logger_for_print(sources: Sources) -> Sources:
+    """The logger of a node for `print(...)`, in a program without one, where the card allows it."""
+    if not any("get_logger()" in words for words in sources.card.not_judged):
+        return sources
+
+    def change(tree: cst.Module) -> cst.Module:
+        prints = [call for call in all_of(tree, cst.Call) if _is_print(call)]
+        has_node = any(map(is_node, classes(tree)))
+        if not prints or has_node or "writer" in {name.value for name in names_in(tree)}:
+            return tree
+        log = expression("writer().get_logger().info")
+        logging = swapped(tree, {call: call.with_changes(func=log) for call in prints})
+        return importing(importing(_with_writer(logging), "functools", "cache"), "rclpy")
+
+    return sources.mapped(change)
+
+
+def _is_print(call: cst.Call) -> bool:
+    """Of one text: a logger takes nothing else."""
+    text = m.Arg(m.FormattedString() | m.SimpleString(), keyword=None, star="")
+    return m.matches(call, m.Call(m.Name("print"), [text]))
+
+
+def _with_writer(tree: cst.Module) -> cst.Module:
+    at = next(n for n, each in enumerate(tree.body) if isinstance(each, cst.FunctionDef))
+    (writer,) = statements(WRITER)
+    blank = [cst.EmptyLine(indent=False)] * 2
+    return tree.with_changes(
+        body=[*tree.body[:at], writer.with_changes(leading_lines=blank), *tree.body[at:]]
+    )
 
 
 def _is_log(call: cst.Call) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -17,7 +18,9 @@ from roslings.capabilities.bags.faults import (
     GapMissed,
     LineMissing,
     LineTwice,
+    NoBagNotTold,
     NoDiagnosis,
+    NoDriveNotTold,
     NoGap,
     OtherRover,
     ReadingFails,
@@ -39,6 +42,8 @@ from roslings.models.drives.sick_rover import NoName, Planted, may_be, sick_rove
 
 RATE_WITHIN = 0.01
 """The jitter of a timer moves the median, and other right ways to find the usual period."""
+WORDS = re.compile(r"[\s/:,`'\"]+")
+"""What stands between the words of a line, and between the names of a topic."""
 ROUNDED = 0.55
 """Of the last digit: half of it, and what numbers lose on their way."""
 
@@ -77,6 +82,17 @@ class Reading:
         near = near or [text for text in texts if of and of in text]
         first = near[0] if near else None
         return LineMissing(self._wanted(line, of), first, len(texts), log=self.process.last_lines())
+
+    def misspelled(self, line: Template, topic: str) -> list[str]:
+        """Lines that begin as this one and name this topic, but are not written as the card says.
+
+        Also where the slash before the topic, or its namespace, is left out.
+        """
+        name = topic.rpartition("/")[2]
+        texts = [text for text in line.like(self.process.texts) if name in re.split(WORDS, text)]
+        told = {text: list(line.told_in([text])) for text in texts}
+        names = {each.name for each in self.holds.topics}
+        return [text for text in texts if not any(t["topic"] in names for t in told[text])]
 
     def _wanted(self, line: LineContract, of: str) -> str:
         return shown(line.text).replace("TOPIC", of) if of else shown(line.text)
@@ -182,18 +198,33 @@ def tell_gaps(reader: BagReaderContract, label: str) -> Demand[ExperimentView]:
         for gap in reading.holds.gaps(limit):
             fitting = [each for each in told if _is_told(reading, gap, each)]
             if not fitting:
-                wanted = contract.text.format(
-                    topic=gap.topic, seconds=reading.number(gap.seconds),
-                    start=reading.number(gap.start_s),
-                )  # fmt: skip
-                others = (contract.text.format(**o) for o in told if o["topic"] == gap.topic)
-                raise GapMissed(wanted, tuple(others), limit)
+                raise _missed(reading, gap)
             if len(fitting) > 1:
                 raise LineTwice(contract.text.format(**fitting[0]), len(fitting))
             told.remove(fitting[0])
         _insist_on_none(reading, told)
 
     return demand
+
+
+def _missed(reading: Reading, gap: PauseHeld) -> GapMissed:
+    """With all lines about its topic: those of other gaps, those that fit none, misspelled ones."""
+    line, limit = Template(reading.reader.lines["gap"].text), reading.reader.gap_periods
+    wanted = line.filled(
+        {"topic": gap.topic, "seconds": reading.number(gap.seconds),
+         "start": reading.number(gap.start_s)}
+    )  # fmt: skip
+    of_topic = [t for t in reading.told(reading.reader.lines["gap"]) if t["topic"] == gap.topic]
+    right = [each for each in of_topic if _is_a_gap(reading, each)]
+    others = [line.filled(each) for each in of_topic if each not in right]
+    misspelled = reading.misspelled(line, gap.topic)
+    told = tuple([*others, *misspelled])
+    return GapMissed(wanted, gap.topic, told, tuple(map(line.filled, right)), limit)
+
+
+def _is_a_gap(reading: Reading, told: Told) -> bool:
+    gaps = reading.holds.gaps(reading.reader.gap_periods)
+    return any(_is_told(reading, gap, told) for gap in gaps)
 
 
 def _is_told(reading: Reading, gap: PauseHeld, told: Told) -> bool:
@@ -211,23 +242,33 @@ def _insist_on_none(reading: Reading, told: Sequence[Told]) -> None:
         raise NoGap(line, reading.reader.gap_periods, next(pauses, None))
 
 
-def refuse(
-    reader: BagReaderContract, label: str, refusal: RefusalContract
-) -> Demand[ExperimentView]:
-    """It writes why, and its exit code says so."""
+def tell_no_bag(reader: BagReaderContract, label: str) -> Demand[ExperimentView]:
+    """Where there is no bag, it writes so, and its exit code says it, too."""
+    return _refuse(reader, label, reader.no_bag, NoBagNotTold)
 
+
+def tell_no_drive(reader: BagReaderContract, label: str) -> Demand[ExperimentView]:
+    """The same where no message tells of the drive."""
+    return _refuse(reader, label, reader.no_drive, NoDriveNotTold)
+
+
+def _refuse(
+    reader: BagReaderContract, label: str, refusal: RefusalContract, fault: type[RefusalMissing]
+) -> Demand[ExperimentView]:
     def demand(experiment: ExperimentView) -> None:
         reading = _reading(experiment, reader, label)
         process = reading.process
         _require_end(experiment, process, f"where {refusal.when}")
         line = refusal.log.format(path=reading.given.path, topic=reader.odometry)
-        how = f"it ended with {describe_end(process.seen)}"
-        if not any(text.strip() == line for text in process.texts):
-            how = f"there is no such line; {how}"
-        elif process.seen.status == refusal.exit_code:
+        is_told = any(text.strip() == line for text in process.texts)
+        if is_told and process.seen.status == refusal.exit_code:
             return
-        log = process.last_lines()
-        raise RefusalMissing(refusal.when, shown(refusal.log), refusal.exit_code, how, log=log)
+        begin = Template(refusal.log.partition(":")[0])
+        near = next(iter(begin.like(process.texts)), None)
+        raise fault(
+            refusal.when, line, refusal.exit_code, near, is_told, describe_end(process.seen),
+            log=process.last_lines(),
+        )  # fmt: skip
 
     return demand
 
@@ -269,7 +310,7 @@ def find(count: int, path: str, contract: DiagnosisContract) -> Demand[PackageVi
         truth: tuple[Planted, ...] = sick_rover(found.name, contract.faults).planted
         tally = diagnoses.tally(found.entries, truth, contract.number_within)
         if tally.net < count:
-            near = tuple(map(str, tally.near))
-            raise TooFewFound(count, len(tally.right), len(tally.wrong), near)
+            near, again = tuple(map(str, tally.near)), tuple(map(str, tally.again))
+            raise TooFewFound(count, len(tally.right), len(tally.wrong), near, again)
 
     return demand

@@ -46,11 +46,14 @@ class Tally:
     near: tuple[Entry, ...]
     """Fault and topic are right, the number is not."""
     wrong: tuple[Entry, ...]
+    """The topic does not have this fault."""
+    again: tuple[Entry, ...]
+    """An earlier entry is about the same fault of the same topic."""
 
     @property
     def net(self) -> int:
-        """A wrong one takes away what a right one gives."""
-        return len(self.right) - len(self.wrong)
+        """A wrong one takes away what a right one gives; so does one that is made again."""
+        return len(self.right) - len(self.wrong) - len(self.again)
 
 
 def read(text: str) -> Diagnosis:
@@ -96,13 +99,16 @@ def _entry(which: str, said: Any) -> Entry:
 
 
 def tally(entries: tuple[Entry, ...], planted: tuple[Planted, ...], within: float) -> Tally:
-    """Hold entries against the truth. Of two about one fault, the second is wrong."""
-    found: dict[str, list[Entry]] = {"right": [], "near": [], "wrong": []}
-    left = {(each.fault, each.topic): each for each in planted}
+    """Hold entries against the truth. Of two about one fault, the first counts."""
+    found: dict[str, list[Entry]] = {"right": [], "near": [], "wrong": [], "again": []}
+    truths = {(each.fault, each.topic): each for each in planted}
+    met: set[tuple[str, str]] = set()
     for entry in entries:
-        truth = left.pop((entry.fault, entry.topic), None)
-        found[_outcome(entry, truth, within)].append(entry)
-    return Tally(*(tuple(found[name]) for name in ("right", "near", "wrong")))
+        about = entry.fault, entry.topic
+        how = "again" if about in met else _outcome(entry, truths.get(about), within)
+        found[how].append(entry)
+        met.add(about)
+    return Tally(**{name: tuple(made) for name, made in found.items()})
 
 
 def _outcome(entry: Entry, truth: Planted | None, within: float) -> str:

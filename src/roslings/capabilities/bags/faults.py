@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import ClassVar
 
 from roslings.judge.faults.base import Fault
 
@@ -60,7 +62,7 @@ class LineMissing(Fault):
     wrote: int
     why = "Other programs read these lines, so each letter of them counts."
     expected = "a line `{line}`"
-    hint = "Compare the text of your print() with the card: blanks, colons and units, too."
+    hint = "Compare the text that you write with the card: blanks, colons and units, too."
 
     @property
     def measured(self) -> str:
@@ -80,7 +82,7 @@ class LineTwice(Fault):
     why = "Of two lines about one thing, nobody knows which one is right."
     expected = "one line `{line}`"
     measured = "it wrote {times} of them"
-    hint = "Does your print() stand inside of the loop over all messages?"
+    hint = "Does what writes it stand inside of the loop over all messages?"
 
 
 @dataclass(eq=False)
@@ -120,7 +122,11 @@ class GapMissed(Fault):
     """A gap is not told, or with other numbers."""
 
     wanted: str
+    topic: str
     told: tuple[str, ...]
+    """Lines about this topic that fit no gap, or are not written as the card says."""
+    right: tuple[str, ...]
+    """Those of other gaps of this topic."""
     limit: float
     why = "A gap is often the first sign of a fault: a cable, a node that hung, a full computer."
     expected = "`{wanted}`"
@@ -132,7 +138,15 @@ class GapMissed(Fault):
     @property
     def measured(self) -> str:
         """What is told of this topic."""
-        return f"it wrote {', '.join(f'`{line}`' for line in self.told) or 'no gap of this topic'}"
+        if self.told:
+            return f"it wrote {_quoted(self.told)}"
+        if self.right:
+            return f"of the gaps of {self.topic} it wrote only {_quoted(self.right)}"
+        return f"it wrote no line about a gap of {self.topic}"
+
+
+def _quoted(lines: Iterable[str]) -> str:
+    return ", ".join(f"`{line}`" for line in lines)
 
 
 @dataclass(eq=False)
@@ -162,13 +176,50 @@ class RefusalMissing(Fault):
     when: str
     line: str
     exit_code: int
+    near: str | None
+    """The line that is nearest to it; None where there is none."""
+    is_told: bool
     how: str
     why = "A program that cannot do its task says why, and its exit code says so, too."
     expected = "where {when}: the line `{line}`, and exit code {exit_code}"
-    measured = "{how}"
-    hint = (
-        "A bag that cannot be opened is a RuntimeError of reader.open(). main() returns the exit"
-        " code: `return 1`."
+    cure: ClassVar[str] = ""
+    """What to do where an error ended the program."""
+
+    @property
+    def measured(self) -> str:
+        """Its line, or the nearest one, and how it ended."""
+        if self.is_told:
+            return f"it wrote the line, and ended with {self.how}"
+        wrote = f"it wrote `{self.near}`" if self.near else "there is no such line"
+        return f"{wrote}; it ended with {self.how}"
+
+    @property
+    def hint(self) -> str:
+        """About what is wrong: the error, the line or the exit code."""
+        if any(line.startswith("Traceback") for line in self.log):
+            return self.cure
+        if not self.is_told:
+            return "Compare your line with this one, letter by letter; a path is written in full."
+        return f"main() returns the exit code: `return {self.exit_code}`."
+
+
+@dataclass(eq=False)
+class NoBagNotTold(RefusalMissing):
+    """There is no bag, and the program does not say so."""
+
+    cure = (
+        "A bag that cannot be opened is a RuntimeError of reader.open(). Catch it around this one"
+        " line, write what the card says, and return the exit code."
+    )
+
+
+@dataclass(eq=False)
+class NoDriveNotTold(RefusalMissing):
+    """No message tells of the drive, and the program does not say so."""
+
+    cure = (
+        "Without a message of the drive, your list of them is empty. Look at that before you reckon"
+        " with its first element."
     )
 
 
@@ -222,6 +273,8 @@ class TooFewFound(Fault):
     right: int
     wrong: int
     near: tuple[str, ...]
+    again: tuple[str, ...]
+    """Entries about what an earlier one is about."""
     why = "On a robot, a wrong diagnosis costs as much time as a right one saves."
 
     @property
@@ -234,11 +287,14 @@ class TooFewFound(Fault):
         """What was counted."""
         wrong = f"; {self.wrong} with a fault that its topic does not have" if self.wrong else ""
         near = f"; the number alone is wrong in: {', '.join(self.near)}" if self.near else ""
-        return f"{self.right} right{wrong}{near}"
+        again = f"; made a second time: {', '.join(self.again)}" if self.again else ""
+        return f"{self.right} right{wrong}{again}{near}"
 
     @property
     def hint(self) -> str:
         """What to do about it."""
+        if self.again:
+            return "Take out the second entry: it costs as much as a right one gives."
         if self.near:
             return "Measure again what the table of step 6 asks for: which messages, which unit?"
         if self.wrong:

@@ -32,6 +32,10 @@ class Template:
         start = self.text.partition("{")[0].strip(" :").lower()
         return [line for line in lines if line.strip().lower().startswith(start)]
 
+    def filled(self, told: Told) -> str:
+        """The line that says this."""
+        return self.text.format(**told)
+
     def _pattern(self) -> str:
         parts = []
         for before, field, _, _ in string.Formatter().parse(self.text):

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import errno
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import chain, pairwise
+from itertools import pairwise
 
 from roslings.capabilities.camera.faults import images as faults
 from roslings.capabilities.camera.record import CAMERA, PixelsSeen
 from roslings.capabilities.parameters.contract import ParameterContract
 from roslings.capabilities.parameters.record import ParameterSet, ParametersSeen
 from roslings.course import NodeContract, TopicContract
-from roslings.evidence import LogLine, MessageSeen, StageMark
+from roslings.evidence import MessageSeen, StageMark
 from roslings.judge.demands import most_similar, require_its_time, require_steady, written
 from roslings.judge.faults import Fault, NothingToJudge
 from roslings.judge.views import Demand, ExperimentView, TopicView
@@ -306,8 +306,7 @@ def _sent_ns(messages: Sequence[MessageSeen]) -> list[int]:
 
 def _lines_in(experiment: ExperimentView, node: NodeContract, part: str) -> list[str]:
     begin_ns, end_ns = _span_of(experiment, part)
-    process = experiment.process(node).seen
-    lines: Iterable[LogLine] = chain(process.lines, *experiment.seen.rosout.values())
+    lines = experiment.process(node).lines
     return [line.text for line in lines if begin_ns <= line.arrival_ns < end_ns]
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -17,6 +16,7 @@ from roslings.evidence import LogLine, MessageSeen
 from roslings.judge.demands import most_similar, require_its_time, require_steady, written
 from roslings.judge.faults import Fault, Inconclusive, NothingToJudge
 from roslings.judge.faults.writing import LoggedAgain
+from roslings.judge.lines import times
 from roslings.judge.views import Demand, ExperimentView, ProcessView
 from roslings.matching import nearest_endpoint
 
@@ -428,10 +428,7 @@ def survive(screen: Screen, part: str, words: str, must_say: bool) -> Demand[Exp
 
 
 def tell_once(screen: Screen, parts: Sequence[str]) -> Demand[ExperimentView]:
-    """The card's line about a bad picture comes at most as often as the picture was shown.
-
-    A line may be printed, and logged besides.
-    """
+    """The card's line about a bad picture comes at most as often as the picture was shown."""
     line = written(screen.node.log, screen.node.node).partition("{text}")[0]
 
     def demand(experiment: ExperimentView) -> None:
@@ -439,10 +436,8 @@ def tell_once(screen: Screen, parts: Sequence[str]) -> Demand[ExperimentView]:
         for shown in experiment.seen.part(CameraSeen).shown:
             if shown.part in parts:
                 lines = _lines_meanwhile(process, shown, line)
-                counts = Counter(each.plain != each.text for each in lines)
-                if max(counts.values(), default=0) > shown.tries:
-                    times = max(counts.values())
-                    raise LoggedAgain(process.seen.executable, lines[0].plain, times)
+                if (found := times(lines)) > shown.tries:
+                    raise LoggedAgain(process.seen.executable, lines[0].plain, found)
 
     return demand
 
@@ -450,7 +445,7 @@ def tell_once(screen: Screen, parts: Sequence[str]) -> Demand[ExperimentView]:
 def _lines_meanwhile(process: ProcessView, shown: PictureShown, begin: str) -> list[LogLine]:
     """The lines that begin so and came while a picture was shown."""
     return [
-        each for each in process.seen.lines
+        each for each in process.lines
         if each.plain.startswith(begin) and shown.sent_ns <= each.arrival_ns <= shown.until_ns
     ]  # fmt: skip
 

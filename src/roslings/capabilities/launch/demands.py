@@ -299,7 +299,7 @@ def show_its_arguments(contract: LaunchContract) -> Demand[ExperimentView]:
         if process.seen.status != 0:
             how, log = describe_end(process.seen), process.last_lines()
             raise faults.ArgumentsNotShown(process.seen.executable, how, log=log)
-        there = dict(shown_arguments([line.text for line in process.seen.lines]))
+        there = dict(shown_arguments([line.text for line in process.lines]))
         for argument in contract.arguments:
             if not _is_default(argument.default, there.get(argument.name)):
                 wanted = f"{argument.name} (default: {argument.default})"

@@ -26,6 +26,7 @@ from roslings.capabilities.services.record import ServicesSeen
 from roslings.course import NodeContract, TopicContract
 from roslings.judge.demands import most_similar, require_its_time, require_steady, written
 from roslings.judge.faults import EndpointKind, Inconclusive, NothingToJudge, NoTopic
+from roslings.judge.lines import texts_of, times
 from roslings.judge.views import Demand, ExperimentView, ProcessView
 from roslings.rates import NS_PER_S
 
@@ -348,16 +349,13 @@ def tell_why(
 
 def _judge_line(process: ProcessView, line: str, stop: StopSeen) -> None:
     until_ns = stop.until_ns + int(AFTER_S * NS_PER_S)
-    logs = [process.seen.lines, *process.experiment.rosout.values()]
-    inside = [
-        [each.plain for each in log if stop.began_ns <= each.arrival_ns <= until_ns] for log in logs
-    ]
-    times = max(sum(line in text for text in texts) for texts in inside)
-    if times == 0:
-        near = most_similar(line, [text for texts in inside for text in texts])
+    inside = [each for each in process.lines if stop.began_ns <= each.arrival_ns <= until_ns]
+    found = times(each for each in inside if line in each.plain)
+    if found == 0:
+        near = most_similar(line, list(texts_of(inside)))
         raise faults.ReasonNotTold(line, stop.cause, near)
-    if times > 1:
-        raise faults.ReasonToldAgain(line, stop.cause, times)
+    if found > 1:
+        raise faults.ReasonToldAgain(line, stop.cause, found)
 
 
 def _stops_in(experiment: ExperimentView, part: str) -> list[StopSeen]:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
-from roslings.rosbag2.errors import BagError, reason_of
+from roslings.rosbag2.errors import BagError, NoPath, reason_of
 
 
 @contextmanager
@@ -17,3 +18,16 @@ def as_runtime_error() -> Iterator[None]:
         raise RuntimeError(str(error)) from error
     except (OSError, KeyError, TypeError, ValueError) as fault:
         raise RuntimeError(f"the bag's metadata cannot be used: {reason_of(fault)}") from fault
+
+
+def path_of(uri: str) -> Path:
+    """Where a bag lies. Raises NoPath for an empty text, which Path takes for the folder here."""
+    if not uri:
+        raise NoPath
+    return Path(uri)
+
+
+def require_text(value: object, what: str) -> None:
+    """The compiled module takes no Path and no None for a text. Raises TypeError."""
+    if not isinstance(value, str):
+        raise TypeError(f"{what} must be str, and is {type(value).__name__}")

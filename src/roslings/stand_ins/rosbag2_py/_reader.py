@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterator
-from pathlib import Path
 
 from roslings.rosbag2.choosing import Choice
 from roslings.rosbag2.reading import BagReader, Message, open_bag
 
-from ._errors import as_runtime_error
+from ._errors import as_runtime_error, path_of, require_text
 from ._storage import (
     BagMetadata,
     ConverterOptions,
@@ -43,17 +42,22 @@ class SequentialReader:
     def __del__(self) -> None:
         self.close()
 
-    def open(
-        self, storage_options: StorageOptions, converter_options: ConverterOptions | None = None
-    ) -> None:
-        """Open the bag at `storage_options.uri`. Raises RuntimeError."""
-        self.open_uri(storage_options.uri)
+    def open(self, storage_options: StorageOptions, converter_options: ConverterOptions) -> None:
+        """Open the bag at `storage_options.uri`. Raises RuntimeError.
+
+        Its files must be stored as `storage_id` says; where that is empty, the bag tells it.
+        """
+        self._open(storage_options.uri, storage_options.storage_id)
 
     def open_uri(self, uri: str) -> None:
         """Open the bag at `uri`, a folder or a file. Raises RuntimeError."""
+        require_text(uri, "uri")
+        self._open(uri, "")
+
+    def _open(self, uri: str, storage_id: str) -> None:
         self.close()
         with as_runtime_error():
-            self._bag = open_bag(Path(uri))
+            self._bag = open_bag(path_of(uri), storage_id)
         self._restart(None)
 
     def close(self) -> None:

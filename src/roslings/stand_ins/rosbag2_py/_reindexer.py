@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from roslings.rosbag2.reindexing import reindex
 
-from ._errors import as_runtime_error
+from ._errors import as_runtime_error, path_of
 from ._storage import StorageOptions
 
 
@@ -14,6 +12,9 @@ class Reindexer:
     """Writes metadata.yaml anew."""
 
     def reindex(self, storage_options: StorageOptions) -> None:
-        """From the files of the bag at `uri`. Raises RuntimeError."""
+        """From the files of the bag at `uri`, all stored as `storage_id` says where it says so.
+
+        Raises RuntimeError.
+        """
         with as_runtime_error():
-            reindex(Path(storage_options.uri))
+            reindex(path_of(storage_options.uri), storage_options.storage_id)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import weakref
-from pathlib import Path
 
 from roslings.rosbag2.packing import ZSTD
+from roslings.rosbag2.reindexing import require_storage
 from roslings.rosbag2.writing import BagWriter, Compression, Plan
 
 from ._compression_options import CompressionMode, CompressionOptions
-from ._errors import as_runtime_error
+from ._errors import as_runtime_error, path_of
 from ._storage import (
     ConverterOptions,
     StorageOptions,
@@ -32,6 +32,8 @@ class SequentialWriter:
 
     def open(self, storage_options: StorageOptions, converter_options: ConverterOptions) -> None:
         """Make the bag's folder. Raises RuntimeError, also where the folder is there already."""
+        with as_runtime_error():
+            require_storage((), storage_options.storage_id)
         _require_known(storage_options, converter_options)
         plan = Plan(
             storage=storage_options.storage_id or get_default_storage_id(),
@@ -41,7 +43,7 @@ class SequentialWriter:
             custom=storage_options.custom_data,
         )
         with as_runtime_error():
-            self._bag = BagWriter(Path(storage_options.uri), plan)
+            self._bag = BagWriter(path_of(storage_options.uri), plan)
         self._finish = weakref.finalize(self, self._bag.close)
 
     def close(self) -> None:
@@ -108,8 +110,6 @@ class SequentialCompressionWriter(SequentialWriter):
 
 
 def _require_known(storage: StorageOptions, converter: ConverterOptions) -> None:
-    if storage.storage_id not in {"", *get_registered_writers()}:
-        raise RuntimeError(f"there is no storage '{storage.storage_id}', only mcap and sqlite3")
     formats = {converter.input_serialization_format, converter.output_serialization_format}
     if not formats <= {"", CDR}:
         raise RuntimeError("there is only the serialization format cdr")
