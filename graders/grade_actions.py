@@ -38,6 +38,7 @@ from roslings.capabilities.actions.demands import (
 )
 from roslings.capabilities.robot.act import robot_beside, start_near
 from roslings.course import lab
+from roslings.course.files import written
 from roslings.experiment import Scene, experiment
 from roslings.experiment.start import Start
 from roslings.judge import (
@@ -58,7 +59,6 @@ from roslings.judge import (
     outlast_the_soak,
     well_formed,
 )
-from roslings.judge.demands import written
 
 CARD = lab("actions").card
 SERVER, CLIENT = CARD.node("drive_server"), CARD.node("drive_client")

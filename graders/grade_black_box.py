@@ -17,6 +17,7 @@ from roslings.capabilities.bags.demands import (
     tell_rates,
 )
 from roslings.course import lab
+from roslings.course.files import written
 from roslings.experiment import Scene, experiment
 from roslings.judge import (
     ExperimentView,
@@ -27,7 +28,6 @@ from roslings.judge import (
     install,
     well_formed,
 )
-from roslings.judge.demands import written
 
 CARD = lab("black-box").card
 READER = written(CARD.reads_bags, CARD.package)

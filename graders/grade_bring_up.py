@@ -41,6 +41,7 @@ from roslings.capabilities.topics.demands import have_rate
 from roslings.capabilities.topics.relay import Shown, answer_each_once, field_of, hold_its_fields
 from roslings.course import lab
 from roslings.course.contract import Plain
+from roslings.course.files import written
 from roslings.experiment import Scene, experiment
 from roslings.experiment.timing import accounting
 from roslings.judge import (
@@ -62,7 +63,6 @@ from roslings.judge import (
     stay_up,
     well_formed,
 )
-from roslings.judge.demands import written
 
 CARD = lab("bring-up").card
 LIMITER, BEACON = CARD.node("speed_limiter"), CARD.node("beacon")

@@ -21,6 +21,7 @@ from roslings.capabilities.topics.relay import (
     write_each,
 )
 from roslings.course import lab
+from roslings.course.files import written
 from roslings.experiment import Scene, experiment
 from roslings.judge import (
     ExperimentView,
@@ -41,7 +42,6 @@ from roslings.judge import (
     stay_up,
     well_formed,
 )
-from roslings.judge.demands import written
 
 CARD = lab("distance-sensor").card
 SENSOR, SUBSCRIBER = CARD.node("distance_sensor"), CARD.node("distance_subscriber")

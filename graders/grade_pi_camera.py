@@ -6,12 +6,16 @@ nodes beside a camera, or show them pictures, and watch; checks read what was se
 
 from dataclasses import replace
 
-from roslings.capabilities.camera.act import PICTURES, camera_beside, change_parameter
-from roslings.capabilities.camera.demands import (
+from roslings.capabilities.camera.act import (
     BUSY,
     FORBIDDEN,
     GONE,
     MISSING,
+    PICTURES,
+    camera_beside,
+    change_parameter,
+)
+from roslings.capabilities.camera.demands import (
     begin_so_light,
     come_after,
     follow_brightness,

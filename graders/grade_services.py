@@ -21,6 +21,7 @@ from roslings.capabilities.services.demands import (
 )
 from roslings.capabilities.topics.demands import have_rate
 from roslings.course import lab
+from roslings.course.files import written
 from roslings.experiment import Scene, experiment
 from roslings.judge import (
     ExperimentView,
@@ -39,7 +40,6 @@ from roslings.judge import (
     outlast_the_soak,
     well_formed,
 )
-from roslings.judge.demands import written
 
 CARD = lab("services").card
 SERVER, CLIENT = CARD.node("motor_controller"), CARD.node("motor_client")

@@ -32,6 +32,10 @@ def prove(options: argparse.Namespace) -> int:
         return _prove_drills(options)
     if options.kept or options.record or options.due:
         return _prove_kept(options)
+    return _prove_labs(options)
+
+
+def _prove_labs(options: argparse.Namespace) -> int:
     if not options.labs:
         print("roslings: name a lab, or --drills. For example: topics", file=sys.stderr)
         return WRONG_USE

@@ -9,7 +9,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from roslings.course.files import CourseError, NoSolution, NoSuchLab
+from roslings.course.files import CourseError, NoSolution, NoSuchLab, written
 from roslings.course.labs import Lab, all_labs, lab, root
 
 if TYPE_CHECKING:
@@ -47,6 +47,7 @@ __all__ = [
     "all_labs",
     "lab",
     "root",
+    "written",
 ]
 
 

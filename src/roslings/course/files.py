@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from pydantic import BaseModel
 
 Model = TypeVar("Model", bound="BaseModel")
+Asked = TypeVar("Asked")
 Location = tuple[int | str, ...]
 LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 """A card is read several times in one grading; in C that takes a tenth of the time."""
@@ -107,3 +108,10 @@ def _child(node: yaml.Node, step: int | str) -> yaml.Node | None:
         child: yaml.Node = node.value[step]
         return child
     return None
+
+
+def written(value: Asked | None, where: str) -> Asked:
+    """What the card says. Raises CourseError where it says nothing and a check asks."""
+    if value is None:
+        raise CourseError(f"the card says nothing of this for {where}")
+    return value

@@ -6,9 +6,9 @@ import difflib
 from collections import Counter, defaultdict
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
-from typing import TypeVar
 
-from roslings.course import CourseError, NodeContract, TopicContract
+from roslings.course import NodeContract, TopicContract
+from roslings.course.files import written
 from roslings.evidence import Ending, ExperimentSeen, LogLine, ProcessSeen, Spoken
 from roslings.exits import is_late, is_unclean, is_whole, tracebacks, without_interrupt
 from roslings.judge import faults
@@ -29,7 +29,6 @@ from roslings.rates import LONGEST_STALL_S
 
 FEWEST_MESSAGES = 5
 SIMILAR_LINE = 0.5
-Asked = TypeVar("Asked")
 
 
 def require_steady(stall_s: float) -> None:
@@ -66,13 +65,6 @@ def require_its_time(
             f"{what} came late, but this computer held your node or the check up for {held_s:.2f} s"
             " meanwhile; close other programs and check again"
         )
-
-
-def written(value: Asked | None, where: str) -> Asked:
-    """What the card says. Raises CourseError where it says nothing and a check asks."""
-    if value is None:
-        raise CourseError(f"the card says nothing of this for {where}")
-    return value
 
 
 # --- the package -------------------------------------------------------------------------------

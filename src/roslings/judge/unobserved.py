@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from roslings.course import NodeContract, TopicContract
+from roslings.course.files import written
 from roslings.judge.demands import (
     be_there,
     carry_its_type,
     match_qos,
     repeat,
     require_believable,
-    written,
 )
 from roslings.judge.faults import Fault, NothingToJudge
 from roslings.judge.faults.unobserved import SpeaksOnlyWhenObserved, WritesWhatWasNotSent

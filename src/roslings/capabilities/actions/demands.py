@@ -26,6 +26,7 @@ from roslings.capabilities.services.demands import end_by_itself, require_code, 
 from roslings.capabilities.topics.faults.messages import NoMessages
 from roslings.capabilities.topics.faults.rhythm import rate_fault
 from roslings.course import NodeContract, OutcomeContract, RateContract
+from roslings.course.files import written
 from roslings.evidence import ExperimentSeen, MessageSeen, TopicSeen
 from roslings.judge.demands import (
     insist_on_at_most,
@@ -33,7 +34,6 @@ from roslings.judge.demands import (
     require_believable,
     require_its_time,
     require_steady,
-    written,
 )
 from roslings.judge.faults import Inconclusive, NothingToJudge, NotLogged
 from roslings.judge.views import Demand, ExperimentView, ProcessView

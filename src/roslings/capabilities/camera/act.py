@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import functools
 import os
 import time
@@ -21,6 +22,10 @@ from roslings.experiment.start import Start
 from roslings.experiment.timing import accounting
 from roslings.matching import nearest, nearest_endpoint
 from roslings.probe.wall_clock import to_wall_ns
+
+MISSING, FORBIDDEN, BUSY = (errno.ENOENT,), (errno.EACCES,), (errno.EBUSY,)
+GONE = (errno.ENODEV, errno.ENOENT, errno.EIO)
+"""What opening or reading answers; a camera that was pulled out is one of several."""
 
 PICTURES = 16
 """In a film that begins again; each is told from all others."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import errno
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -13,8 +12,9 @@ from roslings.capabilities.camera.record import CAMERA, PixelsSeen
 from roslings.capabilities.parameters.contract import ParameterContract
 from roslings.capabilities.parameters.record import ParameterSet, ParametersSeen
 from roslings.course import NodeContract, TopicContract
+from roslings.course.files import written
 from roslings.evidence import MessageSeen, StageMark
-from roslings.judge.demands import most_similar, require_its_time, require_steady, written
+from roslings.judge.demands import most_similar, require_its_time, require_steady
 from roslings.judge.faults import Fault, NothingToJudge
 from roslings.judge.views import Demand, ExperimentView, TopicView
 
@@ -317,8 +317,3 @@ def _span_of(experiment: ExperimentView, part: str) -> tuple[float, float]:
     if begin is None:
         raise NothingToJudge("the experiment did not come so far")
     return begin, min((s.at_ns for s in stages if s.at_ns > begin), default=float("inf"))
-
-
-MISSING, FORBIDDEN, BUSY = (errno.ENOENT,), (errno.EACCES,), (errno.EBUSY,)
-GONE = (errno.ENODEV, errno.ENOENT, errno.EIO)
-"""What opening or reading answers; a camera that was pulled out is one of several."""

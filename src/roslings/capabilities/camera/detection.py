@@ -12,8 +12,9 @@ from roslings.capabilities.camera.record import CameraSeen, DiscShown, PictureSh
 from roslings.capabilities.parameters.record import ParametersSeen
 from roslings.capabilities.topics.relay import as_number, field_of
 from roslings.course import NodeContract, TopicContract
+from roslings.course.files import written
 from roslings.evidence import LogLine, MessageSeen
-from roslings.judge.demands import most_similar, require_its_time, require_steady, written
+from roslings.judge.demands import most_similar, require_its_time, require_steady
 from roslings.judge.faults import Fault, Inconclusive, NothingToJudge
 from roslings.judge.faults.writing import LoggedAgain
 from roslings.judge.lines import times

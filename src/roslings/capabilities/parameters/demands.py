@@ -23,7 +23,8 @@ from roslings.capabilities.parameters.record import (
 )
 from roslings.capabilities.topics.demands import have_rate
 from roslings.course import NodeContract, RateContract, TopicContract
-from roslings.judge.demands import require_believable, require_steady, written
+from roslings.course.files import written
+from roslings.judge.demands import require_believable, require_steady
 from roslings.judge.faults import NothingToJudge
 from roslings.judge.views import Demand, ExperimentView, TopicView
 from roslings.matching import nearest_endpoint, own_endpoints

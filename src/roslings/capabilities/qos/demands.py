@@ -24,7 +24,8 @@ from roslings.capabilities.qos.record import (
 from roslings.capabilities.services.contract import ServiceContract
 from roslings.capabilities.services.record import ServicesSeen
 from roslings.course import NodeContract, TopicContract
-from roslings.judge.demands import most_similar, require_its_time, require_steady, written
+from roslings.course.files import written
+from roslings.judge.demands import most_similar, require_its_time, require_steady
 from roslings.judge.faults import EndpointKind, Inconclusive, NothingToJudge, NoTopic
 from roslings.judge.lines import texts_of, times
 from roslings.judge.views import Demand, ExperimentView, ProcessView

@@ -12,13 +12,13 @@ from roslings.capabilities.services import faults
 from roslings.capabilities.services.contract import MOST_LATE, AnswerContract, ServiceContract
 from roslings.capabilities.services.record import CLIENT_ENDS, CallSeen, ServiceEnd, ServicesSeen
 from roslings.course import GiveUpContract, NodeContract, TopicContract
+from roslings.course.files import written
 from roslings.evidence import ExperimentSeen, ProcessSeen
 from roslings.judge.demands import (
     insist_on_at_most,
     most_similar,
     require_its_time,
     require_steady,
-    written,
 )
 from roslings.judge.faults import EndedWithError, Inconclusive, NothingToJudge, NotLogged
 from roslings.judge.views import Demand, ExperimentView, ProcessView, TopicView

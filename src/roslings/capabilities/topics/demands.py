@@ -13,7 +13,8 @@ from roslings.capabilities.topics.faults.messages import (
 )
 from roslings.capabilities.topics.faults.rhythm import Bursts, SentAgain, TooSlow, rate_fault
 from roslings.course import RateContract, TopicContract
-from roslings.judge.demands import require_believable, require_steady, written
+from roslings.course.files import written
+from roslings.judge.demands import require_believable, require_steady
 from roslings.judge.faults import Inconclusive
 from roslings.judge.views import Demand, TopicView, text_pattern
 from roslings.rates import Rate

@@ -10,8 +10,9 @@ from typing import Any
 from roslings.capabilities.topics.faults import relay as faults
 from roslings.capabilities.topics.record import TOLD
 from roslings.course import NodeContract, TopicContract
+from roslings.course.files import written
 from roslings.evidence import MessageSeen, Spoken
-from roslings.judge.demands import insist_on_at_most, most_similar, written
+from roslings.judge.demands import insist_on_at_most, most_similar
 from roslings.judge.faults import Inconclusive, NothingToJudge, NotLogged
 from roslings.judge.views import Demand, ExperimentView, ProcessView, TopicView
 from roslings.matching import nearest_endpoint
