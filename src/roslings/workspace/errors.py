@@ -217,6 +217,37 @@ class TooManyFolders(WorkspaceError):
         )
 
 
+class NotThere(WorkspaceError):
+    """What was being worked on is not at its place any more."""
+
+    def __init__(self, path: Path, anew: str) -> None:
+        super().__init__(
+            f"{shown(path)} is gone:\nit was deleted, renamed or moved away.",
+            f"Put it back there. For a fresh one, in another terminal: {anew}",
+        )
+
+
+class NoFile(WorkspaceError):
+    """A folder, or something else, has the name that a file must have."""
+
+    def __init__(self, path: Path) -> None:
+        what = "a folder" if path.is_dir() else "no plain file"
+        super().__init__(
+            f"{shown(path)} is {what}, and must be a file.",
+            "Give it another name, and save your program under this one.",
+        )
+
+
+class ChangedMeanwhile(WorkspaceError):
+    """Something vanished, or became another thing, while it was being read."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(
+            f"{shown(path)} changed while it was read.",
+            "Save it once more, so that it is read as it is now.",
+        )
+
+
 # --- what is in a package ----------------------------------------------------------------------
 
 
