@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import base64
 import json
-import random
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -114,21 +113,11 @@ def _answers_to(question: Question) -> str:
     return f'{note}<ul class="choices">{items}</ul>'
 
 
-def shuffled(question: Order) -> list[int]:
-    """The steps' places, in an order that is always the same and never the right one."""
-    places = list(range(len(question.steps)))
-    while places == sorted(places):
-        random.Random(question.id + str(len(places))).shuffle(places)
-        if places == sorted(places):
-            places.reverse()
-    return places
-
-
 def _steps(question: Order) -> str:
     items = "".join(
         f'<li data-step="{shown}"><span>{inline_html(question.steps[place].text)}</span>'
         '<p class="why" hidden></p></li>'
-        for shown, place in enumerate(shuffled(question))
+        for shown, place in enumerate(question.shown)
     )
     return (
         f'<p class="several">Move the steps into the right order.</p><ol class="steps">{items}</ol>'
@@ -162,7 +151,7 @@ def _explained(question: Question) -> str:
 def _key(question: Question) -> Values:
     shared: Values = {"kind": question.kind, "day": question.day}
     if isinstance(question, Order):
-        places = shuffled(question)
+        places = question.shown
         order = [places.index(place) for place in range(len(places))]
         whys = [inline_html(question.steps[place].why) for place in places]
         return {**shared, "right": order, "why": whys}

@@ -137,7 +137,7 @@ def test_an_outline_that_cannot_be_read_is_told_by_the_card(
 def test_the_narrower_error_decides() -> None:
     """The disk is the machine's fault, a missing workspace is not; a mistake of ours is neither."""
     assert exit_code_of(CannotRead(Path("x"))) == 3
-    assert exit_code_of(NoWorkspace(Path("x"))) == 2
+    assert exit_code_of(NoWorkspace(Path("x"), "topics")) == 2
     assert exit_code_of(Problem("no middleware")) == 2
     assert exit_code_of(KeyError("x")) is None
 

@@ -34,6 +34,12 @@ class Watched:
         self._said.clear()
         os.write(self.screen, key.encode())
 
+    def forget(self) -> None:
+        """What stood there no longer counts; what is on its way neither."""
+        while select.select([self.screen], [], [], 0.0)[0]:
+            os.read(self.screen, 65536)
+        self._said.clear()
+
     def shows(self, pattern: str) -> str:
         """Wait until the screen has shown it; all that it has shown since the last key."""
         end_s = time.monotonic() + PATIENCE_S

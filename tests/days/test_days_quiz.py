@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import re
+from collections import Counter
 from pathlib import Path
+from string import ascii_lowercase
 from typing import Any
 
 import pytest
 from tiny_course import DAY, write_course
 
-from roslings.lessons import Quiz, read_lessons
+from roslings.course import root
+from roslings.lessons import One, Order, Quiz, Several, read_lessons
+from roslings.lessons.quiz import mixed
 from roslings.notebook import quiz as ask
-from roslings.notebook.quiz_text import as_text
+from roslings.notebook.quiz_text import as_text, without_links
 from roslings.notebook.quiz_widgets import drawn
 
 
@@ -40,16 +45,18 @@ def test_one_choice(quiz: Quiz) -> None:
     """Nothing chosen, a wrong one, the right one."""
     asked = Asked(quiz, 1)
     assert "Choose an answer first." in asked.check()
-    asked.fields[0].value = 1
+    options = dict(asked.fields[0].options)
+    asked.fields[0].value = options["It sings."]
     assert "Not yet." in asked.check() and "a bell does that" in asked.check()
-    asked.fields[0].value = 0
+    asked.fields[0].value = options["It shines."]
     assert "Right." in asked.check() and "<code>its</code>" in asked.check()
 
 
 def test_several_choices(quiz: Quiz) -> None:
     """Too few, one too many, and all that are right."""
     asked = Asked(quiz, 2)
-    bulb, switch, wheels = asked.fields
+    by_text = {field.description: field for field in asked.fields}
+    bulb, switch, wheels = (by_text[text] for text in ("A bulb", "A switch", "Wheels"))
     bulb.value = True
     assert "not chosen yet" in asked.check()
     switch.value = wheels.value = True
@@ -99,7 +106,7 @@ def test_plain_text_holds_all_of_it(quiz: Quiz) -> None:
     text = as_text(quiz)
     questions, _, answers = text.partition("Answers")
     assert "What does a lamp do?" in questions and "right:" not in questions
-    assert "a) right: Yes" in answers and "It prints 2" in answers
+    assert ") right: Yes" in answers and "It prints 2" in answers
     assert max(map(len, text.splitlines())) <= 80 and "#word-" not in text
 
 
@@ -121,3 +128,75 @@ def test_a_broken_quiz_is_told(
     (tmp_path / "days" / DAY / "quiz.yaml").write_text("questions: []\n", "utf-8")
     ask(quiz.day)
     assert "quiz.yaml:1" in capsys.readouterr().out
+
+
+# --- the order of the choices -----------------------------------------------------------------
+
+QUIZZES = read_lessons(root()).quizzes
+ASKED = {each.id: (quiz.day, each) for quiz in QUIZZES[::-1] for each in quiz.questions}
+ONE = [(day, each) for day, each in ASKED.values() if isinstance(each, One)]
+"""Every question with one right choice, each once, and the day that asks it first."""
+
+
+def place_of_right(question: One) -> int:
+    """Where the right choice is shown."""
+    return [choice.right for choice in question.choices].index(True)
+
+
+def test_the_right_choice_is_everywhere_about_as_often() -> None:
+    """Who always takes the first, or the last, knows nothing and gets no more than chance."""
+    for count, fewest in ((3, 15), (4, 40)):
+        places = Counter(place_of_right(each) for _, each in ONE if len(each.choices) == count)
+        even = sum(places.values()) / count
+        assert sum(places.values()) >= fewest
+        assert all(0.6 * even <= places[place] <= 1.4 * even for place in range(count)), places
+
+
+@pytest.mark.parametrize("day", [quiz.day for quiz in QUIZZES])
+def test_no_day_has_its_right_choices_at_one_place(day: str) -> None:
+    """Not even two of three."""
+    places = Counter(place_of_right(each) for of, each in ONE if of == day)
+    assert max(places.values()) / sum(places.values()) < 2 / 3, places
+
+
+def test_the_order_follows_from_the_id_alone() -> None:
+    """In each Python, and for who asks again on a later day."""
+    assert mixed("topics-who-hears", 4) == [2, 3, 0, 1]
+    assert mixed("a", 2) != mixed("b", 2) or mixed("a", 3) != mixed("b", 3)
+    for quiz in QUIZZES:
+        for each in quiz.questions:
+            assert each.model_copy() == ASKED[each.id][1]
+
+
+@pytest.mark.parametrize("number", range(len(QUIZZES)))
+def test_the_notebook_shows_what_is_read(number: int) -> None:
+    """As widgets and as text, of each real question; the steps of an order, too, never right."""
+    quiz = QUIZZES[number]
+    printed = [" ".join(part.split()) for part in as_text(quiz).split("Answers")[0].split("\n\n")]
+    whole = " ".join(printed)
+    boxes = drawn(quiz).children
+    for each, box in zip(quiz.questions, boxes, strict=True):
+        _, *fields, _, _ = box.children
+        if isinstance(each, One | Several):
+            texts = [without_links(choice.text) for choice in each.choices]
+            lettered = zip(ascii_lowercase, texts, strict=False)
+            assert " ".join(f"{a}) {' '.join(text.split())}" for a, text in lettered) in whole
+            shown = (
+                [o[0] for o in fields[0].options]
+                if isinstance(each, One)
+                else [field.description for field in fields]
+            )
+            assert shown == [text.replace("`", "") for text in texts]
+        elif isinstance(each, Order):
+            texts = [without_links(each.steps[place].text) for place in each.shown]
+            assert list(fields[0].options)[1:] == [text.replace("`", "") for text in texts]
+            assert each.shown != sorted(each.shown)
+
+
+PLACES = re.compile(r"\bof (the )?(above|below|these)\b|\bthe choices? (above|below)\b", re.I)
+
+
+def test_no_choice_speaks_of_the_places_of_others() -> None:
+    """They are mixed."""
+    chosen = [each for _, each in ASKED.values() if isinstance(each, One | Several)]
+    assert [c.text for each in chosen for c in each.choices if PLACES.search(c.text)] == []

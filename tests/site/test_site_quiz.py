@@ -4,12 +4,22 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from string import ascii_lowercase
 from typing import Any
 
 import pytest
 from two_days_site import Visit
 
+from roslings.lessons import read_lessons
+from roslings.lessons.quiz import Chosen
+from roslings.notebook.quiz_text import as_text, without_links
+from roslings.notebook.quiz_widgets import drawn
+
 QUIZ_1, QUIZ_3 = "days/01-install/quiz.html", "days/03-topics/quiz.html"
+RIGHT, WRONG = "Nothing", "All of it"
+"""Of the question about one terminal."""
+MASTER, LTS = "It needs no master", "It is supported until May 2029"
+SYSTEM = "It is an operating system"
 DAYS_UNTIL_LEARNT = (1, 3, 7, 14, 30)
 
 
@@ -18,12 +28,12 @@ def question(page: Any, name: str) -> Any:
     return page.locator(f"#q-{name}")
 
 
-def choose(form: Any, *places: int) -> str:
-    """Choose answers, check them; returns what the form says."""
+def choose(form: Any, *texts: str) -> str:
+    """Choose answers by their texts, check them; returns what the form says."""
     for box in form.locator("input[type=checkbox]").all():
         box.uncheck()
-    for place in places:
-        form.locator("input").nth(place).check()
+    for text in texts:
+        form.get_by_label(text, exact=True).check()
     form.get_by_role("button", name="Check", exact=True).click()
     return str(form.locator(".outcome").inner_text())
 
@@ -37,21 +47,55 @@ def test_one_of_several_choices(visit: Visit) -> None:
     """Feedback for the choice made; all of them once it is right."""
     form = question(visit.go(QUIZ_1), "install-one-terminal")
     assert "Answer first" in choose(form)
-    assert "Not yet" in choose(form, 1)
+    assert "Not yet" in choose(form, WRONG)
     assert form.locator(".why:visible").all_inner_texts() == [
         "Not right: Each terminal has variables of its own."
     ]
-    assert "Right" in choose(form, 0)
+    assert "Right" in choose(form, RIGHT)
     assert form.locator(".why:visible").count() == 3
+
+
+def test_all_places_show_the_choices_in_one_order(visit: Visit, site: Path) -> None:
+    """Page, key, page of answers (which is printed), review, Anki, and the notebook's two forms."""
+    quiz = read_lessons(site.parents[1]).quiz("01-install")
+    assert quiz
+    asked = [each for each in quiz.questions if isinstance(each, Chosen)]
+    texts = [[without_links(choice.text) for choice in each.choices] for each in asked]
+    right = [[n for n, choice in enumerate(each.choices) if choice.right] for each in asked]
+    assert [choice.right for choice in asked[0].choices] != [True, False, False]  # as it is written
+    for address in (QUIZ_1, "review.html"):
+        page = visit.go(address)
+        labels = [question(page, each.id).locator(".choices label") for each in asked]
+        assert [found.all_text_contents() for found in labels] == texts
+        keys = page.evaluate("roslings.keys")
+        assert [keys[each.id]["right"] for each in asked] == right
+        whys = [keys[each.id]["why"] for each in asked]
+        assert whys == [[choice.why for choice in each.choices] for each in asked]
+    cards = [page.evaluate(f"roslings.keys['{each.id}']") for each in asked]
+    sections = visit.go("days/01-install/answers.html").locator("section section")
+    answers = [sections.nth(n).locator("li") for n, _ in enumerate(asked)]
+    printed, drawn_there = as_text(quiz), drawn(quiz).children
+    for place, each in enumerate(asked):
+        found = answers[place].all_text_contents()
+        assert len(found) == len(texts[place])
+        for number, (text, choice) in enumerate(zip(texts[place], each.choices, strict=True)):
+            assert found[number].startswith(f"{'Right' if choice.right else 'Not right'}: {text}")
+            assert f"   {ascii_lowercase[number]}) {text}" in printed
+        for side in ("front", "back"):
+            places = [cards[place][side].index(f"{text[:8]}") for text in texts[place]]
+            assert places == sorted(places)
+    one, several = (drawn_there[n].children for n in (0, 1))
+    assert [option[0] for option in one[1].options] == texts[0]
+    assert [box.description for box in several[1:4]] == texts[1]
 
 
 def test_several_right_answers(visit: Visit) -> None:
     """All right ones and no other."""
     form = question(visit.go(QUIZ_1), "install-which-are-true")
     assert form.locator("input[type=checkbox]").count() == 3
-    assert "more" in choose(form, 0)
-    assert "Not yet" in choose(form, 0, 1, 2)
-    assert "Right" in choose(form, 0, 2)
+    assert "more" in choose(form, MASTER)
+    assert "Not yet" in choose(form, MASTER, SYSTEM, LTS)
+    assert "Right" in choose(form, MASTER, LTS)
 
 
 def test_an_order_by_keyboard(visit: Visit) -> None:
@@ -94,9 +138,9 @@ def test_the_form_is_a_real_form(visit: Visit) -> None:
     page = visit.go(QUIZ_1)
     form = question(page, "install-one-terminal")
     assert "What does terminal 2 know" in form.locator("fieldset > legend").inner_text()
-    form.get_by_label("Nothing").focus()
+    form.locator("input").first.focus()
     page.keyboard.press("ArrowDown")
-    assert form.get_by_label("All of it").is_checked()
+    assert form.locator("input").nth(1).is_checked()
     page.keyboard.press("Enter")
     assert form.locator("[role=status]").inner_text()
 
@@ -105,7 +149,7 @@ def test_a_missed_question_comes_back_at_growing_intervals(visit: Visit) -> None
     """1, 3, 7, 14 and 30 days, and then it is learnt; a wrong answer begins again."""
     page = visit.page
     page.clock.install(time="2026-03-01T10:00:00")
-    choose(question(visit.go(QUIZ_1), "install-one-terminal"), 1)
+    choose(question(visit.go(QUIZ_1), "install-one-terminal"), WRONG)
     visit.go("review.html")
     assert "comes back on 2026-03-02" in page.locator(".review-status").inner_text()
     assert page.locator("form.question:visible").count() == 0
@@ -114,10 +158,10 @@ def test_a_missed_question_comes_back_at_growing_intervals(visit: Visit) -> None
         page.clock.set_fixed_time(f"{day}T00:05:00")
         visit.go("review.html")
         assert "One question is due today" in page.locator(".review-status").inner_text()
-        assert "Right" in choose(page.locator("form.question:visible"), 0)
+        assert "Right" in choose(page.locator("form.question:visible"), RIGHT)
         assert stored(page)["questions"]["install-one-terminal"].get("due") == after
     assert "No question is missed" in page.locator(".review-status").inner_text()
-    choose(question(visit.go(QUIZ_1), "install-one-terminal"), 1)
+    choose(question(visit.go(QUIZ_1), "install-one-terminal"), WRONG)
     assert stored(page)["questions"]["install-one-terminal"]["due"] == "2026-04-26"
 
 
@@ -126,9 +170,9 @@ def test_answering_again_the_same_day_does_not_skip_an_interval(visit: Visit) ->
     page = visit.page
     page.clock.install(time="2026-12-31T23:00:00")
     form = question(visit.go(QUIZ_1), "install-one-terminal")
-    choose(form, 1)
-    choose(form, 0)
-    choose(form, 0)
+    choose(form, WRONG)
+    choose(form, RIGHT)
+    choose(form, RIGHT)
     assert stored(page)["questions"]["install-one-terminal"]["due"] == "2027-01-01"
 
 
@@ -136,7 +180,7 @@ def test_home_says_what_is_due(visit: Visit) -> None:
     """And how far each day is."""
     page = visit.page
     page.clock.install(time="2026-03-01T10:00:00")
-    choose(question(visit.go(QUIZ_1), "install-one-terminal"), 1)
+    choose(question(visit.go(QUIZ_1), "install-one-terminal"), WRONG)
     visit.go("index.html")
     assert page.locator(".review-due").is_hidden()
     assert "1 of 3 questions" in page.locator("[data-day='01-install']").inner_text()
@@ -165,12 +209,12 @@ def test_progress_is_saved_and_loaded(visit: Visit) -> None:
     """Into another browser; what is newer there is kept."""
     page = visit.page
     page.clock.install(time="2026-03-01T10:00:00")
-    choose(question(visit.go(QUIZ_1), "install-one-terminal"), 1)
+    choose(question(visit.go(QUIZ_1), "install-one-terminal"), WRONG)
     text = exported(visit.go("review.html"), "Save my progress")
     before = stored(page)
     page.evaluate("localStorage.clear()")
     page.clock.set_fixed_time("2026-03-02T10:00:00")
-    choose(question(visit.go(QUIZ_3), "topics-who-hears"), 1)
+    choose(question(visit.go(QUIZ_3), "topics-who-hears"), "A best-effort subscription")
     visit.go("review.html")
     load(page, "Load progress", text)
     page.get_by_text("Loaded: 1 questions").wait_for()
@@ -207,7 +251,7 @@ BAD_FILES = {
 def test_a_damaged_or_foreign_file_is_refused(visit: Visit) -> None:
     """Today's progress is kept, and the page says why."""
     page = visit.go(QUIZ_1)
-    choose(question(page, "install-one-terminal"), 1)
+    choose(question(page, "install-one-terminal"), WRONG)
     before = stored(page)
     visit.go("review.html")
     for text, told in BAD_FILES.values():
@@ -222,7 +266,7 @@ def test_damaged_storage_is_set_aside(visit: Visit) -> None:
     """The page works, and nothing is thrown away."""
     page = visit.go("index.html")
     page.evaluate("localStorage.setItem('roslings.progress', '{\"half')")
-    choose(question(visit.go(QUIZ_1), "install-one-terminal"), 0)
+    choose(question(visit.go(QUIZ_1), "install-one-terminal"), RIGHT)
     assert page.evaluate("localStorage.getItem('roslings.progress.damaged')") == '{"half'
     assert stored(page)["questions"]["install-one-terminal"]["right"]
 
@@ -245,7 +289,7 @@ def test_questions_go_to_anki(visit: Visit) -> None:
 def test_progress_can_be_deleted_after_a_question(visit: Visit) -> None:
     """Not by one press."""
     page = visit.go(QUIZ_1)
-    choose(question(page, "install-one-terminal"), 1)
+    choose(question(page, "install-one-terminal"), WRONG)
     visit.go("review.html")
     page.get_by_role("button", name="Delete my progress").click()
     assert stored(page)["questions"]
@@ -266,8 +310,8 @@ def answer_day_3(page: Any) -> None:
     """Answer each question, right or wrong."""
     question(page, "topics-period").get_by_label("It prints:").fill("1")
     question(page, "topics-period").get_by_role("button", name="Check").click()
-    choose(question(page, "topics-who-hears"), 0)
-    choose(question(page, "install-one-terminal"), 0)
+    choose(question(page, "topics-who-hears"), "A reliable subscription")
+    choose(question(page, "install-one-terminal"), RIGHT)
 
 
 def test_a_day_is_done_after_its_quiz_and_its_verdict(visit: Visit) -> None:
@@ -329,8 +373,8 @@ def test_a_real_verdict_is_understood(visit: Visit) -> None:
 def test_a_day_without_a_lab_needs_its_quiz_only(visit: Visit, name: str) -> None:
     """Lesson and quiz carry the same box."""
     page = visit.go(QUIZ_1)
-    for each in ("install-one-terminal", "install-which-are-true", "install-what-first"):
-        choose(question(page, each), *([0] if each != "install-what-first" else []))
+    for each, chosen in (("one-terminal", RIGHT), ("which-are-true", MASTER), ("what-first", "")):
+        choose(question(page, f"install-{each}"), *filter(None, [chosen]))
     page = visit.go(name)
     page.get_by_role("button", name="Day 1 is done").click()
     assert "This day is done" in page.locator(".day-state").inner_text()

@@ -8,10 +8,11 @@ import shutil
 import subprocess
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from hardship import Run
 
 from roslings.workspace.watch import changes
 
@@ -130,6 +131,69 @@ def test_a_folder_that_is_moved_away_is_waited_for(watcher: Watcher, tmp_path: P
     watcher.until(".")
     (watcher.folder / "setup.cfg").write_text("x")
     assert "setup.py" not in watcher.until("setup.cfg")
+
+
+def away(folder: Path, aside: Path) -> None:
+    """Renamed out of its parent."""
+    folder.rename(aside)
+
+
+def gone(folder: Path, aside: Path) -> None:
+    """Deleted, and a copy kept for later."""
+    shutil.copytree(folder, aside)
+    shutil.rmtree(folder)
+
+
+def a_file_instead(folder: Path, aside: Path) -> None:
+    """Replaced by a file."""
+    folder.rename(aside)
+    folder.touch()
+
+
+@pytest.mark.parametrize("spoil", [away, gone, a_file_instead])
+def test_that_a_folder_vanishes_is_told_at_once(
+    package: Path, tmp_path: Path, spoil: Callable[[Path, Path], None]
+) -> None:
+    """Before it is back; whoever wakes the watch is heard meanwhile."""
+    woken = threading.Event()
+    found = changes(package, begin=True, wake=woken.is_set)
+    assert next(found) == frozenset()
+    spoil(package, tmp_path / "aside")
+    told = frozenset[Path]()
+    while package not in told:
+        told = next(found)
+    assert not package.is_dir()
+    woken.set()
+    assert next(found) == frozenset()
+    woken.clear()
+    if package.exists():
+        package.unlink()
+    (tmp_path / "aside").rename(package)
+    woken.set()
+    assert next(found) == frozenset({package})
+    found.close()  # type: ignore[attr-defined]  # a generator
+
+
+def test_a_folder_that_is_closed_is_told_as_gone(package: Path, without_rights: Run) -> None:
+    """And waited for; a closed folder within the package does not matter."""
+    watch = """
+        import sys
+        from pathlib import Path
+        from roslings.workspace.watch import changes
+        folder = Path(sys.argv[1])
+        (folder / "resource").chmod(0)
+        found = changes(folder, begin=True)
+        print(len(next(found)))
+        folder.chmod(0)
+        closed = next(found)
+        while not closed:
+            closed = next(found)
+        print(*(path.name for path in closed))
+        folder.chmod(0o755)
+        print(*(path.name for path in next(found)))
+        (folder / "resource").chmod(0o755)
+    """
+    assert without_rights(watch, package).split() == ["0", "chatter", "chatter"]
 
 
 def test_ctrl_c_ends_the_watch_quietly(package: Path) -> None:

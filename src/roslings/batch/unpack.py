@@ -11,7 +11,14 @@ from pathlib import Path
 from roslings.batch.archives import Budget, is_archive, is_clutter, unpack
 from roslings.batch.errors import HostileArchive, Refused
 from roslings.batch.newest import newest_first
-from roslings.workspace.errors import MachineTrouble, WorkspaceError, without_places
+from roslings.workspace.errors import (
+    MachineTrouble,
+    NamedOtherwise,
+    OnlyOtherLabs,
+    WorkspaceError,
+    without_places,
+)
+from roslings.workspace.likeness import lab_with
 from roslings.workspace.packages import find_package, nothing_in, package_name, packages_in
 from roslings.workspace.sources import files
 
@@ -116,11 +123,23 @@ def _is_passed_by(name: str) -> bool:
 def _chosen(folder: Path, name: str) -> Path:
     if not packages_in(folder):
         raise nothing_in(folder, name)
-    package = find_package(folder, name)
+    package = _found(folder, name)
     if not package.resolve().is_relative_to(folder.resolve()):
         reason = "A link in it leads to another place."
         raise Refused(reason, "Replace the link by the files themselves.")
     return package
+
+
+def _found(folder: Path, name: str) -> Path:
+    """The package; packages of other labs are no misspelt ones of this."""
+    try:
+        return find_package(folder, name)
+    except NamedOtherwise as nothing:
+        labs = [(found, lab_with(found)) for found, _ in nothing.found]
+        if all(lab for _, lab in labs):
+            raise OnlyOtherLabs(name, [(found, lab.name) for found, lab in labs if lab]) from None
+        own = [each for each, (_, lab) in zip(nothing.found, labs, strict=True) if not lab]
+        raise NamedOtherwise(name, own) from None
 
 
 def _in_its_own_words(error: WorkspaceError, places: tuple[Path, ...]) -> Refused:

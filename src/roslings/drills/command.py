@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 import time
 from dataclasses import dataclass
@@ -66,7 +67,7 @@ def _put_task(page: Page, status: DrillStatus, asked: Asked) -> None:
 def _check(page: Page, one: Drill, asked: Asked) -> DrillVerdict | None:
     if asked.solution:
         file = one.solution
-    elif not (file := file_of(one)).is_file():
+    elif not os.path.lexists(file := file_of(one)):
         _put_task(page, DrillStatus(one, 0, False, None), asked)
         return None
     began_s = process_began_ns() / NS_PER_S

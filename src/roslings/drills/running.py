@@ -27,6 +27,7 @@ from roslings.drills.card import PROGRAM
 from roslings.drills.course import Drill
 from roslings.drills.judging import DrillVerdict, failed, judged
 from roslings.drills.steps import BY_GRAPH, Step, steps_of
+from roslings.drills.student import program_in
 from roslings.drills.watching import BESIDE, CODE, watch
 from roslings.errors import INCONCLUSIVE, RoslingsError
 from roslings.evidence import ExperimentSeen
@@ -97,6 +98,7 @@ def begun(drill: Drill, file: Path, began_s: float | None = None) -> Iterator[Be
     load(drill)
     began_s = time.monotonic() if began_s is None else began_s
     walls = choose_isolation()
+    source = program_in(file, drill)
     with run_folder() as folder:
         assignment = Assignment(
             lab=drill.name, seed=int.from_bytes(os.urandom(4), "big"), wall=walls.wall,
@@ -104,7 +106,7 @@ def begun(drill: Drill, file: Path, began_s: float | None = None) -> Iterator[Be
         )  # fmt: skip
         assignment.make_folders()
         ours, theirs = get_context("fork").Pipe(duplex=False)
-        words = (drill, file, walls, assignment, theirs, ours, os.getpid())
+        words = (drill, file.name, source, walls, assignment, theirs, ours, os.getpid())
         process = get_context("fork").Process(target=_live, args=words)
         process.start()
         theirs.close()
@@ -122,7 +124,7 @@ def _ends(process: Any) -> bool:
 
 
 def check(drill: Drill, file: Path, began_s: float | None = None) -> DrillVerdict:
-    """The verdict on the program in `file`. Raises RunBrokeOff."""
+    """The verdict on the program in `file`. Raises RunBrokeOff, and what `program_in` raises."""
     began_s = time.monotonic() if began_s is None else began_s
     if verdict := unrun(drill, file):
         return verdict.taking(round(time.monotonic() - began_s, 3))
@@ -133,7 +135,7 @@ def check(drill: Drill, file: Path, began_s: float | None = None) -> DrillVerdic
 def unrun(drill: Drill, file: Path) -> DrillVerdict | None:
     """The verdict where the file need not be run: no Python, or no answer in it; else None."""
     try:
-        readable(drill, file)
+        readable(drill, file.name, program_in(file, drill))
     except SyntaxErrorInCode as fault:
         return failed(drill.name, "reads", "Python can read the file.", fault)
     except Fault as fault:
@@ -164,20 +166,20 @@ def check_many(
                     yield number, run.verdict()
 
 
-def readable(drill: Drill, file: Path) -> Any:
+def readable(drill: Drill, name: str, program: bytes) -> Any:
     """What the student has foretold; None where nothing is asked.
 
     Raises SyntaxErrorInCode, and what `require_answer` raises.
     """
     if drill.card.program != "python":
         return None
-    source = file.read_text("utf-8", errors="replace")
+    source = program.decode("utf-8", errors="replace")
     try:
-        compile(ast.parse(source), file.name, "exec", dont_inherit=True)
+        compile(ast.parse(source), name, "exec", dont_inherit=True)
     except (SyntaxError, ValueError) as error:
         line = getattr(error, "lineno", None) or 1
         words = getattr(error, "msg", None) or str(error)
-        raise SyntaxErrorInCode(f"{file.name}, line {line}: {words}") from error
+        raise SyntaxErrorInCode(f"{name}, line {line}: {words}") from error
     if drill.card.answer is None:
         return None
     return require_answer(source, drill.starter.read_text("utf-8"), drill.card.answer)
@@ -187,14 +189,13 @@ def readable(drill: Drill, file: Path) -> Any:
 
 
 def _live(
-    drill: Drill, file: Path, walls: Isolation, assignment: Assignment, answer: Connection,
-    ours: Connection, begun_by: int,
+    drill: Drill, name: str, source: bytes, walls: Isolation, assignment: Assignment,
+    answer: Connection, ours: Connection, begun_by: int,
 ) -> None:  # fmt: skip
     """To its end: go behind the wall, run the program, judge, answer."""
     os.setsid()
     ours.close()
     _redirect(assignment.errors)
-    source = file.read_bytes()
     os.chdir(assignment.folder)
     walls.enter(assignment.room)
     kernel.die_with_parent()
@@ -202,8 +203,8 @@ def _live(
     os.environ.update(ros_environment(assignment.wall))
     if os.getppid() != begun_by:
         return
-    installed = _installed(drill, file.name, source, assignment)
-    said = readable(drill, file) if drill.card.answer else None
+    installed = _installed(drill, name, source, assignment)
+    said = readable(drill, name, source) if drill.card.answer else None
     answer.send(_verdict(drill, said, Stage(installed, assignment, ENDS_WITHIN_S)))
     os._exit(0)  # the interpreter's own end takes 0.2 s, and leaves nothing that we need
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from roslings.drills.course import Drill, all_drills
-from roslings.workspace.errors import writing
+from roslings.workspace.errors import NoFile, NotThere, reading, writing
 from roslings.workspace.progress import read_progress
 from roslings.workspace.progress_file import DrillProgress
 from roslings.workspace.student import workspace_root
@@ -32,18 +32,40 @@ def file_of(drill: Drill, workspace: Path | None = None) -> Path:
     return (workspace or workspace_root()) / FOLDER / drill.day / drill.file_name
 
 
+def program_in(file: Path, drill: Drill) -> bytes:
+    """The student's program. Raises NotThere, NoFile, CannotRead."""
+    with reading(file):
+        try:
+            return file.read_bytes()
+        except (FileNotFoundError, NotADirectoryError):
+            raise NotThere(file, f"./roslings drill {drill.name}") from None
+        except OSError:
+            if file.is_file():
+                raise
+            raise NoFile(file) from None
+
+
 def start(drill: Drill, workspace: Path | None = None) -> tuple[Path, bool]:
     """Put the starter into the workspace, never over what is there; file, and whether it is new.
 
-    Raises DiskFull, CannotWrite.
+    What runs beside it comes along, so that it can be run by hand. Raises DiskFull, CannotWrite.
     """
     file = file_of(drill, workspace)
+    _put_companion(drill, file.parent)
     if file.exists():
         return file, False
     with writing(file):
         file.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(drill.starter, file)
     return file, True
+
+
+def _put_companion(drill: Drill, folder: Path) -> None:
+    """The program that the drill runs beside the student's."""
+    if drill.card.beside and not (folder / drill.card.beside.file).exists():
+        with writing(folder):
+            folder.mkdir(parents=True, exist_ok=True)
+            shutil.copy(drill.folder / drill.card.beside.file, folder)
 
 
 def statuses(workspace: Path | None = None) -> list[DrillStatus]:

@@ -213,7 +213,7 @@ def _questions(
         elif isinstance(entry, Again):
             asked[key] = earlier[key]
         else:
-            asked[key] = known[key] = entry.model_copy(update={"day": day.id})
+            asked[key] = known[key] = entry.asked_on(day.id)
     return tuple(asked.values())
 
 

@@ -1,16 +1,31 @@
-"""A day's quiz. Each question has an id that never changes, and explains every choice."""
+"""A day's quiz. Each question has an id that never changes, and explains every choice.
+
+An author writes the right choice first, as one thinks of it. What is read is mixed: the page, its
+key, the notebook and the print all show the choices in the order that they have here.
+"""
 
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
+from hashlib import sha256
 from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag, model_validator
+from typing_extensions import Self
 
 from roslings.lessons.document import Part
 
 ID = r"^[a-z][a-z0-9-]*$"
+
+
+def mixed(question: str, count: int) -> list[int]:
+    """The places 0 to `count` - 1 in an order that follows from the question's id alone.
+
+    It is the same in each Python, on each machine and in each run.
+    """
+    return sorted(range(count), key=lambda place: sha256(f"{question}:{place}".encode()).digest())
 
 
 class Asked(Part):
@@ -25,6 +40,10 @@ class Asked(Part):
     def texts(self) -> tuple[str, ...]:
         """Every text of the question that may hold a link to a word."""
         return (self.ask,)
+
+    def asked_on(self, day: str) -> Self:
+        """The question as it is shown."""
+        return self.model_copy(update={"day": day})
 
 
 class Choice(Part):
@@ -54,6 +73,11 @@ class Chosen(Asked):
         """Every text of the question."""
         return (self.ask, *(part for each in self.choices for part in (each.text, each.why)))
 
+    def asked_on(self, day: str) -> Self:
+        """The question as it is shown: with its choices mixed."""
+        places = mixed(self.id, len(self.choices))
+        return self.model_copy(update={"day": day, "choices": _at(places, self.choices)})
+
 
 class One(Chosen):
     """One choice is right: radio buttons."""
@@ -66,6 +90,10 @@ class One(Chosen):
             mend = "Write 'kind: several', or take a 'right: true' away."
             raise ValueError(f"The question '{self.id}' has several right answers. | {mend}")
         return self
+
+
+def _at(places: Sequence[int], choices: tuple[Choice, ...]) -> tuple[Choice, ...]:
+    return tuple(choices[place] for place in places)
 
 
 class Several(Chosen):
@@ -97,6 +125,12 @@ class Order(Asked):
     def texts(self) -> tuple[str, ...]:
         """Every text of the question."""
         return (self.ask, *(part for each in self.steps for part in (each.text, each.why)))
+
+    @property
+    def shown(self) -> list[int]:
+        """The steps' places in the order in which they are shown: never the right one."""
+        places = mixed(self.id, len(self.steps))
+        return places[::-1] if places == sorted(places) else places
 
 
 class Mistake(Part):

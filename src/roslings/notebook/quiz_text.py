@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import random
 import textwrap
 from collections.abc import Iterator
 from string import ascii_lowercase
@@ -35,13 +34,6 @@ def explained(part: Choice | OrderedStep) -> str:
     return f"{part.text.removesuffix('.')}: {part.why}"
 
 
-def shuffled(question: Order) -> list[str]:
-    """Its steps out of order, each time in the same way."""
-    texts = [step.text for step in question.steps]
-    mixed = random.Random(question.id).sample(texts, len(texts))
-    return mixed if mixed != texts else texts[::-1]
-
-
 def _asked(number: int, question: Question) -> Iterator[str]:
     yield from _filled(f"{number}. {question.ask}", "   ")
     yield from _code(question)
@@ -51,8 +43,8 @@ def _asked(number: int, question: Question) -> Iterator[str]:
         for letter, choice in zip(ascii_lowercase, question.choices, strict=False):
             yield from _filled(f"   {letter}) {choice.text}", "      ")
     elif isinstance(question, Order):
-        for text in shuffled(question):
-            yield from _filled(f"   - {text}", "     ")
+        for place in question.shown:
+            yield from _filled(f"   - {question.steps[place].text}", "     ")
 
 
 def _code(question: Question) -> Iterator[str]:

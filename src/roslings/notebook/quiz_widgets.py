@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from roslings.lessons import One, Order, Prints, Question, Quiz, Several
-from roslings.notebook.quiz_text import as_text, explained, shuffled, without_links
+from roslings.notebook.quiz_text import as_text, explained, without_links
 
 WIDE = {"width": "auto", "max_width": "46em"}
 APART = {"margin": "0 0 1.4em 0"}
@@ -118,7 +118,7 @@ def _several(question: Several) -> tuple[list[Any], Answer]:
 def _order(question: Order) -> tuple[list[Any], Answer]:
     from ipywidgets import Dropdown, Layout
 
-    steps = [CHOOSE, *map(_plain, shuffled(question))]
+    steps = [CHOOSE, *(_plain(question.steps[place].text) for place in question.shown)]
     lists = [
         Dropdown(options=steps, description=f"Step {place}", layout=Layout(**WIDE))
         for place in range(1, len(question.steps) + 1)

@@ -40,12 +40,12 @@ def _nothing_to_check(lab: str) -> str:
     """Why there is nothing to check, with the next step; empty where there is something."""
     from roslings import course
     from roslings.course import CourseError
-    from roslings.workspace.errors import NoPackage, NoWorkspace, WorkspaceError
+    from roslings.workspace.errors import NotBegun, NoWorkspace, WorkspaceError
     from roslings.workspace.student import package_of
 
     try:
         package_of(course.lab(lab))
-    except (NoWorkspace, NoPackage):
+    except (NoWorkspace, NotBegun):
         return (
             f"Nothing to check yet. In a terminal, in the roslings folder: ./roslings start {lab}"
         )

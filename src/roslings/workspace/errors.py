@@ -44,10 +44,31 @@ class NoSuchPath(WorkspaceError):
 class NoWorkspace(WorkspaceError):
     """The workspace does not exist yet."""
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, lab: str) -> None:
         super().__init__(
             f"There is no workspace yet: {shown(path)}.",
-            "Make it with `./roslings start LAB`, for example:\n./roslings start topics",
+            f"Make it, with the lab's starter in it: ./roslings start {lab}",
+        )
+
+
+class NotBegun(WorkspaceError):
+    """The workspace has no package for the lab; those of other labs may be there."""
+
+    def __init__(self, lab: str, package: str, place: Path) -> None:
+        super().__init__(
+            f"The lab {lab!r} is not begun: there is no package {package!r} in\n{shown(place)}.",
+            f"Get its starter: ./roslings start {lab}",
+        )
+
+
+class OfOtherLab(WorkspaceError):
+    """The path means a package, and another lab asks for it."""
+
+    def __init__(self, folder: Path, its_lab: str, lab: str) -> None:
+        super().__init__(
+            f"{shown(folder)}\nis the package of the lab {its_lab!r}, not of {lab!r}.",
+            f"To check that package: ./roslings check {its_lab}\n"
+            f"To begin {lab!r}: ./roslings start {lab}",
         )
 
 
@@ -74,10 +95,10 @@ class Archive(WorkspaceError):
 class NoPackage(WorkspaceError):
     """No package.xml under the path."""
 
-    def __init__(self, path: Path, name: str) -> None:
+    def __init__(self, path: Path, name: str, lab: str = "LAB") -> None:
         super().__init__(
             f"There is no ROS package in {shown(path)}:\nno folder there has a package.xml.",
-            f"Give the folder of the package {name!r},\nor get a starter: ./roslings start LAB",
+            f"Give the folder of the package {name!r},\nor get a starter: ./roslings start {lab}",
         )
 
 
@@ -149,12 +170,28 @@ class TwoPackages(WorkspaceError):
 class NamedOtherwise(WorkspaceError):
     """There are packages, but none of the name that the lab asks for."""
 
-    def __init__(self, wanted: str, found: Iterable[tuple[str, Path]]) -> None:
-        places = "\n".join(f"  {name!r} in {shown(folder)}" for name, folder in found)
+    def __init__(
+        self, wanted: str, found: Sequence[tuple[str, Path]], lab: str | None = None
+    ) -> None:
+        self.found = list(found)
+        places = "\n".join(f"  {name!r} in {shown(folder)}" for name, folder in found[:5])
+        begin = f"\nIs it none for this lab? Get the starter: ./roslings start {lab}"
         super().__init__(
             f"There is no package named {wanted!r} here, but there is:\n{places}",
             "The name stands in package.xml, in the line <name>. It must be the one on the\n"
-            "lab's card. Mend it there, in setup.py, in setup.cfg and in resource/.",
+            "lab's card. Mend it there, in setup.py, in setup.cfg and in resource/."
+            f"{begin if lab else ''}",
+        )
+
+
+class OnlyOtherLabs(WorkspaceError):
+    """What was handed in holds packages, and other labs ask for all of them."""
+
+    def __init__(self, wanted: str, found: Sequence[tuple[str, str]]) -> None:
+        places = "\n".join(f"  {name!r}, of the lab {lab!r}" for name, lab in found[:5])
+        super().__init__(
+            f"There is no package named {wanted!r} here, but there is:\n{places}",
+            "Hand in the package of this lab: ./roslings pack LAB makes the file.",
         )
 
 
@@ -177,6 +214,37 @@ class TooManyFolders(WorkspaceError):
         super().__init__(
             f"{shown(path)} holds more than {limit:,} folders: too many to search.",
             "Give the folder of your package as PATH.",
+        )
+
+
+class NotThere(WorkspaceError):
+    """What was being worked on is not at its place any more."""
+
+    def __init__(self, path: Path, anew: str) -> None:
+        super().__init__(
+            f"{shown(path)} is gone:\nit was deleted, renamed or moved away.",
+            f"Put it back there. For a fresh one, in another terminal: {anew}",
+        )
+
+
+class NoFile(WorkspaceError):
+    """A folder, or something else, has the name that a file must have."""
+
+    def __init__(self, path: Path) -> None:
+        what = "a folder" if path.is_dir() else "no plain file"
+        super().__init__(
+            f"{shown(path)} is {what}, and must be a file.",
+            "Give it another name, and save your program under this one.",
+        )
+
+
+class ChangedMeanwhile(WorkspaceError):
+    """Something vanished, or became another thing, while it was being read."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(
+            f"{shown(path)} changed while it was read.",
+            "Save it once more, so that it is read as it is now.",
         )
 
 

@@ -189,16 +189,19 @@ def _choose(folder: Path, name: str, found: list[tuple[str, Path]]) -> Path:
         return same[0]
     if same:
         raise TwoPackages(name, same)
-    if found:
-        raise NamedOtherwise(name, found[:5])
-    raise _no_package(folder, name)
+    if passed_by := _passed_by(folder, name):
+        raise passed_by
+    raise NamedOtherwise(name, found) if found else nothing_in(folder, name)
 
 
-def _no_package(folder: Path, name: str) -> WorkspaceError:
+def _passed_by(folder: Path, name: str) -> WorkspaceError | None:
+    """Why the package is none for colcon, though it stands where it belongs."""
     for place in (folder, folder / name, folder / "src" / name):
         if (place / "setup.py").is_file() and not (place / "package.xml").is_file():
             return NoPackageXml(place)
-    return nothing_in(folder, name)
+        if (place / "package.xml").is_file() and (marker := _marker_in(place)):
+            return IgnoredByColcon(place, marker)
+    return None
 
 
 def nothing_in(folder: Path, name: str) -> WorkspaceError:

@@ -15,6 +15,9 @@ from roslings.workspace.copying import copy_package
 from roslings.workspace.difference import changes_since
 from roslings.workspace.errors import (
     AlreadyThere,
+    EmptyFolder,
+    NamedOtherwise,
+    NoPackage,
     NoWorkspace,
     WorkspaceError,
     quoted,
@@ -65,11 +68,30 @@ def workspace_root() -> Path:
 def package_of(lab: Lab, path: Path | None = None) -> Path:
     """The student's package for a lab: the one that `path` means, else the workspace's.
 
-    Raises NoWorkspace, and what `find_package` raises.
+    Raises NoWorkspace, NotBegun, OfOtherLab, and what `find_package` raises.
     """
-    if path is None and not workspace_root().exists():
-        raise NoWorkspace(workspace_root())
-    return find_package(path or workspace_root(), lab.outline.package)
+    root = workspace_root()
+    if path is None and not root.exists():
+        raise NoWorkspace(root, lab.name)
+    try:
+        return find_package(path or root, lab.outline.package)
+    except (NoPackage, EmptyFolder, NamedOtherwise) as nothing:
+        raise _why_none(lab, path, nothing) from nothing
+
+
+def _why_none(lab: Lab, path: Path | None, nothing: WorkspaceError) -> WorkspaceError:
+    """The next step of who has not begun is another one than that of who misspelt a name."""
+    from roslings.workspace import likeness  # who has the package needs none of it
+
+    there = nothing.found if isinstance(nothing, NamedOtherwise) else []
+    root = workspace_root()
+    if path is None or path.expanduser().resolve() in (root.resolve(), (root / "src").resolve()):
+        return likeness.why_none_in_workspace(lab, path or root, there)
+    if there:
+        return likeness.why_none_at(lab, path, there)
+    if isinstance(nothing, EmptyFolder):
+        return nothing
+    return NoPackage(path, lab.outline.package, lab.name)
 
 
 def start(lab: Lab, workspace: Path | None = None) -> Started:

@@ -57,8 +57,8 @@ def changes(
     Saves that come while the caller works on one set are kept for the next. With `begin`, the
     first set is empty and comes as soon as the watch has begun: who works on it misses nothing.
     An empty set comes, too, as often as `wake()` is true.
-    A folder that vanishes (git checkout, a rename) is waited for; when it is back, that is a
-    change of the folder itself.
+    A folder that vanishes (git checkout, a rename), or that this user may no longer read, is told
+    as a change of the folder itself, and waited for; that it is back is another such change.
     """
     folder = folder.resolve()
     try:
@@ -71,7 +71,11 @@ def _changes(
     folder: Path, stop: Callable[[], bool], begin: bool, wake: Callable[[], bool]
 ) -> Iterator[frozenset[Path]]:
     at_first: frozenset[Path] | None = frozenset() if begin else None
-    while _is_back(folder, stop):
+    while not stop():
+        if not _can_be_watched(folder):
+            yield from _told_as_gone(folder, stop, wake)
+            at_first = frozenset({folder})
+            continue
         with _held(folder) as is_still_there:
             for found in _watch(folder):
                 if stop() or not is_still_there():
@@ -84,7 +88,7 @@ def _changes(
 
 def _watch(folder: Path) -> Iterator[set[tuple[Change, str]]]:
     """Changes, and an empty set now and then; ends at once where the folder is gone."""
-    with suppress(FileNotFoundError):
+    with suppress(FileNotFoundError, NotADirectoryError, PermissionError):
         yield from watch(
             folder,
             watch_filter=Saves(folder),
@@ -92,6 +96,7 @@ def _watch(folder: Path) -> Iterator[set[tuple[Change, str]]]:
             step=STEP_MS,
             rust_timeout=LOOK_AGAIN_MS,
             yield_on_timeout=True,
+            ignore_permission_denied=True,
         )
 
 
@@ -103,11 +108,11 @@ def _held(folder: Path) -> Iterator[Callable[[], bool]]:
     """
     try:
         held = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
-    except FileNotFoundError:
+    except (FileNotFoundError, NotADirectoryError, PermissionError):
         yield lambda: False
         return
     try:
-        yield lambda: _identity(folder) == _identity(held)
+        yield lambda: _identity(folder) == _identity(held) and _can_be_watched(folder)
     finally:
         os.close(held)
 
@@ -120,10 +125,16 @@ def _identity(folder: Path | int) -> tuple[int, int] | None:
     return found.st_dev, found.st_ino
 
 
-def _is_back(folder: Path, stop: Callable[[], bool]) -> bool:
-    """Wait until the folder is there; False where the wait was ended."""
-    while not stop():
-        if folder.is_dir():
-            return True
+def _can_be_watched(folder: Path) -> bool:
+    return folder.is_dir() and os.access(folder, os.R_OK | os.X_OK)
+
+
+def _told_as_gone(
+    folder: Path, stop: Callable[[], bool], wake: Callable[[], bool]
+) -> Iterator[frozenset[Path]]:
+    """Tell it once, and then wait until the folder is there; keys are heard meanwhile."""
+    yield frozenset({folder})
+    while not stop() and not _can_be_watched(folder):
+        if wake():
+            yield frozenset()
         time.sleep(STEP_MS / 1000)
-    return False

@@ -1,6 +1,7 @@
-# Reads a setup file, and tells which robot it names.
+# Writes a setup file into a new, empty folder, reads it, and tells which robot it names.
 
-echo 'export ROBOT=rover' > "$HOME/setup.bash"
+cd "$(mktemp -d)"
+echo 'export ROBOT=rover' > rover.bash
 
-source "$HOME/setup.bash"
+source ./rover.bash
 echo "the robot is $ROBOT"

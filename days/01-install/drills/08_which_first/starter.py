@@ -4,10 +4,11 @@ between quotes, for example "this is my one", then check."""
 import os
 import subprocess
 from pathlib import Path
+from tempfile import mkdtemp
 
 ANSWER = None
 
-HERE = Path.home() / "tools"
+HERE = Path(mkdtemp())
 for name in ["old", "new"]:
     program = HERE / name / "robot"
     program.parent.mkdir(parents=True)

@@ -1,6 +1,7 @@
 # Starts a listener that must hear the topic /news. In its code, the topic is called chatter.
 
-cat > "$HOME/ear.launch.xml" <<'END'
+cd "$(mktemp -d)"    # a new, empty folder
+cat > ear.launch.xml <<'END'
 <launch>
   <node pkg="demo_nodes_py" exec="listener">
     <remap from="/news" to="chatter"/>
@@ -8,4 +9,4 @@ cat > "$HOME/ear.launch.xml" <<'END'
 </launch>
 END
 
-ros2 launch "$HOME/ear.launch.xml"
+ros2 launch ear.launch.xml

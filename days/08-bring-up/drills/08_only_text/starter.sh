@@ -1,6 +1,7 @@
 # Starts a talker. A listener only comes with ear:=true; else launch says "no listener today".
 
-cat > "$HOME/pair.launch.py" <<'END'
+cd "$(mktemp -d)"    # a new, empty folder
+cat > pair.launch.py <<'END'
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, LogInfo
 from launch.substitutions import LaunchConfiguration
@@ -18,4 +19,4 @@ def generate_launch_description():
     ])
 END
 
-ros2 launch "$HOME/pair.launch.py" ear:=false
+ros2 launch pair.launch.py ear:=false

@@ -1,6 +1,7 @@
 # Starts two talkers: /left/talker on /left/chatter, /right/talker on /right/chatter.
 
-cat > "$HOME/rooms.launch.xml" <<'END'
+cd "$(mktemp -d)"    # a new, empty folder
+cat > rooms.launch.xml <<'END'
 <launch>
   <group>
     <push_ros_namespace namespace="left"/>
@@ -12,4 +13,4 @@ cat > "$HOME/rooms.launch.xml" <<'END'
 </launch>
 END
 
-ros2 launch "$HOME/rooms.launch.xml"
+ros2 launch rooms.launch.xml

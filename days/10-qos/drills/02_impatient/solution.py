@@ -1,6 +1,9 @@
 """A mechanic: a node called mechanic. The engine sends its temperature on /engine,
 at least once a second: that is the deadline that it offers. The mechanic must print
-each one, e.g. "the engine has 80 degrees"."""
+each one, e.g. "the engine has 80 degrees".
+
+The drill runs the engine, too. By hand, start it in another terminal: python3 engine.py
+"""
 
 import rclpy
 from rclpy.duration import Duration

@@ -1,5 +1,8 @@
 """A nurse: a node called nurse. Beside it runs a heart, which beats a few times on
-/beat and then stops. When no beat comes for 0.3 s, the nurse must print "no beat!"."""
+/beat and then stops. When no beat comes for 0.3 s, the nurse must print "no beat!".
+
+The drill runs the heart, too. By hand, start it in another terminal: python3 heart.py
+"""
 
 import rclpy
 from rclpy.duration import Duration

@@ -1,6 +1,10 @@
 """A keeper: a node called keeper. Beside it runs a lighthouse, which says on /lamp
 that it is lit, once, and later falls asleep. While it is awake, it gives a sign of life
-at least every 0.5 s. Without one, the keeper must print "the lamp is lost"."""
+at least every 0.5 s. Without one, the keeper must print "the lamp is lost".
+
+The drill runs the lighthouse, too. By hand, start it in another terminal:
+python3 lighthouse.py
+"""
 
 import rclpy
 from rclpy.duration import Duration

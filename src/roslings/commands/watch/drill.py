@@ -7,12 +7,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from roslings.commands.watch.keyboard import Keyboard
-from roslings.commands.watch.session import Session
+from roslings.commands.watch.session import Session, tell
 from roslings.drills import Drill, all_drills, drill, telling
 from roslings.drills.command import checked
 from roslings.drills.judging import DrillVerdict
 from roslings.drills.student import start
-from roslings.errors import explain
 from roslings.typed import program
 
 
@@ -39,7 +38,7 @@ class DrillSession(Session):
         for number, saved in enumerate(self.turns()):
             if number == 0:
                 self._show_task()
-            if saved and self.file.resolve() not in saved:
+            if saved and not saved & {self.file.resolve(), self.folder.resolve()}:
                 self.say_that_it_waits()
                 continue
             self._check()
@@ -64,7 +63,8 @@ class DrillSession(Session):
             telling.put_verdict(page, self.drill, self.verdict, self.file, way)
             page.print()
         except Exception as error:
-            explain(error)
+            self.verdict = None
+            tell(error)
 
     def show_hint(self, step: int) -> None:
         """The card's."""

@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING
 
 from roslings.commands.showing import from_here, replace_kept, show
 from roslings.commands.watch.keyboard import Keyboard
-from roslings.commands.watch.session import Session
+from roslings.commands.watch.session import Session, tell
 from roslings.course import Lab
-from roslings.errors import explain
 from roslings.typed import program
 from roslings.workspace import progress
+from roslings.workspace.errors import NotThere
 from roslings.workspace.student import package_of, start
 
 if TYPE_CHECKING:
@@ -60,16 +60,25 @@ class LabSession(Session):
     def _check(self, ready: Ready) -> None:
         """What is wrong with the package now may be right at the next save."""
         try:
+            self._insist_on_folder()
             package = package_of(self.lab, self.options.path)
             self.graded = ready.grade(package, time.monotonic_ns())
             verdict = self.graded.verdict
             show(verdict, self.options, replace_kept(self.lab, verdict))
         except Exception as error:
-            explain(error)
+            self.graded = None
+            tell(error)
+
+    def _insist_on_folder(self) -> None:
+        """What is watched is there: a package that lies elsewhere now is followed by nobody."""
+        if not self.folder.exists():
+            raise NotThere(self.folder, f"{program()} start {self.lab.name}")
 
     def show_hint(self, step: int) -> None:
         """For the first check that failed."""
-        if self.graded:
+        if self.graded is None:
+            print("\nThere is no verdict to give a hint for.", flush=True)
+        else:
             show(self.graded.verdict, argparse.Namespace(**{**vars(self.options), "hint": step}))
 
     def show_graph(self) -> None:

@@ -10,12 +10,23 @@ from pathlib import Path
 from roslings.commands.editing import edit
 from roslings.commands.watch.keyboard import Keyboard
 from roslings.commands.way import bar
+from roslings.errors import explain
 from roslings.typed import program
 from roslings.workspace import progress
+from roslings.workspace.errors import CannotRead, ChangedMeanwhile
 
 KEYS = "h hint   e edit   r run again   l lesson   g graph   n next   q quit"
 MOST_HINTS = 3
 CLEAR = "\x1b[2J\x1b[H"
+
+
+def tell(error: Exception) -> None:
+    """What cannot be checked now may be right at the next save. Raises what nobody expects."""
+    if isinstance(error, FileNotFoundError | IsADirectoryError | NotADirectoryError):
+        error = ChangedMeanwhile(Path(error.filename or "A file"))
+    if isinstance(error, PermissionError) and error.filename:
+        error = CannotRead(Path(error.filename))
+    explain(error)
 
 
 @dataclass
@@ -79,12 +90,14 @@ class Session(ABC):
             print(CLEAR if again else "")
             print("\n".join(filter(None, [bar(progress.status()), self.title])))
         if saved:
-            print(f"\nSaved: {self._names(saved)}", flush=True)
+            there = frozenset(path for path in saved if path.exists())
+            word = "Saved" if there else "Gone"
+            print(f"\n{word}: {self._names(there or saved)}", flush=True)
 
-    def _names(self, saved: frozenset[Path]) -> str:
-        inside = (path for path in saved if path != self.folder.resolve())
+    def _names(self, paths: frozenset[Path]) -> str:
+        inside = (path for path in paths if path != self.folder.resolve())
         names = sorted(str(path.relative_to(self.folder.resolve())) for path in inside)
-        return ", ".join(names[:3]) or "the package"
+        return ", ".join(names[:3]) or f"the folder {self.folder.name}"
 
     def say_that_it_waits(self) -> None:
         """What can be done now."""
