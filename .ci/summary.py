@@ -1,9 +1,11 @@
 """What `.ci/run` says at its end: time of each stage, the slowest tests, and what was graded.
 
-    python .ci/summary.py STAGES COSTS
+    python .ci/summary.py STAGES COSTS DUE
 
 STAGES has a line `SECONDS CPU_SECONDS STATUS NAME` for each stage, COSTS a line of JSON for each
-test (`tests/costs.py`). The last line says what is proven and no more: what was skipped is not.
+test (`tests/costs.py`), DUE one for each package that was due (`prove --due --told`). A mutant is
+proven where it was measured live, or where its kept evidence was judged. The last line says what is
+proven and no more: what was skipped is not.
 Ends with 1 where a stage failed, where nothing asked for a mutant or a rogue that lies in this
 clone, or where fewer than `FEWEST` of a kind were graded.
 """
@@ -20,7 +22,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT / "tests/rogues"), str(ROOT / "src")]
 SLOWEST = 20
-MUTANT = re.compile(r"test_verdicts\.py::test_a_mutant_fails_where_it_says\[(.+)\]$")
+KEPT = re.compile(r"test_authoring_proofs\.py::test_what_is_kept_shows_what_it_must\[(.+)\]$")
 ROGUE = re.compile(r"test_rogues\.py::test_a_(?:wild_)?rogue_is_contained\[(.+)\]$")
 USERS = ("ordinary", "root")
 MUTANTS, ROGUES = "mutants", "rogues"
@@ -70,7 +72,7 @@ class Count:
     def lines(self) -> Iterator[str]:
         """How many were graded, and what became of the others."""
         wrong, skipped = self.number("failed"), self.number("skipped")
-        yield f"{self.name}: {self.graded} of {len(self.there)} graded, {wrong} wrong"
+        yield f"{self.name}: {self.graded} of {len(self.there)} proven, {wrong} wrong"
         if skipped:
             yield f"  {skipped} skipped: no room or no time on this machine; the tests say which."
         if self.missing:
@@ -83,6 +85,29 @@ def mutants() -> frozenset[str]:
     return frozenset(f"{file.parents[1].name}-{file.stem}" for file in files)
 
 
+def kept_mutants(tests: Sequence[Test]) -> dict[str, str]:
+    """LAB-MUTANT of each that evidence is kept of, to what came of judging that of its lab."""
+    labs = outcomes(tests, KEPT)
+    return {
+        f"{file.stem}-{name.removeprefix('mutant ')}": labs[file.stem]
+        for file in (ROOT / "tests/proofs").glob("*.jsonl")
+        if file.stem in labs
+        for line in file.read_text("utf-8").splitlines()
+        if (name := json.loads(line)["package"]).startswith("mutant ")
+    }
+
+
+def live_mutants(file: Path) -> dict[str, str]:
+    """LAB-MUTANT of each that was due, to what came of it."""
+    lines = file.read_text("utf-8").splitlines() if file.exists() else []
+    found = {each["package"]: each["outcome"] for each in map(json.loads, lines)}
+    return {
+        name.replace(": mutant ", "-"): outcome
+        for name, outcome in found.items()
+        if ": mutant " in name
+    }
+
+
 def rogues(user: str) -> frozenset[str]:
     """Each place of each file, and each parcel; as root those for which that makes a difference."""
     from parcels import PARCELS
@@ -93,14 +118,16 @@ def rogues(user: str) -> frozenset[str]:
     return frozenset(each.name for each in (*attempts(), *PARCELS))
 
 
-def outcomes(tests: list[Test], name: re.Pattern[str]) -> dict[str, str]:
+def outcomes(tests: Sequence[Test], name: re.Pattern[str]) -> dict[str, str]:
     """What the name in brackets is, to the outcome of its test."""
     return {found[1]: each.outcome for each in tests if (found := name.search(each.test))}
 
 
-def counts(tests: list[Test]) -> Iterator[Count]:
+def counts(tests: Sequence[Test], live: dict[str, str]) -> Iterator[Count]:
     """Of mutants, and of rogues by user."""
-    yield Count(MUTANTS, mutants(), outcomes(tests, MUTANT), "Mutants")
+    there = mutants()
+    found = {name: word for name, word in (kept_mutants(tests) | live).items() if name in there}
+    yield Count(MUTANTS, there, found, "Mutants")
     of_users = outcomes(tests, ROGUE)
     for user in USERS:
         own = {
@@ -120,7 +147,7 @@ def stages(file: Path) -> Stages:
     return [(float(wall), float(cpu), int(status), name) for wall, cpu, status, name in rows]
 
 
-def main(stages_file: Path, costs_file: Path) -> int:
+def main(stages_file: Path, costs_file: Path, due_file: Path) -> int:
     """Print all of it; 0 where the run has passed."""
     lines = costs_file.read_text("utf-8").splitlines() if costs_file.exists() else []
     tests = [Test(**json.loads(line)) for line in lines]
@@ -133,9 +160,11 @@ def main(stages_file: Path, costs_file: Path) -> int:
         print(f"{wall_s:9.0f} {cpu_s:7.0f}  {name}{'' if status == 0 else '  FAILED'}")
     print(f"{sum(r[0] for r in run):9.0f} {sum(r[1] for r in run):7.0f}  all")
     print("== What was graded ==")
-    found = list(counts(tests))
+    live = live_mutants(due_file)
+    found = list(counts(tests, live))
     for count in found:
         print("\n".join(count.lines()))
+    print(f"Mutants measured live at this landing: {len(live)}")
     wrong = [*broken(run, found)]
     print(f"FAILED: {'; '.join(wrong)}" if wrong else proven(tests, found))
     return int(bool(wrong))
@@ -150,14 +179,14 @@ def broken(run: Stages, found: Sequence[Count]) -> Iterator[str]:
     for kind, fewest in FEWEST.items():
         graded = sum(count.graded for count in found if count.kind == kind)
         if graded < fewest:
-            yield f"{graded} {kind} were graded, and {fewest} are the fewest that show something"
+            yield f"{graded} {kind} are proven, and {fewest} are the fewest that show something"
 
 
 def proven(tests: Sequence[Test], found: Sequence[Count]) -> str:
     """The last line of a run that passed: it says no more than was proven."""
     skipped = sum(each.outcome == "skipped" for each in tests)
     if not skipped and not any(count.unproven for count in found):
-        return "All is well: every mutant and every rogue was graded, and no test was skipped."
+        return "All is well: every mutant and every rogue is proven, and no test was skipped."
     open_ones = ", ".join(f"{each.unproven} of {len(each.there)} {_named(each)}" for each in found)
     return f"Passed, but NOT PROVEN: {open_ones}; {skipped} of {len(tests)} tests skipped."
 
@@ -168,4 +197,4 @@ def _named(count: Count) -> str:
 
 
 if __name__ == "__main__":
-    sys.exit(main(Path(sys.argv[1]), Path(sys.argv[2])))
+    sys.exit(main(*map(Path, sys.argv[1:4])))

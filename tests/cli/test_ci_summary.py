@@ -13,19 +13,31 @@ from roslings.course import all_labs, root
 
 SUMMARY = root() / ".ci/summary.py"
 MUTANTS = [f"{lab.name}-{each.name}" for lab in all_labs() for each in lab.mutants()]
-VERDICTS = "tests/labs/test_verdicts.py::test_a_mutant_fails_where_it_says"
+KEPT = "tests/authoring/test_authoring_proofs.py::test_what_is_kept_shows_what_it_must"
+FILES = ("stages", "costs", "due")
 ROGUES = "tests/rogues/test_rogues.py::test_a_rogue_is_contained"
 
 
-def summary(folder: Path, outcomes: dict[str, str], stages: str) -> tuple[int, str]:
-    """Status and words, for a run with these tests and stages."""
+def summary(
+    folder: Path, outcomes: dict[str, str], stages: str, due: dict[str, str] | None = None
+) -> tuple[int, str]:
+    """Status and words, for a run with these tests, stages and packages that were due.
+
+    A mutant among the tests is one that was due.
+    """
+    due = {name: word for name, word in outcomes.items() if ": mutant " in name} | (due or {})
+    outcomes = {name: word for name, word in outcomes.items() if name not in due}
+    (folder / "due").write_text("".join(
+        f"{json.dumps({'package': name, 'why': 'a rule', 'outcome': word})}\n"
+        for name, word in due.items()
+    ), "utf-8")  # fmt: skip
     (folder / "stages").write_text(stages, "utf-8")
     costs = (
         {"test": name, "outcome": outcome, "wall_s": number, "cpu_s": number / 2}
         for number, (name, outcome) in enumerate(outcomes.items())
     )
     (folder / "costs").write_text("".join(f"{json.dumps(cost)}\n" for cost in costs), "utf-8")
-    words = [sys.executable, str(SUMMARY), str(folder / "stages"), str(folder / "costs")]
+    words = [sys.executable, str(SUMMARY), *(str(folder / name) for name in FILES)]
     done = subprocess.run(words, capture_output=True, text=True, check=False)
     assert "Traceback" not in done.stderr, done.stderr
     return done.returncode, done.stdout
@@ -33,17 +45,23 @@ def summary(folder: Path, outcomes: dict[str, str], stages: str) -> tuple[int, s
 
 def test_what_was_not_graded_is_named(tmp_path: Path) -> None:
     """Each mutant and each rogue that lies in the course counts; one of them is missing."""
-    outcomes = {f"{VERDICTS}[{name}]": "passed" for name in MUTANTS[1:]}
+    outcomes = {package(name): "passed" for name in MUTANTS[1:]}
     outcomes[f"{ROGUES}[ordinary-reads-run]"] = "failed"
     outcomes[f"{ROGUES}[ordinary-reads-build]"] = "skipped"
     status, words = summary(tmp_path, outcomes, "12.5 20.0 0 The tests\n")
     assert status == 1
-    assert f"Mutants: {len(MUTANTS) - 1} of {len(MUTANTS)} graded, 0 wrong" in words
+    assert f"Mutants: {len(MUTANTS) - 1} of {len(MUTANTS)} proven, 0 wrong" in words
     assert f"MISSING 1: {MUTANTS[0]}\n" in words
     assert "Rogues as ordinary: 1 of" in words and ", 1 wrong\n  1 skipped" in words
     assert "writes-import" in words and "zip_bomb" in words
     assert "reads-run" in words.partition("Rogues as root")[2]
     assert "MISSING" in words and last(words).startswith("FAILED: nothing asked for ")
+
+
+def package(mutant: str) -> str:
+    """What `prove` calls LAB-MUTANT."""
+    lab = max((lab.name for lab in all_labs() if mutant.startswith(f"{lab.name}-")), key=len)
+    return f"{lab}: mutant {mutant.removeprefix(f'{lab}-')}"
 
 
 def all_of_them(folder: Path) -> dict[str, list[str]]:
@@ -55,7 +73,7 @@ def all_of_them(folder: Path) -> dict[str, list[str]]:
     assert sorted(mutants) == sorted(MUTANTS) and set(as_root) < set(ordinary)
     rogues = [*(f"ordinary-{name}" for name in ordinary), *(f"root-{name}" for name in as_root)]
     return {
-        "mutants": [f"{VERDICTS}[{name}]" for name in mutants],
+        "mutants": [package(name) for name in mutants],
         "rogues": [f"{ROGUES}[{name}]" for name in rogues],
     }
 
@@ -80,13 +98,16 @@ def test_all_that_there_is_is_well(tmp_path: Path) -> None:
     assert (status, "MISSING" in words, last(words)[:13]) == (0, False, "All is well: "), words
 
 
-@pytest.mark.parametrize("kind", ["mutants", "rogues"])
+MUTANT = "mutants"
+
+
+@pytest.mark.parametrize("kind", [MUTANT, "rogues"])
 def test_what_was_skipped_is_not_called_well(kind: str, tmp_path: Path) -> None:
     """One is enough; the last line has its number."""
     status, words = of_all(tmp_path, **{kind: 1})
     assert (status, "All is well" in words) == (0, False)
     assert last(words).startswith("Passed, but NOT PROVEN: ")
-    assert "; 1 of " in last(words) and last(words).endswith(" tests skipped.")
+    assert f" 1 of {len(all_of_them(tmp_path)['mutants'])} mutants" in last(words) or kind != MUTANT
 
 
 def test_another_test_that_was_skipped_counts_too(tmp_path: Path) -> None:
@@ -96,7 +117,8 @@ def test_another_test_that_was_skipped_counts_too(tmp_path: Path) -> None:
     _, words = summary(
         tmp_path, {**outcomes, "tests/test_it.py::test_it": "skipped"}, "1 1 0 One\n"
     )
-    assert last(words).endswith(f"; 1 of {len(outcomes) + 1} tests skipped.")
+    tests = 1 + sum(": mutant " not in name for name in outcomes)
+    assert last(words).endswith(f"; 1 of {tests} tests skipped.")
 
 
 @pytest.mark.parametrize(("kind", "fewest"), [("mutants", 120), ("rogues", 30)])
@@ -117,3 +139,23 @@ def test_a_stage_that_failed_fails_all(tmp_path: Path) -> None:
     assert "       10       4  The other one  FAILED\n" in words
     assert "       12       6  all\n" in words
     assert "test_29\n" in words and "test_10\n" in words and "test_9\n" not in words
+
+
+def test_a_mutant_whose_kept_evidence_was_judged_is_proven(tmp_path: Path) -> None:
+    """All of a lab are, where the test of that lab passed; none where it was skipped."""
+    kept = {f"{KEPT}[{lab.name}]": "passed" for lab in all_labs()}
+    _, words = summary(tmp_path, kept, "1 1 0 One\n")
+    assert f"Mutants: {len(MUTANTS)} of {len(MUTANTS)} proven, 0 wrong" in words
+    assert "Mutants measured live at this landing: 0" in words
+    skipped = {**kept, f"{KEPT}[topics]": "skipped"}
+    of_topics = sum(name.startswith("topics-") for name in MUTANTS)
+    _, words = summary(tmp_path, skipped, "1 1 0 One\n")
+    assert f"Mutants: {len(MUTANTS) - of_topics} of {len(MUTANTS)} proven" in words
+
+
+def test_what_was_measured_live_counts_before_what_is_kept(tmp_path: Path) -> None:
+    """Wrong live, and right in evidence from another day: it is wrong."""
+    kept = {f"{KEPT}[{lab.name}]": "passed" for lab in all_labs()}
+    _, words = summary(tmp_path, kept, "1 1 0 One\n", {package(MUTANTS[0]): "failed"})
+    assert f"Mutants: {len(MUTANTS)} of {len(MUTANTS)} proven, 1 wrong" in words
+    assert "Mutants measured live at this landing: 1" in words
