@@ -62,18 +62,19 @@ class Order:
         folder: str,
         walls: str,
         output: dict[str, int],
+        flood: dict[str, int],
         limits: dict[str, int],
         watch: dict[str, int],
         user: int | None,
     ) -> None:
-        """What the names of each dictionary mean: `Spout`, the module `resource`, and these.
+        """What the names of each dictionary mean: `Spout`, `Flood`, the module `resource`, these.
 
         `watch`: the most of `memory`, in bytes, of `pids`, threads too, and of `files`.
         `user`: who the process becomes; None where it stays who the guardian is.
         """
         self.command, self.environment = command, environment
         self.folder, self.walls = folder, walls
-        self.output, self.limits, self.watch = output, limits, watch
+        self.output, self.flood, self.limits, self.watch = output, flood, limits, watch
         self.user = user
 
 
@@ -89,7 +90,7 @@ class Spout:
         self.tail_bytes, self.tail_lines = tail_bytes, tail_lines
         self.tail: list[bytes] = []
         self.tail_held = 0
-        self.total = 0
+        self.total = self.lines = 0
         self.dropped = 0
         self.before_ending: int | None = None
         self.ending_cut = False
@@ -97,6 +98,7 @@ class Spout:
     def take(self, chunk: bytes) -> bytes:
         """The part of `chunk` to pass on at once; the rest is held for the end."""
         self.total += len(chunk)
+        self.lines += chunk.count(b"\n")
         fits = within(chunk, self.head_left, self.lines_left)
         now, later = chunk[:fits], chunk[fits:]
         self.head_left -= fits
@@ -135,6 +137,31 @@ def within(chunk: bytes, most_bytes: int, most_lines: int) -> int:
     return len(chunk) - (len(beyond) if len(lines) == most_lines else 0)
 
 
+class Flood:
+    """Whether an output has no end: so much came in each second for so many seconds in a row.
+
+    Much that is over soon is no flood; whoever prints in a loop that nothing slows down prints a
+    hundred times as much.
+    """
+
+    def __init__(self, flood_lines: int, flood_bytes: int, flood_s: int) -> None:
+        self.most_lines, self.most_bytes, self.most_s = flood_lines, flood_bytes, flood_s
+        self.began_s = time.monotonic()
+        self.lines = self.bytes = self.in_a_row = 0
+
+    def take(self, chunk: bytes) -> bool:
+        """Count what came; whether it is known now that it has no end."""
+        self.lines += chunk.count(b"\n")
+        self.bytes += len(chunk)
+        passed_s = time.monotonic() - self.began_s
+        if passed_s >= 1:
+            many = max(self.lines / self.most_lines, self.bytes / self.most_bytes) / passed_s
+            self.in_a_row = self.in_a_row + 1 if many >= 1 else 0
+            self.lines = self.bytes = 0
+            self.began_s += passed_s
+        return self.in_a_row >= self.most_s
+
+
 class Guardian:
     """One process, from start to end."""
 
@@ -142,6 +169,7 @@ class Guardian:
         self.channel = channel
         self.order = order
         self.spout = Spout(**order.output)
+        self.flood = Flood(**order.flood)
         self.waker, waked = os.pipe2(os.O_NONBLOCK | os.O_CLOEXEC)
         signal.signal(signal.SIGCHLD, lambda *_: None)
         signal.set_wakeup_fd(waked)
@@ -165,6 +193,7 @@ class Guardian:
                 **(self.exited or {"exited": None}),
                 "left_behind": left,
                 "output_bytes": self.spout.total,
+                "output_lines": self.spout.lines,
                 "dropped_bytes": self.spout.dropped,
                 "ending_cut": int(self.spout.ending_cut),
                 "bounds_met": self.bounds_met,
@@ -207,6 +236,9 @@ class Guardian:
             time.sleep(0.001)
             return False
         self.say(self.spout.take(chunk))
+        if self.flood.take(chunk) and not self.bounds_met:
+            self.bounds_met = ["output"]
+            kill_all(descendants())
         return True
 
     def say(self, chunk: bytes) -> None:

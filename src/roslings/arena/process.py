@@ -26,6 +26,11 @@ OUTPUT = {
     "head_bytes": 512 * 1024, "tail_bytes": 64 * 1024, "head_lines": 10_000, "tail_lines": 1_000,
 }  # fmt: skip
 """What is kept of its output."""
+FLOOD = {"flood_lines": 2_000, "flood_bytes": 512 * 1024, "flood_s": 3}
+"""Who writes so much in a second, for so many seconds in a row, prints without end, and is ended.
+
+A timer of 1 kHz that logs each of its turns writes half of it; a loop that only prints, 50 times.
+"""
 LONGEST_LINE = 2000
 ANSWERS_WITHIN_S = 5.0
 LONGEST_WAIT_S = 20.0
@@ -65,6 +70,7 @@ class Launch:
             "folder": str(self.folder),
             "walls": self.walls,
             "output": OUTPUT,
+            "flood": FLOOD,
             "limits": {**bounds, **self.limits},
             "watch": watch,
             "user": self.user.uid if self.user else None,
@@ -359,6 +365,7 @@ class Process:
             seen.ended_by_itself = not self._asked_to_end
         seen.left_behind = int(str(event["left_behind"]))
         seen.output_bytes = int(str(event["output_bytes"]))
+        seen.output_lines = int(str(event["output_lines"]))
         seen.output_dropped_bytes = int(str(event["dropped_bytes"]))
         seen.ending_cut = bool(event["ending_cut"])
         seen.bounds_met = event["bounds_met"]  # type: ignore[assignment]  # the guardian's own

@@ -9,6 +9,7 @@ from typing import Any, Literal
 from roslings.drills.steps import Step
 from roslings.judge import ExperimentView
 from roslings.judge.faults import NothingToJudge
+from roslings.judge.floods import flood_in
 from roslings.judge.outcome import words_for
 from roslings.verdict import CheckResult
 
@@ -79,7 +80,7 @@ def _error_of(step: Step, view: ExperimentView) -> Exception | None:
     try:
         step.demand(view)
     except Exception as error:  # a demand that breaks is told as the grader's own failure
-        return error
+        return flood_in([view]) or error
     return None
 
 

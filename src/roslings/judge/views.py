@@ -22,6 +22,7 @@ from roslings.evidence import (
     TopicSeen,
 )
 from roslings.judge.faults import Inconclusive, NothingToJudge
+from roslings.exits import is_outlived, simulated_life_s
 from roslings.matching import Near, nearest, nearest_endpoint, own_endpoints
 from roslings.rates import (
     LONGEST_STALL_S,
@@ -88,7 +89,8 @@ class ProcessView(View):
     elsewhere: tuple[ProcessSeen, ...] = ()
     """The same executable in other runs, of this experiment or another."""
     doubted: tuple[tuple[ProcessSeen, ExperimentSeen], ...] = ()
-    """It in runs of the experiment whose times were not believed."""
+    """It in runs of the experiment whose times were not believed; not where it ended by itself in
+    simulated time, and in real time ran on: that end is the clock's."""
     soaked: ProcessSeen | None = None
     """The same executable in the soak; None where none was made, or others tell of its end."""
 
@@ -120,11 +122,10 @@ class ProcessView(View):
     @property
     def ran_s(self) -> float:
         """Seconds from start to end; of its own time where that is simulated."""
+        if self.is_simulated:
+            return simulated_life_s(self.seen, self.experiment)
         ended_ns = self.seen.ended_ns or self.seen.started_ns
-        if not self.is_simulated:
-            return (ended_ns - self.seen.started_ns) / 1e9
-        lived = [tick.sim_ns for tick in self.experiment.ticks if tick.at_ns <= ended_ns]
-        return (lived[-1] - lived[0]) / 1e9 if lived else 0.0
+        return (ended_ns - self.seen.started_ns) / 1e9
 
     @property
     def shown(self) -> bool:
@@ -255,8 +256,9 @@ class ExperimentView(View):
         runs = [each.processes[label] for each in self.before if label in each.processes]
         before = tuple(process for process in runs if process.ending)
         doubted = tuple(
-            (each.processes[label], each) for each in self.doubted if label in each.processes
-        )
+            (each.processes[label], each) for each in self.doubted
+            if label in each.processes and not is_outlived(label, each, self.seen)
+        )  # fmt: skip
         seen = self.seen.processes[label]
         return ProcessView(
             seen,
@@ -378,8 +380,10 @@ def views_of(evidence: Evidence) -> dict[str, View]:
 
 def _soaked(evidence: Evidence) -> dict[str, ProcessSeen]:
     """Without what ended by itself in an experiment as well: checks that look there tell it."""
-    told = {each.executable for run in evidence.runs for each in run.processes.values()
-            if each.ended_by_itself}  # fmt: skip
+    told = {
+        each.executable for run in evidence.runs for label, each in run.processes.items()
+        if each.ended_by_itself and not is_outlived(label, run, evidence.experiments[run.name])
+    }  # fmt: skip
     soaked = evidence.soak.processes if evidence.soak else {}
     return {name: seen for name, seen in soaked.items() if name not in told}
 

@@ -107,7 +107,7 @@ class SimClock:
         """Advance by one step; whether all nodes have handled it in time."""
         from builtin_interfaces.msg import Time
 
-        now_ns = (self.ticks[-1].sim_ns if self.ticks else 0) + step_ns
+        now_ns = (self.ticks[-1].sim_ns if self.ticks else _begin_ns()) + step_ns
         seconds, rest_ns = divmod(now_ns, 10**9)
         message = self._message(clock=Time(sec=seconds, nanosec=rest_ns))
         wall_ns, at_ns = time.time_ns(), time.monotonic_ns()
@@ -115,3 +115,11 @@ class SimClock:
         kept_up = barrier.passed(within_s)
         self.ticks.append(Tick(sim_ns=now_ns, wall_ns=wall_ns, at_ns=at_ns, kept_up=kept_up))
         return kept_up
+
+
+def _begin_ns() -> int:
+    """Where a computer's clock stands, so that `now - Duration(...)` is a time; in whole seconds.
+
+    A timer of ROS keeps to multiples of its period since its node's clock showed 0.
+    """
+    return time.time_ns() // 10**9 * 10**9

@@ -44,6 +44,7 @@ from roslings.judge.faults.processes import (
     EndedInTheSoak,
     EndedWithError,
     LeavesProcesses,
+    PrintsWithoutEnd,
     StoppedByItself,
     UncleanExit,
 )
@@ -82,6 +83,7 @@ __all__ = [
     "NothingToJudge",
     "OneColour",
     "PictureTooSmall",
+    "PrintsWithoutEnd",
     "QosCannotMatch",
     "StoppedByItself",
     "SyntaxErrorInCode",
