@@ -37,6 +37,16 @@ def is_outlived(label: str, run: ExperimentSeen, counted: ExperimentSeen) -> boo
     return (until_ns - again.started_ns) / NS_PER_S > simulated_life_s(ended, run)
 
 
+def is_told_in_real_time(label: str, run: ExperimentSeen, counted: ExperimentSeen) -> bool:
+    """What a process's end in simulated time is worth is known: in real time it ended, too, or not.
+
+    Else it was not watched for as long there.
+    """
+    again = counted.processes.get(label)
+    ended_too = run.clock == "sim" and counted.clock == "wall" and again and again.ended_by_itself
+    return bool(ended_too) or is_outlived(label, run, counted)
+
+
 def is_late(seen: ProcessSeen, limit_s: float) -> bool:
     """After Ctrl-C it took more than `limit_s` of its own time, or had to be killed."""
     if seen.ending is None:

@@ -6,14 +6,19 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
+from recorded import recorded, view
 from watching import HERE, RATE, TOPIC, watched
 
 from roslings.capabilities.topics.demands import have_rate
 from roslings.evidence import ExperimentSeen
+from roslings.experiment.clock_advice import advice_on_clocks
+from roslings.experiment.scene import ENDED
 from roslings.grader import Clock
+from roslings.judge import come_up, stay_up
 from roslings.judge.dropped import Looks, watched_experiment
 from roslings.judge.faults import Fault, Inconclusive
 from roslings.judge.views import ExperimentView
+from roslings.rates import NS_PER_S
 
 STYLES = sorted((HERE / "styles").glob("*.py"))
 FOLLOW_THE_CLOCK = ("composed", "functions", "timer", "two_nodes")

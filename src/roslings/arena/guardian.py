@@ -45,6 +45,7 @@ LATEST_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGQUIT, signal.SIGPIPE,
 GRACE_S = 0.2
 TEMPORARY = ("/tmp", "/dev/shm")
 LOOK_EVERY_S = 0.2
+JUST_NOW_S = 0.2
 QUESTIONS = ("WAITS", "OWN_WAITS", "STATE", "COMMANDS")
 KILL = "KILL:"
 LONGEST_COMMAND = 4096
@@ -138,28 +139,38 @@ def within(chunk: bytes, most_bytes: int, most_lines: int) -> int:
 
 
 class Flood:
-    """Whether an output has no end: so much came in each second for so many seconds in a row.
+    """Whether an output has no end: so many rows in each second, for so many seconds in a row.
 
-    Much that is over soon is no flood; whoever prints in a loop that nothing slows down prints a
-    hundred times as much.
+    A row is what fills one of a terminal, with a line break or without. Much that is over soon is
+    no flood.
     """
 
-    def __init__(self, flood_lines: int, flood_bytes: int, flood_s: int) -> None:
-        self.most_lines, self.most_bytes, self.most_s = flood_lines, flood_bytes, flood_s
+    def __init__(self, rows_a_second: int, row_bytes: int, seconds: int) -> None:
+        self.most_rows, self.row_bytes, self.most_s = rows_a_second, row_bytes, seconds
         self.began_s = time.monotonic()
+        self.latest_s = 0.0
         self.lines = self.bytes = self.in_a_row = 0
 
     def take(self, chunk: bytes) -> bool:
         """Count what came; whether it is known now that it has no end."""
         self.lines += chunk.count(b"\n")
         self.bytes += len(chunk)
-        passed_s = time.monotonic() - self.began_s
+        self.latest_s = time.monotonic()
+        passed_s = self.latest_s - self.began_s
         if passed_s >= 1:
-            many = max(self.lines / self.most_lines, self.bytes / self.most_bytes) / passed_s
-            self.in_a_row = self.in_a_row + 1 if many >= 1 else 0
+            self.in_a_row = self.in_a_row + 1 if self.rows() >= self.most_rows * passed_s else 0
             self.lines = self.bytes = 0
             self.began_s += passed_s
         return self.in_a_row >= self.most_s
+
+    def rows(self) -> int:
+        """Of the second that goes on."""
+        return max(self.lines, self.bytes // self.row_bytes)
+
+    def goes_on(self) -> bool:
+        """It has begun, and something came just now."""
+        begun = self.in_a_row > 0 or self.rows() >= self.most_rows
+        return begun and time.monotonic() - self.latest_s < JUST_NOW_S
 
 
 class Guardian:
@@ -176,6 +187,7 @@ class Guardian:
         self.pid, self.terminal = start(order)
         self.exited: dict[str, object] | None = None
         self.bounds_met: list[str] = []
+        self.printed_on = False
         self.looked_s = 0.0
 
     def run(self) -> None:
@@ -188,6 +200,8 @@ class Guardian:
         self.end_all()
         self.drain()
         self.tell_rest()
+        if self.printed_on and self.spout.dropped and not self.bounds_met:
+            self.bounds_met = ["output"]
         self.tell(
             {
                 **(self.exited or {"exited": None}),
@@ -238,7 +252,7 @@ class Guardian:
         self.say(self.spout.take(chunk))
         if self.flood.take(chunk) and not self.bounds_met:
             self.bounds_met = ["output"]
-            kill_all(descendants())
+            kill_all(descendants())  # it prints on until it is gone
         return True
 
     def say(self, chunk: bytes) -> None:
@@ -270,6 +284,7 @@ class Guardian:
         elif name.startswith(KILL):
             kill_own(int(name.removeprefix(KILL)))
         elif self.exited is None:
+            self.printed_on = self.printed_on or self.flood.goes_on()
             self.spout.begin_ending()
             os.kill(self.pid, getattr(signal, name))
 

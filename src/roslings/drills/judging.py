@@ -65,10 +65,11 @@ def judged(
 ) -> DrillVerdict:
     """Take the steps in turn until one fails. `only_graph` takes those that no clock can bend."""
     passed: list[str] = []
+    flood = flood_in([view])
     for step in steps:
         if only_graph and not step.by_graph:
             continue
-        if error := _error_of(step, view):
+        if error := flood or _error_of(step, view):
             first = result_of(step, error)
             outcome: Any = "fail" if first.outcome == "fail" else "inconclusive"
             return DrillVerdict(drill, outcome, tuple(passed), first)
@@ -80,7 +81,7 @@ def _error_of(step: Step, view: ExperimentView) -> Exception | None:
     try:
         step.demand(view)
     except Exception as error:  # a demand that breaks is told as the grader's own failure
-        return flood_in([view]) or error
+        return error
     return None
 
 

@@ -76,8 +76,8 @@ class Collector:
         What could not be told beside such a mistake needs no telling either.
         """
         flood = flood_in(getattr(item, "funcargs", {}).values())
-        if flood and error is not None and not isinstance(error, pytest.skip.Exception):
-            return self._told_once(item, flood)
+        if flood and not isinstance(error, pytest.skip.Exception):
+            return self._told_once(item, flood, error)
         if not isinstance(error, Fault | Inconclusive | UnreadablePart):
             return error
         for name, kinds in check_of(_function(item)).explained_by.items():
@@ -86,11 +86,15 @@ class Collector:
                 return NothingToJudge(f"first mend: {self._title_of(name)}")
         return error
 
-    def _told_once(self, item: pytest.Item, flood: PrintsWithoutEnd) -> BaseException:
-        """One mistake costs one check: the others say which."""
-        told = self._floods.setdefault(flood.executable, check_name(item))
+    def _told_once(
+        self, item: pytest.Item, flood: PrintsWithoutEnd, error: BaseException | None
+    ) -> BaseException | None:
+        """The first check that looks at it tells it; what others miss beside it is the same."""
+        told = self._floods.setdefault(flood.program, check_name(item))
         if told == check_name(item):
             return flood
+        if error is None:
+            return None
         self._roots[check_name(item)] = told
         return NothingToJudge(f"first mend: {self._title_of(told)}")
 

@@ -22,7 +22,7 @@ from roslings.evidence import (
     TopicSeen,
 )
 from roslings.judge.faults import Inconclusive, NothingToJudge
-from roslings.exits import is_outlived, simulated_life_s
+from roslings.exits import is_outlived, is_told_in_real_time, simulated_life_s
 from roslings.matching import Near, nearest, nearest_endpoint, own_endpoints
 from roslings.rates import (
     LONGEST_STALL_S,
@@ -90,7 +90,7 @@ class ProcessView(View):
     """The same executable in other runs, of this experiment or another."""
     doubted: tuple[tuple[ProcessSeen, ExperimentSeen], ...] = ()
     """It in runs of the experiment whose times were not believed; not where it ended by itself in
-    simulated time, and in real time ran on: that end is the clock's."""
+    simulated time, and the run in real time tells what that is worth."""
     soaked: ProcessSeen | None = None
     """The same executable in the soak; None where none was made, or others tell of its end."""
 
@@ -257,7 +257,7 @@ class ExperimentView(View):
         before = tuple(process for process in runs if process.ending)
         doubted = tuple(
             (each.processes[label], each) for each in self.doubted
-            if label in each.processes and not is_outlived(label, each, self.seen)
+            if label in each.processes and not is_told_in_real_time(label, each, self.seen)
         )  # fmt: skip
         seen = self.seen.processes[label]
         return ProcessView(

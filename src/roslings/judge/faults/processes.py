@@ -118,6 +118,7 @@ class PrintsWithoutEnd(Fault):
     megabytes: float
     after_s: float
     was_seen = True
+    blocks = False
     why = (
         "In a terminal that runs full nobody finds the line that matters, and what prints all the"
         " time leaves no processor to the others."
@@ -131,6 +132,11 @@ class PrintsWithoutEnd(Fault):
         "it wrote {lines:,} lines ({megabytes:.1f} MB) in {after_s:.1f} s and did not stop, so it"
         " was ended"
     )
+
+    @property
+    def program(self) -> str:
+        """Without the arguments that it was started with."""
+        return " ".join(word for word in self.executable.split() if ":=" not in word)
 
 
 @dataclass(eq=False)
