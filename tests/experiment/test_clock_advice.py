@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Literal
 
 import pytest
 from recorded import recorded
@@ -83,7 +83,9 @@ def runs(ran: Ran) -> list[ExperimentSeen]:
     return [first, second]
 
 
-def _run(clock: str, ran: Ran, times_s: list[float], crashed: bool) -> ExperimentSeen:
+def _run(
+    clock: Literal["sim", "wall"], ran: Ran, times_s: list[float], crashed: bool
+) -> ExperimentSeen:
     ends = [_publisher(TOPIC), *([_publisher("/clock")] if ran.clock_publisher else [])]
     messages = [
         MessageSeen(source_ns=at, sequence=n, arrival_ns=at, size=9)
@@ -97,7 +99,7 @@ def _run(clock: str, ran: Ran, times_s: list[float], crashed: bool) -> Experimen
         name="talking", clock=clock, graph=GraphSeen(nodes=["/talker"], endpoints=ends),
         topics={TOPIC: TopicSeen(name=TOPIC, type="String", messages=messages)},
         processes={"talker": process},
-    )  # type: ignore[arg-type]  # fmt: skip
+    )  # fmt: skip
     return seen
 
 
@@ -170,7 +172,7 @@ def test_a_crash_is_told_in_the_programs_own_words() -> None:
     assert f"{ENDED} (use_sim_time): {TRACE[-1]} In real time it ran on" in said
 
 
-def _line(text: str) -> Any:
+def _line(text: str) -> LogLine:
     return LogLine(arrival_ns=0, text=text, source="terminal")
 
 
@@ -196,8 +198,10 @@ def test_no_lab_hears_a_remark_that_its_code_does_not_deserve() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("style", "told"), [("thread", True), ("spin_once_and_sleep", True),
-                                             ("many_threads", False), ("timer", False)])  # fmt: skip
+@pytest.mark.parametrize(
+    ("style", "told"),
+    [("thread", True), ("spin_once_and_sleep", True), ("many_threads", False), ("timer", False)],
+)
 def test_real_nodes_hear_what_they_deserve(style: str, told: bool) -> None:
     """Where the run in simulated time counted, nothing is said; nor on a computer too busy."""
     seen = watched(HERE / "styles" / f"{style}.py")

@@ -12,8 +12,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from roslings.evidence import Endpoint, Evidence, ExperimentSeen, MessageSeen, ProcessSeen
-from roslings.experiment.simulated import clock_publishers
 from roslings.exits import is_outlived, tracebacks
+from roslings.experiment.simulated import clock_publishers
 from roslings.rates import NS_PER_S, measure_rate
 
 AT_ONCE = 1
@@ -111,8 +111,9 @@ def _on_ends(simulated: ExperimentSeen, counted: ExperimentSeen) -> Iterator[str
     for label, process in simulated.processes.items():
         if not is_outlived(label, simulated, counted):
             continue
+        name = process.executable
         yield (
-            f"{process.executable} ended by itself in simulated time (use_sim_time){_error(process)}."
+            f"{name} ended by itself in simulated time (use_sim_time){_error(process)}."
             " In real time it ran on, and that is what counts here. Until the first message on"
             " /clock a node's clock shows 0, so nothing can be subtracted from it."
         )

@@ -78,6 +78,7 @@ class SimulatedWatch:
 
     def watch(self) -> None:
         """Watch two stretches. Raises NotBelieved."""
+        self.clock.grid_ns = round(self.period_s * NS_PER_S)
         self._until_first_message()
         step_ns = round(self.period_s / FIRST_STEPS * NS_PER_S)
         first = self._stretch(step_ns, FIRST_PERIODS * self.period_s)
@@ -112,13 +113,17 @@ class SimulatedWatch:
     def _until_first_message(self) -> None:
         step_ns = round(self.period_s / FIRST_STEPS * NS_PER_S)
         began_s, ticks = time.monotonic(), 0
-        while self._count() == 0:
+        while self._count() == 0 or self._between_periods():
             self._tick(step_ns)
             ticks += 1
             robot_s = ticks * step_ns / NS_PER_S
             if robot_s > FIRST_MESSAGE_WITHIN_S + self.period_s:
                 raise SaysNothing(f"no message came in {robot_s:.0f} s of simulated time")
             self._require_keeping_up(began_s, robot_s)
+
+    def _between_periods(self) -> bool:
+        """The clock stands beside its grid: the first stretch begins where a timer is due."""
+        return (len(self.clock.ticks) - 1) % FIRST_STEPS != 0
 
     def _stretch(self, step_ns: int, length_s: float, speed: float | None = None) -> Segment:
         """Let `length_s` of simulated time go by, not faster than `speed`. Raises NotBelieved."""

@@ -21,8 +21,8 @@ from roslings.evidence import (
     Qos,
     TopicSeen,
 )
-from roslings.judge.faults import Inconclusive, NothingToJudge
 from roslings.exits import is_outlived, is_told_in_real_time, simulated_life_s
+from roslings.judge.faults import Inconclusive, NothingToJudge
 from roslings.matching import Near, nearest, nearest_endpoint, own_endpoints
 from roslings.rates import (
     LONGEST_STALL_S,

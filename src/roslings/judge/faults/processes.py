@@ -136,7 +136,9 @@ class PrintsWithoutEnd(Fault):
     @property
     def program(self) -> str:
         """Without the arguments that it was started with."""
-        return " ".join(word for word in self.executable.split() if ":=" not in word)
+        return " ".join(
+            word for word in self.executable.split() if not (":=" in word or word.startswith("--"))
+        )
 
 
 @dataclass(eq=False)
