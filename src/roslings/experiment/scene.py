@@ -142,8 +142,9 @@ class Scene:
                 processes = [running.enter_context(self._started(each)) for each in runs]
                 self._wait_up(processes, known)
             up_s = time.monotonic()
+            since_up = OwnTime(self._arena) if self.outlives_s else None
             yield processes
-            self._outlive(up_s)
+            self._outlive(since_up)
             own = self._present() - known
             with self._noted("ending"):
                 self._let_begin(processes, own, up_s)
@@ -153,10 +154,11 @@ class Scene:
                 self._end(processes)
         self._over += own
 
-    def _outlive(self, up_s: float) -> None:
-        """Let them run on for as long as one ran that ended by itself in another run."""
-        if (left_s := up_s + self.outlives_s - time.monotonic()) > 0:
-            self._until_alive(lambda: False, left_s)
+    def _outlive(self, since_up: OwnTime | None) -> None:
+        """Let them run for as long, of their own time, as one that ended in another run."""
+        if since_up:
+            within_s = self.outlives_s + LONGEST_WAIT_S
+            self._until_alive(lambda: since_up.is_past(self.outlives_s), within_s)
 
     @contextmanager
     def starting(self) -> Iterator[None]:
