@@ -156,6 +156,7 @@ class ProcessSeen(Record):
     ending: Ending | None = None
     lines: list[LogLine] = Field(default_factory=list)
     output_bytes: int = 0
+    output_lines: int = 0
     output_dropped_bytes: int = 0
     ending_cut: bool = Field(
         default=False, description="Some of them it wrote after it was asked to end"
@@ -168,10 +169,16 @@ class ProcessSeen(Record):
         " free; None where the kernel does not tell",
     )
     peak_memory_bytes: int = 0
-    bounds_met: list[Literal["pids", "memory", "files"]] = Field(
+    bounds_met: list[Literal["pids", "memory", "files", "output"]] = Field(
         default_factory=list,
-        description="What it wanted more of than a sandbox has: processes, memory, files",
+        description="What it wanted more of than a sandbox has: processes, memory, files; or that"
+        " it printed without end, and was ended for it",
     )
+
+    @property
+    def prints_without_end(self) -> bool:
+        """It was ended because of what it wrote."""
+        return "output" in self.bounds_met
 
     @property
     def ended_after_ctrl_c(self) -> bool:
@@ -334,7 +341,8 @@ class ExperimentSeen(Record):
         default=None, description="Why the simulated clock says nothing about this node"
     )
     ignores_clock: bool = Field(
-        default=False, description="... because the node takes its time from elsewhere"
+        default=False,
+        description="Measured here and in the run that counts: its messages come by real time",
     )
 
     def part(self, kind: type[P]) -> P:
@@ -349,6 +357,11 @@ class ExperimentSeen(Record):
     def doubt(self) -> str | None:
         """Why its times say nothing about the student; None where they do."""
         return self.machine_fault or self.not_believed
+
+    @property
+    def prints_without_end(self) -> bool:
+        """One of its processes was ended because of what it wrote; no other run tells more."""
+        return any(process.prints_without_end for process in self.processes.values())
 
     @property
     def cpu_wait_s(self) -> float:

@@ -11,9 +11,41 @@ from collections.abc import Iterable, Sequence
 
 from roslings.evidence import ExperimentSeen, LogLine, ProcessSeen
 
+NS_PER_S = 1e9
 NOT_READ_HERE = 69
 """Exit code of our own `ros2 launch` for a file that only the full ROS reads: EX_UNAVAILABLE of
 sysexits(3). Of such a file nothing can be said."""
+
+
+def simulated_life_s(process: ProcessSeen, seen: ExperimentSeen) -> float:
+    """Seconds of simulated time that went by until it ended; 0 where the clock never moved."""
+    ended_ns = process.ended_ns or process.started_ns
+    lived = [tick.sim_ns for tick in seen.ticks if tick.at_ns <= ended_ns]
+    return (lived[-1] - lived[0]) / NS_PER_S if lived else 0.0
+
+
+def is_outlived(label: str, run: ExperimentSeen, counted: ExperimentSeen) -> bool:
+    """A process ended by itself in simulated time, and in real time ran for longer than that.
+
+    What ended it is the clock: it shows 0 at a node's start, as no real one does.
+    """
+    ended, again = run.processes[label], counted.processes.get(label)
+    if run.clock != "sim" or not ended.ended_by_itself or again is None:
+        return False
+    if counted.clock == "sim" or again.ended_by_itself:
+        return False
+    until_ns = again.asked_to_end_ns or again.ended_ns or again.started_ns
+    return (until_ns - again.started_ns) / NS_PER_S > simulated_life_s(ended, run)
+
+
+def is_told_in_real_time(label: str, run: ExperimentSeen, counted: ExperimentSeen) -> bool:
+    """What a process's end in simulated time is worth is known: in real time it ended, too, or not.
+
+    Else it was not watched for as long there.
+    """
+    again = counted.processes.get(label)
+    ended_too = run.clock == "sim" and counted.clock == "wall" and again and again.ended_by_itself
+    return bool(ended_too) or is_outlived(label, run, counted)
 
 
 def is_late(seen: ProcessSeen, limit_s: float) -> bool:

@@ -236,7 +236,8 @@ def measure_simulated_rate(
         return None
     begin_ns = ticks[segments[0].first].sim_ns
     placed = [m for m in messages if m.sim_ns is not None and m.sim_ns > begin_ns]
-    rate = _rate([(m.sim_ns or 0) / NS_PER_S for m in placed], _counts(placed), True)
+    times_s = [((m.sim_ns or 0) - begin_ns) / NS_PER_S for m in placed]  # exact: small numbers
+    rate = _rate(times_s, _counts(placed), True)
     if rate is None:
         return None
     step_s = max(segment.step_ns for segment in segments) / NS_PER_S

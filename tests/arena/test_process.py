@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from roslings.arena import Launch, Process
+from roslings.arena import process as process_room
 from roslings.evidence import ProcessSeen
 
 LONG_S = 60.0
@@ -189,6 +190,56 @@ def test_a_daemon_is_ended_and_counted(tmp_path: Path, namespaces: bool) -> None
     assert seen.left_behind == 1
 
 
+ENDLESS = {
+    "stdout": "while True: print('a line')",
+    "stderr": "import sys\nwhile True: print('a line', file=sys.stderr)",
+    "no line": "while True: print('.', end='')",
+    "from a thread": (
+        "import threading\n"
+        "def flood():\n"
+        "    while True: print('a line')\n"
+        "threading.Thread(target=flood).start()"
+    ),
+}
+
+
+@pytest.mark.parametrize("source", ENDLESS.values(), ids=ENDLESS)
+def test_what_prints_without_end_is_ended(tmp_path: Path, namespaces: bool, source: str) -> None:
+    """By itself it never would be; what it wrote is counted, and its beginning and end are kept."""
+    seen = run(tmp_path, namespaces, *python(source))
+    assert seen.prints_without_end
+    assert seen.ended_by_itself
+    assert seen.output_bytes > 80 * 1000
+    assert len(seen.lines) < 12_000
+
+
+@pytest.mark.parametrize(
+    ("pause", "lines", "flood"), [("", 50_000, True), ("time.sleep(0.01)", 20, False)]
+)
+def test_what_still_prints_when_it_is_asked_to_end_is_told(
+    tmp_path: Path, namespaces: bool, pause: str, lines: int, flood: bool
+) -> None:
+    """Before it was known that it never stops; a loop that waits in between is none."""
+    source = f"""
+        import itertools, time
+        for n in itertools.count(1):
+            print('a line')
+            {pause or "pass"}
+            if n == {lines}:
+                open('ready', 'w').close()
+    """
+    with Process("it", launch(tmp_path, namespaces, *python(source))) as process:
+        wait_for(lambda: (tmp_path / "ready").exists())
+    assert process.seen.prints_without_end is flood
+
+
+@pytest.fixture
+def patient(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nothing is ended for what it prints, however long a busy computer takes for it."""
+    monkeypatch.setitem(process_room.FLOOD, "seconds", 1000)
+
+
+@pytest.mark.usefixtures("patient")
 def test_an_endless_output_is_drained_and_bounded(tmp_path: Path, namespaces: bool) -> None:
     """The start and the end of a flood are kept, the middle is counted."""
     flood = "head -c 30000000 /dev/zero | tr '\\0' 'x' | fold -w 99; echo; echo the end"
@@ -200,6 +251,7 @@ def test_an_endless_output_is_drained_and_bounded(tmp_path: Path, namespaces: bo
     assert sum(len(text) for text in texts(seen)) < 1_000_000
 
 
+@pytest.mark.usefixtures("patient")
 def test_a_flood_of_empty_lines_is_bounded_too(tmp_path: Path, namespaces: bool) -> None:
     """A line costs the evidence more than its bytes do."""
     flood = "head -c 3000000 /dev/zero | tr '\\0' '\\n'"

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from pathlib import Path
 
+import pytest
 from fresh import in_fresh_process
 
 from roslings.drills import Drill, drill, running
@@ -33,6 +35,26 @@ def test_a_file_that_python_cannot_read_is_not_run(tmp_path: Path) -> None:
     assert verdict.first and verdict.first.fault == "SyntaxErrorInCode"
     assert verdict.headline.startswith("starter.py, line ")
     assert "expected ':'" in verdict.headline
+
+
+@pytest.mark.parametrize("stream", ["stdout", "stderr"])
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [
+        ("    rclpy.spin(Tick())", "    tick = Tick()\n    {loop}"),
+        ("        self.count += 1", "        {loop}"),
+    ],
+    ids=["instead of spin", "in a callback"],
+)
+def test_a_program_that_prints_without_end_is_told_its_lines(
+    tmp_path: Path, before: str, after: str, stream: str
+) -> None:
+    """At once, and never that nobody can tell."""
+    loop = f"while True: print('tick', file=__import__('sys').{stream})"
+    file = changed(tmp_path, "first_node", before, after.format(loop=loop), of="solution")
+    verdict = check(drill("first_node"), file)
+    assert verdict.first and verdict.first.fault == "PrintsWithoutEnd"
+    assert re.search(r"it wrote [\d,]+ lines", verdict.headline)
 
 
 def test_a_wrong_answer_is_told_without_the_right_one(tmp_path: Path) -> None:

@@ -6,23 +6,29 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
+from recorded import recorded, view
 from watching import HERE, RATE, TOPIC, watched
 
 from roslings.capabilities.topics.demands import have_rate
 from roslings.evidence import ExperimentSeen
+from roslings.experiment.clock_advice import advice_on_clocks
+from roslings.experiment.scene import ENDED
 from roslings.grader import Clock
+from roslings.judge import come_up, stay_up
 from roslings.judge.dropped import Looks, watched_experiment
 from roslings.judge.faults import Fault, Inconclusive
 from roslings.judge.views import ExperimentView
+from roslings.rates import NS_PER_S
 
 STYLES = sorted((HERE / "styles").glob("*.py"))
-FOLLOW_THE_CLOCK = ("composed", "functions", "timer", "two_nodes")
+FOLLOW_THE_CLOCK = ("composed", "functions", "looks_back", "timer", "two_nodes")
 """One thread, and a timer: these are judged in simulated time, on any machine."""
 
 TRICKY = {
     "bursts": "Bursts",
     "bursts_of_a_thousand": "Bursts",
     "large_messages": "right",
+    "looks_back_at_its_start": "right",
     "no_parameter_services": "right",
     "one_hertz": "TooSlow",
     "publishes_clock": "right",
@@ -95,6 +101,21 @@ def test_what_follows_the_clock_is_judged_by_it(name: str) -> None:
     rate = ExperimentView(seen).topic(TOPIC).rate
     assert rate is not None
     assert rate.hz == pytest.approx(RATE.hz)
+
+
+def test_simulated_time_begins_where_a_computers_clock_stands() -> None:
+    """So stamps look like real ones, and a node may reckon with the time before it started."""
+    first = simulated(HERE / "styles" / "timer.py").ticks[0]
+    assert 0 <= first.wall_ns - first.sim_ns < 2 * NS_PER_S
+
+
+def test_what_ends_in_simulated_time_alone_is_judged_in_real_time() -> None:
+    """A node's clock shows 0 until the first message on /clock: that is no fault of the node."""
+    runs = watched(HERE / "tricky" / "looks_back_at_its_start.py")
+    assert [seen.not_believed for seen in runs if seen.clock == "sim"] == [ENDED]
+    view(runs).labelled("talker").must(come_up, stay_up)
+    (said,) = advice_on_clocks(recorded(runs))
+    assert "ValueError: Subtraction leads to negative time" in said
 
 
 def test_a_slow_node_is_judged_by_the_clock_too() -> None:

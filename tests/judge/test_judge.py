@@ -115,16 +115,31 @@ def test_a_computer_that_stood_still_costs_the_student_nothing(
     assert "3.0 s" in next(str(c.why) for c in verdict.checks if c.id == "rate")
 
 
-def test_a_bare_assert_works(evidence: Evidence, other_course: Path) -> None:
-    """Its message is what the student reads."""
-    topics = change(
-        other_course / "graders/grade_topics.py",
-        "    talking.topic(CHATTER).must(count_up)",
-        "    assert talking.published_by(TALKER) == [], 'it publishes'",
-    )
-    failed = judge(topics, evidence).failed()
-    assert [check.id for check in failed] == ["counting"]
-    assert "it publishes" in str(failed[0].expected)
+PUBLISHED = "talking.published_by(TALKER)"
+BARE: dict[str, tuple[str, str]] = {
+    "a message": (f"assert {PUBLISHED} == [], 'it publishes too'", "it publishes too"),
+    "one with what was seen": (
+        f"assert {PUBLISHED} == [], f'it publishes on {{{PUBLISHED}}}'",
+        "it publishes on ['/chatter']",
+    ),
+    "one of two lines": ("assert not CHATTER, 'it is there,\\nand was seen'",
+                         "it is there, and was seen"),
+    "none": (f"assert {PUBLISHED} == []", "it is not so"),
+    "one that is raised": ("raise AssertionError('it is not even')", "it is not even"),
+    "none that is raised": ("raise AssertionError", "it is not so"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("line", "measured"), BARE.values(), ids=BARE)
+def test_the_message_of_a_bare_assert_is_what_was_measured(
+    evidence: Evidence, other_course: Path, line: str, measured: str
+) -> None:
+    """The student reads it as in CONTRIBUTING, and beside it the check's own line."""
+    find = "    talking.topic(CHATTER).must(count_up)"
+    topics = change(other_course / "graders/grade_topics.py", find, f"    {line}")
+    (failed,) = judge(topics, evidence).failed()
+    assert (failed.id, failed.measured) == ("counting", measured)
+    assert failed.expected == failed.title
 
 
 @pytest.mark.parametrize(

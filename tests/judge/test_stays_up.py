@@ -14,6 +14,7 @@ from roslings.evidence import (
     ProcessSeen,
     Tick,
 )
+from roslings.experiment.measuring import to_outlive_s
 from roslings.judge import ExperimentView, stay_up
 from roslings.judge.faults import StoppedByItself
 from roslings.judge.views import views_of
@@ -56,12 +57,34 @@ def view(last: ExperimentSeen, *before: ExperimentSeen) -> ExperimentView:
     return found
 
 
-def test_a_death_counts_though_the_clock_was_not_believed() -> None:
+def test_a_death_counts_that_nobody_waited_for_in_real_time() -> None:
     """Its times tell nothing of a rate; that it ended tells of a node that ends."""
-    died = run("sim", 8.0, not_believed="the node ended")
+    died, shorter = run("sim", 8.0, not_believed="the node ended"), run("wall", None)
+    shorter.processes["talker"].ended_ns = 7 * NS
     with pytest.raises(StoppedByItself) as fault:
-        view(run("wall", None), died).labelled("talker").must(stay_up)
+        view(shorter, died).labelled("talker").must(stay_up)
     assert fault.value.measured == "it ended by itself after 8.0 s of simulated time (exit code 1)"
+
+
+@pytest.mark.parametrize("after_s", [0.0, 8.0])
+def test_a_death_in_simulated_time_is_not_told_of_who_outlives_it(after_s: float) -> None:
+    """A node's clock shows 0 at its start there, and what died of that is no fault of the node."""
+    died = run("sim", after_s, not_believed="the node ended")
+    view(run("wall", None), died).labelled("talker").must(stay_up)
+
+
+def test_where_both_runs_end_the_real_one_is_told() -> None:
+    """In seconds that the student can count."""
+    died = run("sim", 2.0, not_believed="the node ended")
+    with pytest.raises(StoppedByItself) as fault:
+        view(run("wall", 3.0), died).labelled("talker").must(stay_up)
+    assert "3.0 s (exit code 1)" in fault.value.measured
+
+
+def test_a_run_in_real_time_is_as_long_as_the_life_that_it_is_to_outlive() -> None:
+    """Else nobody could tell whether the clock alone ended it."""
+    assert to_outlive_s(run("sim", None)) == 0.0
+    assert to_outlive_s(run("sim", 8.0)) > 8.0
 
 
 def test_a_death_on_the_wall_is_told_in_its_seconds() -> None:

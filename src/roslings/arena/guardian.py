@@ -45,6 +45,7 @@ LATEST_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGQUIT, signal.SIGPIPE,
 GRACE_S = 0.2
 TEMPORARY = ("/tmp", "/dev/shm")
 LOOK_EVERY_S = 0.2
+JUST_NOW_S = 0.2
 QUESTIONS = ("WAITS", "OWN_WAITS", "STATE", "COMMANDS")
 KILL = "KILL:"
 LONGEST_COMMAND = 4096
@@ -62,18 +63,19 @@ class Order:
         folder: str,
         walls: str,
         output: dict[str, int],
+        flood: dict[str, int],
         limits: dict[str, int],
         watch: dict[str, int],
         user: int | None,
     ) -> None:
-        """What the names of each dictionary mean: `Spout`, the module `resource`, and these.
+        """What the names of each dictionary mean: `Spout`, `Flood`, the module `resource`, these.
 
         `watch`: the most of `memory`, in bytes, of `pids`, threads too, and of `files`.
         `user`: who the process becomes; None where it stays who the guardian is.
         """
         self.command, self.environment = command, environment
         self.folder, self.walls = folder, walls
-        self.output, self.limits, self.watch = output, limits, watch
+        self.output, self.flood, self.limits, self.watch = output, flood, limits, watch
         self.user = user
 
 
@@ -89,7 +91,7 @@ class Spout:
         self.tail_bytes, self.tail_lines = tail_bytes, tail_lines
         self.tail: list[bytes] = []
         self.tail_held = 0
-        self.total = 0
+        self.total = self.lines = 0
         self.dropped = 0
         self.before_ending: int | None = None
         self.ending_cut = False
@@ -97,6 +99,7 @@ class Spout:
     def take(self, chunk: bytes) -> bytes:
         """The part of `chunk` to pass on at once; the rest is held for the end."""
         self.total += len(chunk)
+        self.lines += chunk.count(b"\n")
         fits = within(chunk, self.head_left, self.lines_left)
         now, later = chunk[:fits], chunk[fits:]
         self.head_left -= fits
@@ -135,6 +138,41 @@ def within(chunk: bytes, most_bytes: int, most_lines: int) -> int:
     return len(chunk) - (len(beyond) if len(lines) == most_lines else 0)
 
 
+class Flood:
+    """Whether an output has no end: so many rows in each second, for so many seconds in a row.
+
+    A row is what fills one of a terminal, with a line break or without. Much that is over soon is
+    no flood.
+    """
+
+    def __init__(self, rows_a_second: int, row_bytes: int, seconds: int) -> None:
+        self.most_rows, self.row_bytes, self.most_s = rows_a_second, row_bytes, seconds
+        self.began_s = time.monotonic()
+        self.latest_s = 0.0
+        self.lines = self.bytes = self.in_a_row = 0
+
+    def take(self, chunk: bytes) -> bool:
+        """Count what came; whether it is known now that it has no end."""
+        self.lines += chunk.count(b"\n")
+        self.bytes += len(chunk)
+        self.latest_s = time.monotonic()
+        passed_s = self.latest_s - self.began_s
+        if passed_s >= 1:
+            self.in_a_row = self.in_a_row + 1 if self.rows() >= self.most_rows * passed_s else 0
+            self.lines = self.bytes = 0
+            self.began_s += passed_s
+        return self.in_a_row >= self.most_s
+
+    def rows(self) -> int:
+        """Of the second that goes on."""
+        return max(self.lines, self.bytes // self.row_bytes)
+
+    def goes_on(self) -> bool:
+        """It has begun, and something came just now."""
+        begun = self.in_a_row > 0 or self.rows() >= self.most_rows
+        return begun and time.monotonic() - self.latest_s < JUST_NOW_S
+
+
 class Guardian:
     """One process, from start to end."""
 
@@ -142,12 +180,14 @@ class Guardian:
         self.channel = channel
         self.order = order
         self.spout = Spout(**order.output)
+        self.flood = Flood(**order.flood)
         self.waker, waked = os.pipe2(os.O_NONBLOCK | os.O_CLOEXEC)
         signal.signal(signal.SIGCHLD, lambda *_: None)
         signal.set_wakeup_fd(waked)
         self.pid, self.terminal = start(order)
         self.exited: dict[str, object] | None = None
         self.bounds_met: list[str] = []
+        self.printed_on = False
         self.looked_s = 0.0
 
     def run(self) -> None:
@@ -160,11 +200,14 @@ class Guardian:
         self.end_all()
         self.drain()
         self.tell_rest()
+        if self.printed_on and self.spout.dropped and not self.bounds_met:
+            self.bounds_met = ["output"]
         self.tell(
             {
                 **(self.exited or {"exited": None}),
                 "left_behind": left,
                 "output_bytes": self.spout.total,
+                "output_lines": self.spout.lines,
                 "dropped_bytes": self.spout.dropped,
                 "ending_cut": int(self.spout.ending_cut),
                 "bounds_met": self.bounds_met,
@@ -207,6 +250,9 @@ class Guardian:
             time.sleep(0.001)
             return False
         self.say(self.spout.take(chunk))
+        if self.flood.take(chunk) and not self.bounds_met:
+            self.bounds_met = ["output"]
+            kill_all(descendants())  # it prints on until it is gone
         return True
 
     def say(self, chunk: bytes) -> None:
@@ -238,6 +284,7 @@ class Guardian:
         elif name.startswith(KILL):
             kill_own(int(name.removeprefix(KILL)))
         elif self.exited is None:
+            self.printed_on = self.printed_on or self.flood.goes_on()
             self.spout.begin_ending()
             os.kill(self.pid, getattr(signal, name))
 

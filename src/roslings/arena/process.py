@@ -26,6 +26,12 @@ OUTPUT = {
     "head_bytes": 512 * 1024, "tail_bytes": 64 * 1024, "head_lines": 10_000, "tail_lines": 1_000,
 }  # fmt: skip
 """What is kept of its output."""
+FLOOD = {"rows_a_second": 1_000, "row_bytes": 80, "seconds": 3}
+"""Who writes so much for so long prints without end, and is ended.
+
+A timer of 100 Hz that logs each of its turns writes a tenth of it. A loop that does nothing else
+writes 50 times as much with print(), and twice as much with a logger on a busy computer.
+"""
 LONGEST_LINE = 2000
 ANSWERS_WITHIN_S = 5.0
 LONGEST_WAIT_S = 20.0
@@ -65,6 +71,7 @@ class Launch:
             "folder": str(self.folder),
             "walls": self.walls,
             "output": OUTPUT,
+            "flood": FLOOD,
             "limits": {**bounds, **self.limits},
             "watch": watch,
             "user": self.user.uid if self.user else None,
@@ -359,6 +366,7 @@ class Process:
             seen.ended_by_itself = not self._asked_to_end
         seen.left_behind = int(str(event["left_behind"]))
         seen.output_bytes = int(str(event["output_bytes"]))
+        seen.output_lines = int(str(event["output_lines"]))
         seen.output_dropped_bytes = int(str(event["dropped_bytes"]))
         seen.ending_cut = bool(event["ending_cut"])
         seen.bounds_met = event["bounds_met"]  # type: ignore[assignment]  # the guardian's own

@@ -9,6 +9,7 @@ from typing import Any, Literal
 from roslings.drills.steps import Step
 from roslings.judge import ExperimentView
 from roslings.judge.faults import NothingToJudge
+from roslings.judge.floods import flood_in
 from roslings.judge.outcome import words_for
 from roslings.verdict import CheckResult
 
@@ -64,10 +65,11 @@ def judged(
 ) -> DrillVerdict:
     """Take the steps in turn until one fails. `only_graph` takes those that no clock can bend."""
     passed: list[str] = []
+    flood = flood_in([view])
     for step in steps:
         if only_graph and not step.by_graph:
             continue
-        if error := _error_of(step, view):
+        if error := flood or _error_of(step, view):
             first = result_of(step, error)
             outcome: Any = "fail" if first.outcome == "fail" else "inconclusive"
             return DrillVerdict(drill, outcome, tuple(passed), first)

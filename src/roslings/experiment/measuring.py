@@ -27,16 +27,16 @@ from roslings.evidence import (
     Span,
     evidence_json,
 )
-from roslings.exits import must_end_again
+from roslings.exits import must_end_again, simulated_life_s
 from roslings.experiment.alongside import MOST_AT_ONCE, Alongside
 from roslings.experiment.assignment import Assignment
+from roslings.experiment.clock_advice import advice_on_clocks, note_who_ignores_the_clock
 from roslings.experiment.machine import look_at_machine
 from roslings.experiment.middleware import note_a_deaf_node
 from roslings.experiment.packets import Tap, tapped
 from roslings.experiment.preload import load_beforehand
 from roslings.experiment.presence import Absences
-from roslings.experiment.scene import Scene
-from roslings.experiment.simulated import clock_publishers
+from roslings.experiment.scene import ENDED, Scene
 from roslings.experiment.soaking import SOAKING, Soak, soaking
 from roslings.experiment.turns import Turns
 from roslings.experiment.unobserved import Unobserved
@@ -50,6 +50,10 @@ from roslings.workspace.build import BuildRoom, build
 from roslings.workspace.shared_build import shared_build
 
 LARGE_TYPES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/PointCloud2")
+OUTLIVES_BY_S = 2.0
+"""A timer speaks for the first time after a period there, and at once in simulated time."""
+LONGEST_LIFE_S = 120.0
+"""Longer than any watch of simulated time for a rate that a card asks for."""
 MOST_RUNS = 3
 """A busy computer is given two more chances; then the verdict is inconclusive."""
 
@@ -99,6 +103,7 @@ def measure_here(assignment: Assignment, package: PackageSeen) -> Evidence:
             stage, [] if assignment.only_soak else declared, evidence, _soak(stage, task.card)
         )
     evidence.timeline = timeline
+    note_who_ignores_the_clock(evidence)
     evidence.advice.extend(advice_on_clocks(evidence))
     return evidence
 
@@ -157,33 +162,30 @@ def doubtful(
     return [each for each in declared if is_alone(runs[each.name][-1])]
 
 
+def note_an_end(seen: ExperimentSeen) -> None:
+    """What ended by itself in simulated time is run again in real time, before anything is said.
+
+    Until the first step of its clock a node's time is 0, and a program may stumble over that alone.
+    """
+    ended = any(process.ended_by_itself for process in seen.processes.values())
+    if seen.clock == "sim" and ended:
+        seen.not_believed = seen.not_believed or ENDED
+
+
+def to_outlive_s(simulated: ExperimentSeen) -> float:
+    """So long a node must run in real time before an end in simulated time is the clock's alone."""
+    lives_s = [
+        simulated_life_s(process, simulated)
+        for process in simulated.processes.values()
+        if process.ended_by_itself
+    ]
+    return min(max(lives_s) + OUTLIVES_BY_S, LONGEST_LIFE_S) if lives_s else 0.0
+
+
 def carries_pictures(card: Card) -> bool:
     """Its nodes send or hear messages that go in many pieces."""
     topics = (topic for node in card.nodes for topic in (*node.publishes, *node.subscribes))
     return any(topic.type in LARGE_TYPES for topic in topics)
-
-
-def advice_on_clocks(evidence: Evidence) -> list[str]:
-    """What a student learns from a run in simulated time that was not believed."""
-    found: list[str] = []
-    for seen in evidence.attempts:
-        if seen.ignores_clock and _would_have_spoken(evidence.experiments[seen.name]):
-            names = ", ".join(sorted(set(seen.graph.nodes)))
-            found.append(
-                f"{names} does not follow simulated time (/clock), so it was watched in real"
-                " time. A timer of create_timer() follows it; time.sleep() and threads do not."
-            )
-        found += [
-            f"{node} publishes on /clock. That is for a simulator: it sets the time of all nodes."
-            for node in clock_publishers(seen)
-        ]
-    return list(dict.fromkeys(found))
-
-
-def _would_have_spoken(seen: ExperimentSeen) -> bool:
-    """It has something to say, and no error of its own kept it from saying it."""
-    spoke = any(topic.messages for topic in seen.topics.values())
-    return spoke and not any(process.ended_by_itself for process in seen.processes.values())
 
 
 def _build(
@@ -246,14 +248,15 @@ class Stage:
     def _until_believed(
         self, each: Experiment, number: int, earlier: Sequence[ExperimentSeen]
     ) -> Iterator[ExperimentSeen]:
-        choice = self.assignment.clock if each.clock == "auto" else "wall"
+        choice, outlives_s = self.assignment.clock if each.clock == "auto" else "wall", 0.0
         if choice != "wall":
             yield (seen := self.run(each, "sim", number, earlier))
-            if choice == "sim" or seen.not_believed is None:
+            if choice == "sim" or seen.not_believed is None or seen.prints_without_end:
                 return
+            outlives_s = to_outlive_s(seen)
         for _ in range(MOST_RUNS):
-            yield (seen := self.run(each, "wall", number, earlier))
-            if seen.machine_fault is None:
+            yield (seen := self.run(each, "wall", number, earlier, outlives_s))
+            if seen.machine_fault is None or seen.prints_without_end:
                 return
             say("This computer was too busy to tell; once more")
 
@@ -263,8 +266,9 @@ class Stage:
         clock: Literal["sim", "wall"],
         number: int,
         earlier: Sequence[ExperimentSeen],
+        outlives_s: float = 0.0,
     ) -> ExperimentSeen:
-        """Run an experiment once, in a fresh arena."""
+        """Run an experiment once, in a fresh arena; its nodes run for at least `outlives_s`."""
         seen = ExperimentSeen(name=each.name, clock=clock)
         if each.unobserved:
             with (
@@ -290,7 +294,9 @@ class Stage:
                 arena, probe, seed, self.ends_within_s, port, self.turns, self.timeline,
                 self.absences,
             )  # fmt: skip
+            scene.outlives_s = outlives_s
             each.function(scene, *earlier)
+        note_an_end(seen)
         note_a_deaf_node(seen)
         if seen.machine_fault:
             self.absences.forget(process.executable for process in seen.processes.values())

@@ -19,7 +19,6 @@ from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S, WallWatch
 from roslings.experiment.own_time import PATIENCE_S, OwnTime
 from roslings.experiment.presence import GRACE_S, Absences, Presence, Turn
 from roslings.experiment.simulated import (
-    IgnoresTheClock,
     NotBelieved,
     SaysNothing,
     SimulatedWatch,
@@ -35,6 +34,8 @@ from roslings.timeline import noted
 
 COMES_UP_WITHIN_S = 20.0
 HEARD_WITHIN_S = 10.0
+CONNECTS_WITHIN_S = 3.0
+ENDED = "it ended by itself there"
 AFTER_THE_TURN_S = 1.0
 INTERRUPT_SLACK_S = 1.0
 SPINS_WITHIN_S = 3.0
@@ -99,6 +100,8 @@ class Scene:
         """Of all that nobody can know before."""
         self.ends_within_s = ends_within_s
         """After Ctrl-C."""
+        self.outlives_s = 0.0
+        """Nodes run for at least so long: so long one ran that ended by itself in another run."""
         self._random = random.Random(seed)
         arena.on_change = probe.notify
         probe.seen.patience_s = PATIENCE_S
@@ -139,7 +142,9 @@ class Scene:
                 processes = [running.enter_context(self._started(each)) for each in runs]
                 self._wait_up(processes, known)
             up_s = time.monotonic()
+            since_up = OwnTime(self._arena) if self.outlives_s else None
             yield processes
+            self._outlive(since_up)
             own = self._present() - known
             with self._noted("ending"):
                 self._let_begin(processes, own, up_s)
@@ -148,6 +153,12 @@ class Scene:
                     self._let_rest(process)
                 self._end(processes)
         self._over += own
+
+    def _outlive(self, since_up: OwnTime | None) -> None:
+        """Let them run for as long, of their own time, as one that ended in another run."""
+        if since_up:
+            within_s = self.outlives_s + LONGEST_WAIT_S
+            self._until_alive(lambda: since_up.is_past(self.outlives_s), within_s)
 
     @contextmanager
     def starting(self) -> Iterator[None]:
@@ -205,10 +216,9 @@ class Scene:
                 barrier.lives = self._arena.all_alive
                 SimulatedWatch(self._probe, clock, barrier, topic, contract.rate).watch()
             if not self._arena.all_alive():
-                raise NotBelieved("it ended while it was watched")
+                raise NotBelieved(ENDED)
         except NotBelieved as reason:
-            self.seen.not_believed = str(reason)
-            self.seen.ignores_clock = isinstance(reason, IgnoresTheClock)
+            self.seen.not_believed = str(reason) if self._arena.all_alive() else ENDED
             if isinstance(reason, SaysNothing):
                 self._presence.note_for_good(no_timer_says(contract))
 
@@ -218,7 +228,15 @@ class Scene:
         if publisher is None:
             self._let_time_go_by(contract)
             raise NotBelieved("it publishes nothing")
+        if can_record(publisher):
+            self._until_connected(publisher)
         return publisher
+
+    def _until_connected(self, publisher: Endpoint) -> None:
+        """What was said before would be missed. Raises NotBelieved."""
+        topic = publisher.topic
+        if not self._until_alive(lambda: self._probe.connected(topic), CONNECTS_WITHIN_S):
+            raise NotBelieved(f"no connection to its publisher on {topic} came up")
 
     def _let_time_go_by(self, contract: TopicContract) -> None:
         """What no timer has made in some seconds of robot time, only a thread could still make."""

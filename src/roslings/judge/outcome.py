@@ -16,7 +16,7 @@ def words_for(error: BaseException | None, title: str) -> dict[str, Any]:
     if error is None:
         return {"outcome": "pass", "measured": remarks()}
     if isinstance(error, AssertionError):
-        error = Unmet(f"{title} ({_first_line(error)})")
+        error = Unmet(title, _message(error) or Unmet.NO_MESSAGE)
     if isinstance(error, Fault):
         return {
             "outcome": "fail",
@@ -36,6 +36,11 @@ def words_for(error: BaseException | None, title: str) -> dict[str, Any]:
     return {"outcome": "inconclusive", "why": why, "log": tuple(words.splitlines()[-12:])}
 
 
-def _first_line(error: AssertionError) -> str:
+def _message(error: AssertionError) -> str:
+    """What the grader wrote behind its `assert`; pytest's own words on the values are no message.
+
+    pytest writes them behind the message, or in its place.
+    """
     lines = str(error).strip().splitlines()
-    return lines[0] if lines else "assert"
+    theirs = next((n for n, line in enumerate(lines) if line.startswith("assert ")), len(lines))
+    return " ".join(line.strip() for line in lines[:theirs])

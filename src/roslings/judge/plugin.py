@@ -13,7 +13,8 @@ from roslings.course import Lab
 from roslings.evidence import UnreadablePart
 from roslings.judge.check import check_of
 from roslings.judge.dropped import Looks
-from roslings.judge.faults import Fault, Inconclusive, NothingToJudge
+from roslings.judge.faults import Fault, Inconclusive, NothingToJudge, PrintsWithoutEnd
+from roslings.judge.floods import flood_in
 from roslings.judge.outcome import words_for
 from roslings.judge.remarks import begin_remarks
 from roslings.judge.sheet import title_of
@@ -31,6 +32,8 @@ class Collector:
         self._roots: dict[str, str] = {}
         self._open: set[str] = set()
         """Checks that do not pass, and keep no other from being judged."""
+        self._floods: dict[str, str] = {}
+        """Executables that print without end, to the check that tells it."""
         self._lab, self._looks = lab, looks
 
     def pytest_addoption(self, parser: pytest.Parser) -> None:
@@ -72,6 +75,9 @@ class Collector:
 
         What could not be told beside such a mistake needs no telling either.
         """
+        flood = flood_in(getattr(item, "funcargs", {}).values())
+        if flood and not isinstance(error, pytest.skip.Exception):
+            return self._told_once(item, flood, error)
         if not isinstance(error, Fault | Inconclusive | UnreadablePart):
             return error
         for name, kinds in check_of(_function(item)).explained_by.items():
@@ -79,6 +85,18 @@ class Collector:
                 self._roots[check_name(item)] = name
                 return NothingToJudge(f"first mend: {self._title_of(name)}")
         return error
+
+    def _told_once(
+        self, item: pytest.Item, flood: PrintsWithoutEnd, error: BaseException | None
+    ) -> BaseException | None:
+        """The first check that looks at it tells it; what others miss beside it is the same."""
+        told = self._floods.setdefault(flood.program, check_name(item))
+        if told == check_name(item):
+            return flood
+        if error is None:
+            return None
+        self._roots[check_name(item)] = told
+        return NothingToJudge(f"first mend: {self._title_of(told)}")
 
     def _title_of(self, name: str) -> str:
         titles = {result.id: result.title for result in self.results}

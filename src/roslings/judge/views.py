@@ -22,7 +22,12 @@ from roslings.evidence import (
     Qos,
     TopicSeen,
 )
-from roslings.exits import without_interrupt
+from roslings.exits import (
+    is_outlived,
+    is_told_in_real_time,
+    simulated_life_s,
+    without_interrupt,
+)
 from roslings.judge.faults import Inconclusive, NothingToJudge
 from roslings.judge.lines import texts_of, written_by
 from roslings.matching import Near, nearest, nearest_endpoint, own_endpoints
@@ -91,7 +96,8 @@ class ProcessView(View):
     elsewhere: tuple[ProcessSeen, ...] = ()
     """The same executable in other runs, of this experiment or another."""
     doubted: tuple[tuple[ProcessSeen, ExperimentSeen], ...] = ()
-    """It in runs of the experiment whose times were not believed."""
+    """It in runs of the experiment whose times were not believed; not where it ended by itself in
+    simulated time, and the run in real time tells what that is worth."""
     soaked: ProcessSeen | None = None
     """The same executable in the soak; None where none was made, or others tell of its end."""
 
@@ -133,11 +139,10 @@ class ProcessView(View):
     @property
     def ran_s(self) -> float:
         """Seconds from start to end; of its own time where that is simulated."""
+        if self.is_simulated:
+            return simulated_life_s(self.seen, self.experiment)
         ended_ns = self.seen.ended_ns or self.seen.started_ns
-        if not self.is_simulated:
-            return (ended_ns - self.seen.started_ns) / 1e9
-        lived = [tick.sim_ns for tick in self.experiment.ticks if tick.at_ns <= ended_ns]
-        return (lived[-1] - lived[0]) / 1e9 if lived else 0.0
+        return (ended_ns - self.seen.started_ns) / 1e9
 
     @property
     def shown(self) -> bool:
@@ -263,8 +268,9 @@ class ExperimentView(View):
         runs = [each.processes[label] for each in self.before if label in each.processes]
         before = tuple(process for process in runs if process.ending)
         doubted = tuple(
-            (each.processes[label], each) for each in self.doubted if label in each.processes
-        )
+            (each.processes[label], each) for each in self.doubted
+            if label in each.processes and not is_told_in_real_time(label, each, self.seen)
+        )  # fmt: skip
         seen = self.seen.processes[label]
         return ProcessView(
             seen,
@@ -386,8 +392,10 @@ def views_of(evidence: Evidence) -> dict[str, View]:
 
 def _soaked(evidence: Evidence) -> dict[str, ProcessSeen]:
     """Without what ended by itself in an experiment as well: checks that look there tell it."""
-    told = {each.executable for run in evidence.runs for each in run.processes.values()
-            if each.ended_by_itself}  # fmt: skip
+    told = {
+        each.executable for run in evidence.runs for label, each in run.processes.items()
+        if each.ended_by_itself and not is_outlived(label, run, evidence.experiments[run.name])
+    }  # fmt: skip
     soaked = evidence.soak.processes if evidence.soak else {}
     return {name: seen for name, seen in soaked.items() if name not in told}
 

@@ -9,6 +9,7 @@ from roslings.evidence import ProcessSeen
 BOUNDS = {
     "memory": "it took more memory than it may",
     "files": "it made more files than it may",
+    "output": "it printed without end",
     "pids": "it started more processes and threads than it may",
 }
 

@@ -91,6 +91,8 @@ class SimClock:
         from rosgraph_msgs.msg import Clock
 
         self.ticks = ticks
+        self.grid_ns = 10**9
+        """It begins at a multiple of this."""
         self._message = Clock
         # As a simulator has it (rclpy's own time source asks for best effort, depth 1).
         quality = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
@@ -104,10 +106,10 @@ class SimClock:
         return int(self._publisher.get_subscription_count())
 
     def tick(self, step_ns: int, barrier: Barrier, within_s: float) -> bool:
-        """Advance by one step; whether all nodes have handled it in time."""
+        """Advance by one step, or begin; whether all nodes have handled it in time."""
         from builtin_interfaces.msg import Time
 
-        now_ns = (self.ticks[-1].sim_ns if self.ticks else 0) + step_ns
+        now_ns = self.ticks[-1].sim_ns + step_ns if self.ticks else self._begin_ns()
         seconds, rest_ns = divmod(now_ns, 10**9)
         message = self._message(clock=Time(sec=seconds, nanosec=rest_ns))
         wall_ns, at_ns = time.time_ns(), time.monotonic_ns()
@@ -115,3 +117,11 @@ class SimClock:
         kept_up = barrier.passed(within_s)
         self.ticks.append(Tick(sim_ns=now_ns, wall_ns=wall_ns, at_ns=at_ns, kept_up=kept_up))
         return kept_up
+
+    def _begin_ns(self) -> int:
+        """Where a computer's clock stands, so that `now - Duration(...)` is a time.
+
+        A timer of ROS keeps to multiples of its period since its node's clock showed 0: where the
+        grid is that period, it speaks at steps of the clock, and never late between two of them.
+        """
+        return time.time_ns() // self.grid_ns * self.grid_ns

@@ -104,7 +104,8 @@ def _last_words(room: BuildRoom, process: Process, within_s: float) -> list[str]
     if complaint := read_foreign(room.complaint):
         lines = complaint.decode("utf-8", errors="replace").splitlines() or lines
     if met := process.seen.bounds_met:
-        lines.append(f"The build was ended: it took more than it may ({', '.join(met)}).")
+        what = "it printed without end" if "output" in met else "it took more than it may"
+        lines.append(f"The build was ended: {what} ({', '.join(met)}).")
     elif not process.seen.ended_by_itself:
         lines.append(f"The build did not end within {within_s:g} s.")
     return lines[-LAST_LINES:]

@@ -42,6 +42,7 @@ from roslings.judge.faults.processes import (
     EndedInTheSoak,
     EndedWithError,
     LeavesProcesses,
+    PrintsWithoutEnd,
     StoppedByItself,
     UncleanExit,
 )
@@ -93,6 +94,7 @@ __all__ = [
     "NothingToJudge",
     "OneColour",
     "PictureTooSmall",
+    "PrintsWithoutEnd",
     "QosCannotMatch",
     "StoppedByItself",
     "SyntaxErrorInCode",

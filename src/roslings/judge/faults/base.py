@@ -92,12 +92,12 @@ class NothingToJudge(Exception):
 class Unmet(Fault):
     """A bare `assert` of a grader did not hold."""
 
+    NO_MESSAGE: ClassVar[str] = "it is not so"
+
     sentence: str
+    message: str = NO_MESSAGE
+    """What the grader wrote behind the `assert`."""
     why = ""
     hint = "Read the lab's card again and compare."
-    measured = "it is not so"
-
-    @property
-    def expected(self) -> str:
-        """The check's own sentence."""
-        return self.sentence
+    expected = "{sentence}"
+    measured = "{message}"

@@ -110,6 +110,38 @@ class EndedInTheSoak(StoppedByItself):
 
 
 @dataclass(eq=False)
+class PrintsWithoutEnd(Fault):
+    """It writes line after line without a pause, and was ended for it."""
+
+    executable: str
+    lines: int
+    megabytes: float
+    after_s: float
+    was_seen = True
+    blocks = False
+    why = (
+        "In a terminal that runs full nobody finds the line that matters, and what prints all the"
+        " time leaves no processor to the others."
+    )
+    hint = (
+        "Which loop prints, and what makes it wait? Print in a callback or a timer, or only when "
+        "something is new."
+    )
+    expected = "{executable} writes a line when there is something to tell, and waits in between"
+    measured = (
+        "it wrote {lines:,} lines ({megabytes:.1f} MB) in {after_s:.1f} s and did not stop, so it"
+        " was ended"
+    )
+
+    @property
+    def program(self) -> str:
+        """Without the arguments that it was started with."""
+        return " ".join(
+            word for word in self.executable.split() if not (":=" in word or word.startswith("--"))
+        )
+
+
+@dataclass(eq=False)
 class DoesNotEnd(Fault):
     """Ctrl-C does not end the node in time."""
 

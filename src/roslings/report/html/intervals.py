@@ -113,7 +113,7 @@ def _one_period_s(rate: Rate, messages: Sequence[MessageSeen], step_s: float) ->
     """The period that explains all times, as near as possible to the mean; None where none does."""
     if len(messages) > MOST_COMPARED:
         return None
-    times_s = [_sim_ns(message) / NS_PER_S for message in messages]
+    times_s = [(_sim_ns(message) - _sim_ns(messages[0])) / NS_PER_S for message in messages]
     least_s, most_s = period_bounds_s(times_s, _counts(messages), step_s + ROUNDING_S)
     return min(max(rate.period_s, least_s), most_s) if least_s <= most_s else None
 
@@ -165,11 +165,12 @@ def intervals_of(
     messages: Sequence[MessageSeen], time_ns: Callable[[MessageSeen], int]
 ) -> Iterator[Interval]:
     """The intervals behind a rate, when it was measured by the clock `time_ns`."""
-    times_s = [time_ns(message) / NS_PER_S for message in messages]
+    begin_ns = time_ns(messages[0]) if messages else 0
+    times_s = [(time_ns(message) - begin_ns) / NS_PER_S for message in messages]
     for (earlier, before), (later, after) in pairwise(zip(times_s, _counts(messages), strict=True)):
         if after > before:
             steps = after - before
-            yield Interval(later - times_s[0], (later - earlier) / steps, steps - 1)
+            yield Interval(later, (later - earlier) / steps, steps - 1)
 
 
 def _counts(messages: Sequence[MessageSeen]) -> list[int]:

@@ -1,0 +1,63 @@
+"""Programs that print without end, graded as a student would: a failed check, with their lines."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from roslings.course import lab
+
+SPIN = "        rclpy.spin(Talker())"
+LOOP = "while True: print('again', file=__import__('sys').{stream})"
+FLOODS = {
+    "a node": ("topics", "chatter/talker.py", SPIN, "        talker = Talker()\n        {loop}"),
+    "a callback": ("topics", "chatter/talker.py", "        self.count += 1", "        {loop}"),
+    "a logger": (
+        "topics", "chatter/talker.py", SPIN,
+        "        talker = Talker()\n        while True: talker.get_logger().info('again')",
+    ),
+    "a program with one task": (
+        "black-box", "black_box/read_drive.py", "def main(", "{loop}\n\n\ndef main(",
+    ),
+    "a launch file": (
+        "bring-up", "launch/bring_up.launch.py", "    return LaunchDescription(",
+        "    {loop}\n    return LaunchDescription(",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("stream", ["stdout", "stderr"])
+@pytest.mark.parametrize("where", FLOODS)
+def test_it_is_a_failed_check_and_not_a_verdict_that_nobody_knows(
+    tmp_path: Path, where: str, stream: str
+) -> None:
+    """Of nodes, of a program that ends, and of a launch file; on both streams."""
+    name, file, find, replace = FLOODS[where]
+    (solution,) = (lab(name).folder / "solution").iterdir()
+    package = tmp_path / solution.name
+    shutil.copytree(solution, package)
+    text = (package / file).read_text("utf-8")
+    assert text.count(find) == 1
+    loop = LOOP.format(stream=stream)
+    (package / file).write_text(text.replace(find, replace.format(loop=loop)), "utf-8")
+    checks = verdict_on(name, package)["checks"]
+    floods = [check for check in checks if check["fault"] == "PrintsWithoutEnd"]
+    assert [check["outcome"] for check in floods] == ["fail"]
+    assert re.search(r"it wrote [1-9][\d,]+ lines", floods[0]["measured"])
+    assert not [check["id"] for check in checks if check["outcome"] == "inconclusive"]
+
+
+def verdict_on(name: str, package: Path) -> dict[str, list[dict[str, str]]]:
+    """What `check` writes of it."""
+    file = package.parent / "verdict.json"
+    words = ["check", name, str(package), "--json", str(file)]
+    subprocess.run([sys.executable, "-m", "roslings", *words], capture_output=True, check=False)
+    found: dict[str, list[dict[str, str]]] = json.loads(file.read_text("utf-8"))
+    return found
