@@ -72,7 +72,6 @@ MODULES = {
 """A module that Jazzy has, to what to use here."""
 
 ELEMENTS = {
-    "append_env": "",
     "for": "a launch file in Python with a for loop",
     "for_each": "a launch file in Python with a for loop",
     "lifecycle_node": "node, and in a terminal ros2 lifecycle set NODE configure",

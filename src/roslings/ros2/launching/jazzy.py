@@ -51,7 +51,8 @@ _EXPORTED = {
         get_launch_description_from_python_launch_file load_python_launch_file_as_module
         """,
     "launch.logging": """
-        LaunchConfig get_logger get_log_file_path get_output_loggers launch_config log_handler_factory
+        LaunchConfig get_log_file_path get_logger get_output_loggers launch_config
+        log_handler_factory
         """,
     "launch.substitutions": """
         AllSubstitution AndSubstitution AnonName AnySubstitution Command EnvironmentVariable
@@ -338,6 +339,6 @@ def has(module: str, name: str) -> bool:
     return f"{module}.{name}" in MODULES or name in MODULES.get(module, ())
 
 
-def has_attribute(cls: type, name: str) -> bool:
+def has_attribute(cls: type, name: str | None) -> bool:
     """Whether Jazzy's class of this name, or one of those that it is made from, has `name`."""
     return any(name in ATTRIBUTES.get(base.__name__, "").split() for base in cls.__mro__)

@@ -136,7 +136,9 @@ def _fault(where: Place, fault: Exception) -> BadLaunchFile:
 def _missing_attribute(fault: AttributeError) -> str:
     cls = fault.obj if isinstance(fault.obj, type) else type(fault.obj)
     is_ours = cls.__module__.startswith(__name__.rpartition(".")[0])
-    return f"{cls.__name__}.{fault.name}" if is_ours and jazzy.has_attribute(cls, fault.name) else ""
+    return (
+        f"{cls.__name__}.{fault.name}" if is_ours and jazzy.has_attribute(cls, fault.name) else ""
+    )
 
 
 def _told(fault: Exception) -> str:
