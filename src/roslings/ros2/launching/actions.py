@@ -17,6 +17,7 @@ from roslings.ros2.launching.substitution import (
     parts_or_none,
     performed,
 )
+from roslings.ros2.launching.substitutions import truth
 from roslings.ros2.problem import Problem, did_you_mean
 
 if TYPE_CHECKING:
@@ -112,14 +113,15 @@ class AppendEnvironmentVariable(SetLaunchConfiguration):
         separator: SomeSubstitutionsType = ":", **others: Any,
     ) -> None:  # fmt: skip
         super().__init__(name, value, **others)
-        self.prepend = str(prepend).lower() == "true"
+        self.prepend = parts_of(str(prepend) if isinstance(prepend, bool) else prepend, "prepend")
         self.separator = parts_of(separator, "separator")
 
     def execute(self, context: LaunchContext) -> None:
         """Append it."""
         name, value = performed(context, self.name), performed(context, self.value)
         old = context.environment.get(name)
-        pieces = [value, old] if self.prepend else [old, value]
+        first = truth(performed(context, self.prepend), "prepend")
+        pieces = [value, old] if first else [old, value]
         between = performed(context, self.separator)
         context.environment[name] = between.join(piece for piece in pieces if piece)
 
