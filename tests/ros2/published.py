@@ -101,6 +101,7 @@ SHORT: dict[str, str] = {
     "lifecycle list": "-a -s",
     "lifecycle nodes": "-a -c -s",
     "node list": "-a -c -s",
+    "pkg create": "--package_format",
     "pkg xml": "-t",
     "service call": "-r",
     "service echo": "-f -l",
@@ -116,7 +117,7 @@ SHORT: dict[str, str] = {
     "topic pub": "-r -p -1 -t -w -n -s",
     "wtf hello": "-t -ep -pp -1",
 }
-"""The short forms of a verb; of those that are not here, `-s` alone where it looks."""
+"""The other forms of a verb's options; of those that are not here, `-s` alone where it looks."""
 
 SHOWN: set[tuple[str, str]] = set()
 """Verb and option that some test shows; a verb's own showing has an empty option."""

@@ -12,6 +12,7 @@ from typing import Any
 
 import inside
 import pytest
+from published import shows
 from terminal import Ran, Shell
 
 from roslings.ros2.qos import mismatches
@@ -41,6 +42,7 @@ ROWS: dict[tuple[str, ...], tuple[int, str, str]] = {
 """Words to the exit code, and what stands in the output and on stderr."""
 
 
+@shows("daemon start", "--debug")
 @pytest.mark.parametrize("words", ROWS, ids=" ".join)
 def test_it_is_as_the_real_one_has_it(workshop: Shell, words: tuple[str, ...]) -> None:
     """The exit code, and the words."""

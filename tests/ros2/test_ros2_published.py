@@ -65,8 +65,15 @@ def words_with(parser: argparse.ArgumentParser, option: argparse.Action, form: s
     """The fewest words that a verb takes together with one option."""
     needed = [one for one in parser._actions if not one.option_strings and one.required]
     words = ["list" if isinstance(one, argparse._SubParsersAction) else "1" for one in needed]
-    value = [] if option.nargs == 0 else [str(option.choices[0]) if option.choices else "1"]  # type: ignore[index]  # a tuple
+    value = [] if option.nargs == 0 else [value_of(option)]
     return [form, *value, *words] if option.nargs != "+" else [*words, form, *value]
+
+
+def value_of(option: argparse.Action) -> str:
+    """One that it takes."""
+    if option.choices:
+        return str(next(iter(option.choices)))
+    return "225.0.0.1" if option.dest == "group" else "1"
 
 
 @pytest.mark.parametrize("verb", PUBLISHED)
