@@ -20,17 +20,18 @@ from roslings.ros2.qos import mismatches
 STRING = "std_msgs/msg/String"
 NO_FIELDS = "The passed value needs to be a dictionary in YAML format"
 
+ONCE = ("topic", "pub", "--once", "-w", "0")
+
 ROWS: dict[tuple[str, ...], tuple[int, str, str]] = {
     ("param", "get", "/maker", "unset"): (1, "", "Parameter not set"),
     ("param", "get", "/maker", "unset", "--hide-type"): (1, "", "Parameter not set"),
-    ("topic", "pub", "/x", STRING, "--keep-alive", "0"): (2, "", "0 is not above zero"),
-    ("topic", "pub", "/x", STRING, "null"): (1, "", NO_FIELDS),
-    ("topic", "pub", "/x", STRING, ""): (1, "", NO_FIELDS),
-    ("topic", "pub", "/x", "geometry_msgs/msg/Twist", "{linear: null}"): (
+    (*ONCE, "/x", STRING, "--keep-alive", "0"): (2, "", "0 is not above zero"),
+    (*ONCE, "/x", STRING, "null"): (1, "", NO_FIELDS),
+    (*ONCE, "/x", STRING, ""): (1, "", NO_FIELDS),
+    (*ONCE, "/x", "geometry_msgs/msg/Twist", "{linear: null}"): (
         1, "", "Failed to populate field: linear: it needs {x: ..., y: ..., z: ...}",
     ),
-    ("service", "call", "/x", "std_srvs/srv/SetBool", "null"): (1, "", NO_FIELDS),
-    ("action", "send_goal", "/x", "test_msgs/action/Fibonacci", "null"): (1, "", NO_FIELDS),
+    ("service", "call", "/maker/list_parameters", "rcl_interfaces/srv/ListParameters", "null"): (1, "", NO_FIELDS),
     ("daemon", "start", "-d"): (0, "No daemon is started", ""),
     ("interface", "show", ""): (2, "", "the passed value is empty"),
     ("node", "info", "maker"): (0, "/maker\n", "NOTE: write /maker. On a robot, ros2 does not"),
