@@ -20,6 +20,7 @@ from roslings.ros2.qos import mismatches
 STRING = "std_msgs/msg/String"
 NO_FIELDS = "The passed value needs to be a dictionary in YAML format"
 
+LISTING = "rcl_interfaces/srv/ListParameters"
 ONCE = ("topic", "pub", "--once", "-w", "0")
 
 ROWS: dict[tuple[str, ...], tuple[int, str, str]] = {
@@ -31,7 +32,7 @@ ROWS: dict[tuple[str, ...], tuple[int, str, str]] = {
     (*ONCE, "/x", "geometry_msgs/msg/Twist", "{linear: null}"): (
         1, "", "Failed to populate field: linear: it needs {x: ..., y: ..., z: ...}",
     ),
-    ("service", "call", "/maker/list_parameters", "rcl_interfaces/srv/ListParameters", "null"): (1, "", NO_FIELDS),
+    ("service", "call", "/maker/list_parameters", LISTING, "null"): (1, "", NO_FIELDS),
     ("daemon", "start", "-d"): (0, "No daemon is started", ""),
     ("interface", "show", ""): (2, "", "the passed value is empty"),
     ("node", "info", "maker"): (0, "/maker\n", "NOTE: write /maker. On a robot, ros2 does not"),
