@@ -1,6 +1,6 @@
 """Every verb and option of the published command line of Jazzy (ros2cli 0.32), and who shows it.
 
-Doctor, bag, launch and component have words of their own here. `-h` is everywhere.
+Bag, launch and component have words of their own here. `-h` is everywhere.
 """
 
 from __future__ import annotations
@@ -27,9 +27,10 @@ PUBLISHED: dict[str, tuple[str, ...]] = {
     "action list": (*LOOK, "--show-types", "--count-actions"),
     "action send_goal": ("--stdin", "--feedback"),
     "action type": LOOK,
-    "daemon start": (),
+    "daemon start": ("--debug",),
     "daemon status": (),
     "daemon stop": (),
+    "doctor": ("--report", "--report-failed", "--exclude-packages", "--include-warnings"),
     "interface list": KINDS,
     "interface package": KINDS,
     "interface packages": KINDS,
@@ -87,6 +88,36 @@ PUBLISHED: dict[str, tuple[str, ...]] = {
     "topic type": LOOK,
     "wtf hello": ("--topic", "--emit-period", "--print-period", "--ttl", "--once"),
 }  # fmt: skip
+
+SHORT: dict[str, str] = {
+    "action info": "-t -c -s",
+    "action list": "-t -c -s",
+    "action send_goal": "-f",
+    "daemon start": "-d",
+    "doctor": "-r -rf -ep -iw",
+    "interface list": "-m -s -a",
+    "interface package": "-m -s -a",
+    "interface packages": "-m -s -a",
+    "lifecycle list": "-a -s",
+    "lifecycle nodes": "-a -c -s",
+    "node list": "-a -c -s",
+    "pkg create": "--package_format",
+    "pkg xml": "-t",
+    "service call": "-r",
+    "service echo": "-f -l",
+    "service find": "-c",
+    "service list": "-t -c -s",
+    "topic bw": "-w -s",
+    "topic delay": "-w -s",
+    "topic echo": "-i -f -l -s",
+    "topic find": "-c -s",
+    "topic hz": "-w -s",
+    "topic info": "-v -s",
+    "topic list": "-t -c -v -s",
+    "topic pub": "-r -p -1 -t -w -n -s",
+    "wtf hello": "-t -ep -pp -1",
+}
+"""The other forms of a verb's options; of those that are not here, `-s` alone where it looks."""
 
 SHOWN: set[tuple[str, str]] = set()
 """Verb and option that some test shows; a verb's own showing has an empty option."""

@@ -94,6 +94,7 @@ CASES = {
         says=(
             r"^\[INFO\] \[teller-1\]: sending signal 'SIGINT' to process\[teller-1\]$",
             r"^\[INFO\] \[teller-1\]: process has finished cleanly",
+            r"^\[INFO\] \[launch\]: process\[\S+\] was required: shutting down launched system$",
         ),
         never=("SIGTERM",),
     ),
@@ -110,6 +111,15 @@ CASES = {
             "SHARE/config/a.yaml", "at once SHARE", "prefix PREFIX", "3.142", "from a command",
             f"{HERE_TEXT}/substitutions.launch.py", "a note", "yes",
         ]
+    ),
+    "asked_once.launch.py": Expected(
+        [node("/client")],
+        says=(r"^\[INFO\] \[teller-1\]: sending signal 'SIGINT' to process\[teller-1\]$",),
+        never=("was required",),
+    ),
+    "beside.launch.py": Expected([node("/one"), node("/two")]),
+    "joystick.launch.py": Expected(
+        [node("/left/wheels", topic="/left/news", **FROM_FILE, speed=0.1, dead=0.3)]
     ),
     "output.launch.py": Expected(
         [node("/logs"), node("/shows")],

@@ -132,7 +132,10 @@ def test_what_is_not_here_says_what_to_use(
     assert ran.code == NOT_READ_HERE
     assert ran.err.count("\n") == 1
     assert "line 1: '" in ran.err
-    assert " is not known here: it needs the full ros2 on Ubuntu 24.04 (sudo apt" in ran.err
+    assert (
+        " is right in Jazzy, and not in this launch: it needs the full ros2 on Ubuntu 24.04 (sudo"
+        in ran.err
+    )
     assert said in ran.err
 
 

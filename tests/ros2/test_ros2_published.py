@@ -9,11 +9,12 @@ from pathlib import Path
 
 import inside
 import pytest
-from published import LOOK, PUBLISHED, SHOWN, shows
+from published import LOOK, PUBLISHED, SHORT, SHOWN, shows
 from terminal import HERE, Shell
 
 from roslings.ros2 import discovery as eye
 from roslings.ros2.cli import parser_for
+from roslings.ros2.commands.doctor import parser_for as doctor_parser_for
 from roslings.ros2.commands.hello import parser_for as hello_parser_for
 from roslings.ros2.discovery import Settling, Sight
 from roslings.ros2.words import Parser
@@ -36,6 +37,8 @@ def parser_of(words: str) -> argparse.ArgumentParser:
     command, *verbs = words.split()
     if words == "wtf hello":
         return hello_parser_for("wtf")
+    if words == "doctor":
+        return doctor_parser_for("doctor")
     parser: argparse.ArgumentParser = parser_for(command)
     for word in (command, *verbs):
         parser = children_of(parser)[word]
@@ -56,6 +59,37 @@ def test_every_published_option_is_taken(verb: str) -> None:
     }
     assert set(PUBLISHED[verb]) <= set(taken)
     assert all(taken[option] not in (None, "", argparse.SUPPRESS) for option in PUBLISHED[verb])
+
+
+def words_with(parser: argparse.ArgumentParser, option: argparse.Action, form: str) -> list[str]:
+    """The fewest words that a verb takes together with one option."""
+    needed = [one for one in parser._actions if not one.option_strings and one.required]
+    words = ["list" if isinstance(one, argparse._SubParsersAction) else "1" for one in needed]
+    value = [] if option.nargs == 0 else [value_of(option)]
+    return [form, *value, *words] if option.nargs != "+" else [*words, form, *value]
+
+
+def value_of(option: argparse.Action) -> str:
+    """One that it takes."""
+    if option.choices:
+        return str(next(iter(option.choices)))
+    return "225.0.0.1" if option.dest == "group" else "1"
+
+
+@pytest.mark.parametrize("verb", PUBLISHED)
+def test_each_option_that_only_we_take_is_told(
+    verb: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """One line says so, for the habit breaks on a robot; the others are taken without a word."""
+    parser = parser_of(verb)
+    real = {*PUBLISHED[verb], *SHORT.get(verb, "-s").split(), "-h", "--help"}
+    for option in parser._actions:
+        for form in set(option.option_strings) - {"-h", "--help"}:
+            parser.parse_args(words_with(parser, option, form))
+            told = capsys.readouterr().err
+            assert told.startswith("NOTE: ") == (form not in real), f"{form}: {told}"
+            assert told.count("\n") == (form not in real)
+            assert not told or form in told
 
 
 def wanted() -> Iterator[tuple[str, str]]:

@@ -12,6 +12,7 @@ import pytest
 from published import QOS, SHAPE, shows
 from terminal import Shell, eventually
 
+from roslings.rates import measure_rate
 from roslings.ros2 import qos
 from roslings.ros2.cli import parser_for
 from roslings.ros2.measuring import Ages, Arrival, delay_lines, few_rate
@@ -269,10 +270,17 @@ def test_hz_of_some_messages_and_of_a_small_window(workshop: Shell) -> None:
 def test_a_small_window_has_a_rate() -> None:
     """Of three periods the mean, and how many messages are missing among them."""
     arrivals = [Arrival(n * 10**8, n, n * 10**8, 10) for n in (1, 2, 4, 5)]
-    rate = few_rate(arrivals, window=3)
+    rate = few_rate(arrivals)
     assert rate
     assert (round(rate.hz, 3), rate.lost) == (7.5, 1)
-    assert few_rate(arrivals[:3], window=3) is None, "it is not full yet"
+
+
+def test_two_messages_have_a_rate() -> None:
+    """The first line of `topic hz` comes with the second message, as the real one's."""
+    arrivals = [Arrival(n * 10**8, n, n * 10**8, 10) for n in (1, 2, 3, 4, 5, 6)]
+    shown = [measure_rate(arrivals[:count]) or few_rate(arrivals[:count]) for count in range(7)]  # type: ignore[arg-type]  # only the stamps are read
+    assert [bool(rate) for rate in shown] == [False, False, True, True, True, True, True]
+    assert {round(rate.hz, 6) for rate in shown if rate} == {10.0}
 
 
 @shows("topic bw", "--window")

@@ -30,8 +30,7 @@ class WrongUse(Exception):
 def main(argv: Sequence[str] | None = None) -> int:
     """Examine this machine as the words ask, print, and return the exit code."""
     try:
-        words = _parser().parse_args(argv)
-        return _run(words, this_machine())
+        return _run(words_parser().parse_args(argv), this_machine())
     except WrongUse as problem:
         print(f"roslings doctor: {problem}", file=sys.stderr)
         return WRONG_USE
@@ -47,9 +46,16 @@ class _Parser(argparse.ArgumentParser):
         raise WrongUse(f"{message}. Type ./roslings doctor --help to see all words.")
 
 
-def _parser() -> argparse.ArgumentParser:
+def look(argv: Sequence[str]) -> Examination:
+    """Examine this machine as the words ask, print, and return what was found. Raises WrongUse."""
+    words = words_parser().parse_args(argv)
+    return _looked(words, _meant(words, this_machine()))
+
+
+def words_parser(prog: str = "roslings doctor") -> argparse.ArgumentParser:
+    """All words of the doctor."""
     parser = _Parser(
-        prog="roslings doctor",
+        prog=prog,
         description="Looks whether this machine is ready, and says what to type where it is not."
         " It changes nothing.",
         allow_abbrev=False,
@@ -71,17 +77,27 @@ def _run(words: argparse.Namespace, machine: Machine) -> int:
     if words.list:
         _print(list_lines(all_checks()))
         return NO_FAULT
-    if words.workspace is not None:
-        machine = replace(machine, workspace=workspace_root(words.workspace))
+    machine = _meant(words, machine)
     if words.explain:
         return _explain(words, machine)
+    return _code(_looked(words, machine))
+
+
+def _meant(words: argparse.Namespace, machine: Machine) -> Machine:
+    """The machine with the workspace that the words name."""
+    if words.workspace is None:
+        return machine
+    return replace(machine, workspace=workspace_root(words.workspace))
+
+
+def _looked(words: argparse.Namespace, machine: Machine) -> Examination:
     seen = examine(machine, _chosen(words.only))
     shown = redacted(seen) if words.redact else seen
     if words.json:
         print(json.dumps(document(shown), indent=2))
     else:
         _print(lines_of(shown, Paint(colourful(sys.stdout, machine)), bool(words.only)))
-    return _code(seen)
+    return seen
 
 
 def _chosen(ids: list[str] | None) -> list[Check]:

@@ -33,6 +33,7 @@ COMMANDS = {
 }
 DOCTORS = ("doctor", "wtf")
 FULL_ONLY = ("control", "extension_points", "extensions", "plugin", "security", "test", "trace")
+BUFFERING = "--use-python-default-buffering"
 STARTERS = ("launch", "run")
 """What these start writes to our own standard output."""
 
@@ -49,9 +50,11 @@ def main(argv: Sequence[str]) -> int:
 def quietly(argv: list[str]) -> int:
     """Run our own verb; Ctrl-C and a closed pipe end it without a word."""
     stopping.listen()
+    words = argv[1:] if argv[:1] == [BUFFERING] else argv
     try:
-        sys.stdout.reconfigure(line_buffering=True)  # type: ignore[union-attr]
-        code = explained(lambda: run(argv))
+        if words is argv:
+            sys.stdout.reconfigure(line_buffering=True)  # type: ignore[union-attr]
+        code = explained(lambda: run(words))
         sys.stdout.flush()
         return code
     except KeyboardInterrupt:
@@ -127,14 +130,14 @@ def no_version() -> int:
 
 
 def examine(command: str, words: list[str]) -> int:
-    """`ros2 doctor ...`: every word but hello, options too, is for the doctor of roslings."""
+    """`ros2 doctor ...`: hello, the report of the real one, or the doctor of roslings."""
     if words[:1] == ["hello"]:
         from roslings.ros2.commands.hello import run as hello
 
         return hello(command, words[1:])
-    from roslings.doctor.cli import main as doctor
+    from roslings.ros2.commands.doctor import run as doctor
 
-    return doctor(words)
+    return doctor(command, words)
 
 
 def first_word(argv: Sequence[str]) -> str | None:
@@ -160,6 +163,10 @@ def parser_for(word: str | None) -> Parser:
     """All commands by name; of the chosen one also its verbs and options."""
     parser = Parser(prog="ros2", description="ros2 is an extensible command-line tool for ROS 2.")
     parser.set_defaults(run=lambda _: _help(parser))
+    parser.add_argument(
+        BUFFERING, action="store_true",
+        help="Do not write each line at once, but as Python does where the output is no terminal",
+    )  # fmt: skip
     words = parser.add_subparsers(title="Commands", metavar="COMMAND", parser_class=Parser)
     for name, about in COMMANDS.items():
         command = words.add_parser(name, help=about, description=about)

@@ -95,7 +95,7 @@ def hz(options: argparse.Namespace) -> int:
             eye.until(lambda: False, EVERY_S)
             if window.something_new():
                 arrivals = list(window.arrivals)
-                rate = measure_rate(arrivals) or few_rate(arrivals, options.window)  # type: ignore[arg-type]  # only the stamps are read
+                rate = measure_rate(arrivals) or few_rate(arrivals)  # type: ignore[arg-type]  # only the stamps are read
                 if rate:
                     print("\n".join(hz_lines(rate, _unknown_losses(eye, topic, options))))
 
@@ -119,18 +119,18 @@ def filtered(
     return choose
 
 
-def few_rate(arrivals: list[Arrival], window: int) -> Rate | None:
-    """The rate of so few messages as a small `--window` leaves; None where it is not full."""
+def few_rate(arrivals: list[Arrival]) -> Rate | None:
+    """The rate of the first messages, or of so few as a small `--window` leaves."""
     from roslings.rates import FEWEST_INTERVALS, Rate
 
-    if window >= FEWEST_INTERVALS or len(arrivals) <= window:
+    if not 1 < len(arrivals) <= FEWEST_INTERVALS:
         return None
     stamped = all(arrival.source_ns for arrival in arrivals)
     times_ns = [(a.source_ns if stamped else None) or a.arrival_ns for a in arrivals]
     periods_s = tuple((after - before) / 1e9 for before, after in pairwise(times_ns))
     mean_s = statistics.fmean(periods_s)
     numbers = [arrival.sequence for arrival in arrivals if arrival.sequence is not None]
-    lost = numbers[-1] - numbers[0] - window if len(numbers) > window else 0
+    lost = numbers[-1] - numbers[0] - len(periods_s) if len(numbers) == len(arrivals) else 0
     return Rate(1 / mean_s, 0.0, periods_s, lost, stamped) if mean_s > 0 else None
 
 

@@ -72,7 +72,7 @@ def _voice(eye: Eye, topic: str, cls: type[Any], options: argparse.Namespace) ->
 
 
 def _turned(why: str) -> str:
-    return why.replace("it offers", "we offer").replace("its deadline", "our deadline")
+    return why.replace("it offers", "we offer").replace("its ", "our ")
 
 
 def _warn(eye: Eye, topic: str, type_name: str) -> None:

@@ -7,6 +7,7 @@ import sys
 from collections.abc import Iterable, Sequence
 from typing import Any
 
+from roslings.ros2.habits import OnlyHere
 from roslings.ros2.words import not_negative, seconds
 
 PRESETS = (
@@ -24,24 +25,31 @@ MATCHED = (
 )  # fmt: skip
 """Policy, the better quality, the lesser one: who offers the lesser cannot reach who asks more."""
 
+ORDERED = (*MATCHED, ("liveliness", "MANUAL_BY_TOPIC", "AUTOMATIC"))
+TIMES = (("deadline", "deadline"), ("liveliness_lease_duration", "liveliness lease (LIVELINESS)"))
+
 SENSOR_DATA = "sensor_data"
 DEFAULT_DEPTH = 10
 
 
-def add_qos_options(parser: argparse.ArgumentParser, subject: str) -> None:
-    """The `--qos-*` options; `subject` is what they are for."""
+def add_qos_options(parser: argparse.ArgumentParser, subject: str, only_here: bool = False) -> None:
+    """The `--qos-*` options; `subject` is what they are for; with some verbs only we take them."""
+    action = OnlyHere if only_here else "store"
     group = parser.add_argument_group(f"quality of service to {subject} with")
     group.add_argument(
-        "--qos-profile", choices=PRESETS, metavar="NAME",
+        "--qos-profile", action=action, choices=PRESETS, metavar="NAME",
         help=f"a preset for all of them: {', '.join(PRESETS)}",
     )  # fmt: skip
-    group.add_argument("--qos-depth", metavar="N", type=not_negative, help="queue size")
+    group.add_argument(
+        "--qos-depth", action=action, metavar="N", type=not_negative, help="queue size"
+    )
     for policy, choices in POLICIES.items():
         group.add_argument(
-            f"--qos-{policy}", choices=choices, metavar="WORD", help=", ".join(choices)
-        )
+            f"--qos-{policy}", action=action, choices=choices, metavar="WORD",
+            help=", ".join(choices),
+        )  # fmt: skip
     group.add_argument(
-        "--qos-liveliness-lease-duration-seconds", metavar="S", type=seconds,
+        "--qos-liveliness-lease-duration-seconds", action=action, metavar="S", type=seconds,
         help="liveliness lease duration",
     )  # fmt: skip
 
@@ -132,13 +140,25 @@ def _set_common(
 def mismatches(asked: Any, offered: Any) -> list[str]:
     """Why a subscription that asks for `asked` hears nothing from one who offers `offered`."""
     found = []
-    for policy, wanted, given in MATCHED:
+    for policy, wanted, given in ORDERED:
         asks, gives = getattr(asked, policy).name, getattr(offered, policy).name
         if asks == wanted and gives == given:
             found.append(f"it offers {policy} {gives}, and {asks} is asked for")
-    if 0 < asked.deadline.nanoseconds < offered.deadline.nanoseconds:
-        found.append("its deadline is longer than the one asked for")
+    found += [f"its {what} is longer than the one asked for" for what in _longer(asked, offered)]
     return found
+
+
+def _longer(asked: Any, offered: Any) -> list[str]:
+    """The times within which a publisher promises too little; none at all is without end."""
+    return [
+        what
+        for policy, what in TIMES
+        if _ns(asked, policy) > 0 and not 0 < _ns(offered, policy) <= _ns(asked, policy)
+    ]
+
+
+def _ns(profile: Any, policy: str) -> int:
+    return int(getattr(profile, policy).nanoseconds)
 
 
 def said_about(publishers: Iterable[Any], asked: Any) -> list[str]:

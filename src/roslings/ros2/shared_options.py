@@ -4,26 +4,49 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Callable, Collection
 from typing import Any
 
+from roslings.ros2.habits import OnlyHere, ShortOnlyHere
 from roslings.ros2.words import add, not_negative, seconds
 
 DEFAULT_LENGTH = 128
 
 
-def node_options(parser: argparse.ArgumentParser, daemon: bool = True) -> None:
-    """How to look: ours looks afresh each time, until it is done."""
+DIRECT = ("spin_time", "use_sim_time")
+
+
+def node_options(
+    parser: argparse.ArgumentParser, daemon: bool = True, only_here: Collection[str] = ()
+) -> None:
+    """How to look: ours looks afresh each time, until it is done.
+
+    `only_here` names those that the full tool does not take with this verb.
+    """
+    how = _switches(only_here)
     parser.add_argument(
         "--spin-time", type=seconds, default=0.0, metavar="S",
+        action=OnlyHere if "spin_time" in only_here else "store",
         help="Look for S seconds at least (needed only where nodes of other computers start late)",
     )  # fmt: skip
     parser.add_argument(
-        "-s", "--use-sim-time", action="store_true", help="Take the time from the topic /clock"
+        "-s", "--use-sim-time", **how("use_sim_time"), help="Take the time from the topic /clock"
     )
     if daemon:
         parser.add_argument(
-            "--no-daemon", action="store_true", help="Use no daemon (here there is none anyway)"
+            "--no-daemon", **how("no_daemon"), help="Use no daemon (here there is none anyway)"
         )
+
+
+def _switches(only_here: Collection[str]) -> Callable[[str], dict[str, Any]]:
+    """How argparse makes a switch: one that only we take says so."""
+
+    def how(name: str) -> dict[str, Any]:
+        if name not in only_here:
+            return {"action": "store_true"}
+        return {"action": OnlyHere, "nargs": 0, "default": False}
+
+    return how
 
 
 def hidden_topics(command: argparse.ArgumentParser) -> None:
@@ -36,11 +59,13 @@ def hidden_services(command: argparse.ArgumentParser) -> None:
     _hidden(command, "services")
 
 
-def also_hidden(verb: argparse.ArgumentParser, what: str, *short: str) -> None:
-    """The same option once more, after the verb."""
+def also_hidden(
+    verb: argparse.ArgumentParser, what: str, *short: str, only_here: bool = False
+) -> None:
+    """The same option once more, after the verb; the full tool has no short form of it."""
     verb.add_argument(
-        f"--include-hidden-{what}", *short, action="store_true", default=argparse.SUPPRESS,
-        help=f"Consider hidden {what} as well",
+        f"--include-hidden-{what}", *short, action=OnlyHere if only_here else ShortOnlyHere,
+        nargs=0, default=argparse.SUPPRESS, help=f"Consider hidden {what} as well",
     )  # fmt: skip
 
 

@@ -119,6 +119,11 @@ def seconds(text: str) -> float:
     return float(_at_least(text, float, 0))
 
 
+def positive_seconds(text: str) -> float:
+    """A duration in seconds, above zero, for argparse."""
+    return rate(text)
+
+
 def _at_least(text: str, kind: type[Any], least: int) -> Any:
     value = _number(text, kind)
     if value < least:

@@ -55,8 +55,6 @@ def filled(message: Any, text: str) -> list[Stamp]:
     Raises BadYaml, NotFields, BadField.
     """
     values = parsed(text)
-    if values is None:
-        return []
     if not isinstance(values, Mapping):
         raise NotFields(text, name_of(message), _fields(message))
     stamps: list[Stamp] = []
@@ -144,8 +142,6 @@ def _new(of: str) -> Any:
 
 
 def _message(current: Any, value: Any, place: str, stamps: list[Stamp]) -> Any:
-    if value is None:
-        return current
     if not isinstance(value, Mapping):
         fields = ", ".join(f"{name}: ..." for name in _fields(current))
         raise BadField(place, f"it needs {{{fields}}}, and not {value!r}")

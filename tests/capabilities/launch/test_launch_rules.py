@@ -40,6 +40,6 @@ def test_all_must_be_there() -> None:
 
 def test_what_cannot_be_read_here_is_no_fault() -> None:
     """It says what, and what to do."""
-    said = "[ERROR] [launch]: two.launch.xml, line 3: 'timer' is not known here. It needs more."
+    said = "[ERROR] [launch]: two.launch.xml, line 3: 'timer' is right, and needs the full ros2."
     with pytest.raises(Inconclusive, match=r"line 3: 'timer'.*show it to your instructor"):
         launched(NOT_READ_HERE, said=said).must(start_all(["/eye"]))

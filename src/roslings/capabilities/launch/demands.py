@@ -85,7 +85,7 @@ def _missing(process: ProcessView, name: str, there: tuple[str, ...]) -> faults.
 
 
 def _not_read(log: Sequence[str]) -> str:
-    said = [line.rpartition("[launch]: ")[2] for line in log if "known here" in line]
+    said = [line.rpartition("[launch]: ")[2] for line in log if "needs the full ros2" in line]
     why = f" ({said[0]})" if said else ""
     return (
         f"only the full ROS can carry out this launch file{why};"

@@ -13,7 +13,9 @@ def declare(command: argparse.ArgumentParser) -> None:
     """The verbs."""
     verbs = Verbs(command)
     start = verbs("start", "Start the daemon if it isn't running", tell("No daemon is started"))
-    start.add_argument("--debug", action="store_true", help="Tell more (here there is no more)")
+    start.add_argument(
+        "-d", "--debug", action="store_true", help="Tell more (here there is no more)"
+    )
     for verb, about in (
         ("stop", "Stop the daemon if it is running"), ("status", "Output the status of the daemon"),
     ):  # fmt: skip

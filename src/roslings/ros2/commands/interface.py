@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from typing import Any
 
 from roslings.ros2.interfaces import KINDS
@@ -18,7 +19,7 @@ def declare(command: argparse.ArgumentParser) -> None:
     listing = verbs("list", "List all interface types available", list_all)
     _only_options(listing, "Print out only the {} types")
     show = verbs("show", "Output the interface definition", show_text)
-    _type_name(show)
+    _type_name(show, "'-' reads it from standard input: ros2 topic type /x | ros2 interface show -")
     comments = show.add_mutually_exclusive_group()
     comments.add_argument("--all-comments", action="store_true", help="Show comments of all types")
     comments.add_argument("--no-comments", action="store_true", help="Show no comments")
@@ -44,11 +45,28 @@ def _only_options(parser: argparse.ArgumentParser, about: str) -> None:
         )  # fmt: skip
 
 
-def _type_name(parser: argparse.ArgumentParser) -> None:
+def _type_name(parser: argparse.ArgumentParser, more: str = "") -> None:
     add(
-        parser, "type", complete=complete_all,
-        help="Name of the ROS type (e.g. 'std_msgs/msg/String')",
+        parser, "type", complete=complete_all, action=Piped if more else "store",
+        help=f"Name of the ROS type (e.g. 'std_msgs/msg/String'). {more}".strip(),
     )  # fmt: skip
+
+
+class Piped(argparse.Action):
+    """A word that may come from another command: `-` is the next line of standard input."""
+
+    def __call__(
+        self, parser: argparse.ArgumentParser, namespace: argparse.Namespace, values: Any,
+        option_string: str | None = None,
+    ) -> None:  # fmt: skip
+        """Keep it; a terminal has nothing to read, and nothing may have come."""
+        if values == "-":
+            if sys.stdin.isatty():
+                parser.error("expected stdin pipe: ros2 topic type /x | ros2 interface show -")
+            values = sys.stdin.readline().strip()
+        if not values:
+            parser.error("the passed value is empty: the command before found no type")
+        setattr(namespace, self.dest, values)
 
 
 def complete_all(**_: Any) -> list[str]:

@@ -152,12 +152,18 @@ def chosen_file(options: argparse.Namespace) -> tuple[Path, list[str]]:
     """The launch file, and the words that are arguments. Raises LaunchFileNotFound, NoFile."""
     first, second = options.package_name, options.launch_file_name
     words = list(options.launch_arguments)
-    if second is None or ASSIGN in second:
-        path = Path(first)
+    path = Path(first)
+    if second is None or ASSIGN in second or (path.is_file() and not _is_package(first)):
         if not path.is_file():
             raise NoFile(path)
         return path, [*([second] if second else []), *words]
     return _in_package(first, second), words
+
+
+def _is_package(name: str) -> bool:
+    from roslings.ros2.packages import packages
+
+    return name in packages()
 
 
 def _in_package(package: str, name: str) -> Path:

@@ -6,7 +6,7 @@ import argparse
 import sys
 from collections.abc import Iterable
 
-from roslings.ros2.names import absolute
+from roslings.ros2.habits import full_node
 from roslings.ros2.problem import Problem, did_you_mean
 from roslings.ros2.shared_options import complete_nodes, count_only, node_options
 from roslings.ros2.words import OK, Verbs, add
@@ -65,7 +65,7 @@ def show_info(options: argparse.Namespace) -> int:
     from roslings.ros2.discovery import Eye
 
     with Eye.asked_by(options) as eye:
-        name = absolute(options.node_name)
+        name = full_node(options.node_name)
         running = eye.settle().nodes(hidden=options.include_hidden)
         if name not in running:
             raise NodeNotFound(options.node_name, running)

@@ -180,7 +180,8 @@ def show_value(options: argparse.Namespace) -> int:
             label = "" if options.hide_type else f"{WORDS[found[0].type][1]} "
             print(f"{label}{plain(found[0])}")
         elif options.parameter_name in names_of(eye, node):
-            print("None" if options.hide_type else "Parameter not set.")
+            print("Parameter not set", file=sys.stderr)
+            return FAILED
         else:
             raise _unknown(eye, node, options.parameter_name)
     return OK

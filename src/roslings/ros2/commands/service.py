@@ -11,6 +11,7 @@ from roslings.ros2.habits import full_topic, full_type
 from roslings.ros2.problem import Problem, ServiceNotThere, did_you_mean
 from roslings.ros2.qos import add_qos_options
 from roslings.ros2.shared_options import (
+    DIRECT,
     also_hidden,
     complete_interfaces,
     complete_services,
@@ -61,8 +62,9 @@ def declare(command: argparse.ArgumentParser) -> None:
     _service_name(info)
     for verb in (listing, find):
         also_hidden(verb, "services", "-a")
-    for verb in (listing, kind, find, info):
+    for verb in (listing, kind, info):
         node_options(verb)
+    node_options(find, only_here=(*DIRECT, "no_daemon"))
     _declare_call(verbs)
     _declare_echo(verbs)
 
@@ -83,7 +85,7 @@ def _declare_call(verbs: Verbs) -> None:
     word.add_argument(
         "-r", "--rate", metavar="N", type=rate, help="Repeat the call at a specific rate in Hz"
     )
-    node_options(word, daemon=False)
+    node_options(word, daemon=False, only_here=DIRECT)
 
 
 def _declare_echo(verbs: Verbs) -> None:
@@ -95,7 +97,7 @@ def _declare_echo(verbs: Verbs) -> None:
     )  # fmt: skip
     shape_options(word)
     add_qos_options(word, "listen")
-    node_options(word)
+    node_options(word, only_here=(*DIRECT, "no_daemon"))
 
 
 def _service_name(parser: argparse.ArgumentParser) -> None:

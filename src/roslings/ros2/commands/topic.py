@@ -21,7 +21,18 @@ from roslings.ros2.shared_options import (
     stdin_option,
     topic_name,
 )
-from roslings.ros2.words import FAILED, OK, Run, Verbs, add, not_negative, positive, rate, seconds
+from roslings.ros2.words import (
+    FAILED,
+    OK,
+    Run,
+    Verbs,
+    add,
+    not_negative,
+    positive,
+    positive_seconds,
+    rate,
+    seconds,
+)
 
 HZ_WINDOW, BW_WINDOW, DELAY_WINDOW = 10_000, 100, 10_000
 OF_EVERY_NODE = {
@@ -104,7 +115,9 @@ def _declare_echo(verbs: Verbs) -> None:
         "--no-lost-messages", action="store_true", help="Don't report when a message is lost"
     )
     shape_options(echo)
-    _listening_options(echo)
+    add_qos_options(echo, "subscribe")
+    node_options(echo)
+    also_hidden(echo, "topics", only_here=True)
 
 
 def _declare_measuring(verbs: Verbs) -> None:
@@ -118,7 +131,9 @@ def _declare_measuring(verbs: Verbs) -> None:
             "-w", "--window", type=positive, default=window, metavar="N",
             help=f"window size, in # of messages (default: {window})",
         )  # fmt: skip
-        _listening_options(verb)
+        add_qos_options(verb, "subscribe", only_here=True)
+        node_options(verb, only_here=("no_daemon",))
+        also_hidden(verb, "topics", only_here=True)
     hz.add_argument(
         "--filter", metavar="EXPR",
         help="Count only messages for which this Python expression holds; m is the message",
@@ -127,12 +142,6 @@ def _declare_measuring(verbs: Verbs) -> None:
         "--wall-time", action="store_true",
         help="Take the time of this computer, also with --use-sim-time",
     )  # fmt: skip
-
-
-def _listening_options(verb: argparse.ArgumentParser) -> None:
-    add_qos_options(verb, "subscribe")
-    node_options(verb)
-    also_hidden(verb, "topics")
 
 
 def _declare_pub(verbs: Verbs) -> None:
@@ -171,7 +180,7 @@ def _declare_pub(verbs: Verbs) -> None:
         "--max-wait-time-secs", metavar="S", type=seconds, help="... but not longer than S seconds"
     )
     pub.add_argument(
-        "--keep-alive", metavar="S", type=seconds, default=0.1,
+        "--keep-alive", metavar="S", type=positive_seconds, default=0.1,
         help="Stay for S seconds after the last message (default: 0.1)",
     )  # fmt: skip
     pub.add_argument("-n", "--node-name", help="Name of the created publishing node")

@@ -17,6 +17,7 @@ from roslings.ros2.launching.substitution import (
     parts_or_none,
     performed,
 )
+from roslings.ros2.launching.substitutions import truth
 from roslings.ros2.problem import Problem, did_you_mean
 
 if TYPE_CHECKING:
@@ -112,14 +113,15 @@ class AppendEnvironmentVariable(SetLaunchConfiguration):
         separator: SomeSubstitutionsType = ":", **others: Any,
     ) -> None:  # fmt: skip
         super().__init__(name, value, **others)
-        self.prepend = str(prepend).lower() == "true"
+        self.prepend = parts_of(str(prepend) if isinstance(prepend, bool) else prepend, "prepend")
         self.separator = parts_of(separator, "separator")
 
     def execute(self, context: LaunchContext) -> None:
         """Append it."""
         name, value = performed(context, self.name), performed(context, self.value)
         old = context.environment.get(name)
-        pieces = [value, old] if self.prepend else [old, value]
+        first = truth(performed(context, self.prepend), "prepend")
+        pieces = [value, old] if first else [old, value]
         between = performed(context, self.separator)
         context.environment[name] = between.join(piece for piece in pieces if piece)
 
@@ -162,16 +164,24 @@ class GroupAction(Action):
         super().__init__(**others)
         self.actions = checked(actions, "GroupAction")
         self.scoped, self.forwarding = scoped, forwarding
-        given = (launch_configurations or {}).items()
-        self.settings = [SetLaunchConfiguration(name, value) for name, value in given]
+        self.settings = [
+            (parts_of(name, "a name in launch_configurations"), parts_of(value, "a value in them"))
+            for name, value in (launch_configurations or {}).items()
+        ]
 
     def execute(self, context: LaunchContext) -> Iterable[Entity]:
         """The actions, between a beginning and an end."""
         if not self.scoped:
-            yield from [*self.settings, *self.actions]
+            context.launch_configurations.update(self._settings_in(context))
+            yield from self.actions
             return
-        with context.scope(self.forwarding):
-            yield from [*self.settings, *self.actions]
+        with context.scope(self.forwarding, self._settings_in):
+            yield from self.actions
+
+    def _settings_in(self, context: LaunchContext) -> dict[str, str]:
+        return {
+            performed(context, name): performed(context, value) for name, value in self.settings
+        }
 
     def inner(self) -> list[Entity]:
         """The actions."""
@@ -301,7 +311,13 @@ class Shutdown(EmitEvent):
         self.reason = parts_of(reason, "reason of Shutdown")
 
     def execute(self, context: LaunchContext) -> None:
-        """End it after what is being done now."""
+        """End it after what is being done now; whose end asked for it is told."""
+        event = getattr(context.locals, "event", None)
+        if isinstance(event, events.ProcessExited):
+            context.say(
+                f"[INFO] [launch]: process[{event.process_name}] was required: shutting down"
+                " launched system"
+            )
         context.emit_event_sync(events.Shutdown(reason=performed(context, self.reason)))
 
     def details(self) -> str:

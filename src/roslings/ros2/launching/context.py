@@ -86,13 +86,21 @@ class LaunchContext:
             self.visit(inner)
 
     @contextmanager
-    def scope(self, forwarding: bool = True) -> Iterator[None]:
-        """What is set inside does not leave it; without `forwarding` nothing comes in either."""
+    def scope(
+        self, forwarding: bool, settings_in: Callable[[LaunchContext], dict[str, str]]
+    ) -> Iterator[None]:
+        """What is set inside does not leave it; without `forwarding` nothing comes in either.
+
+        `settings_in` is asked while all that comes from outside is still there.
+        """
         kept, environment = dict(self.launch_configurations), dict(os.environ)
-        if not forwarding:
-            self.launch_configurations.clear()
-            self._put_back(self._environment_at_start)
         try:
+            if not forwarding:
+                self._put_back(self._environment_at_start)
+            settings = settings_in(self)
+            if not forwarding:
+                self.launch_configurations.clear()
+            self.launch_configurations.update(settings)
             yield
         finally:
             self.launch_configurations.clear()

@@ -1,13 +1,14 @@
-"""What Jazzy's launch files can say, and ours cannot: right there, and not read here.
+"""What Jazzy's launch files can say, and ours cannot: what to use here instead.
 
-From the names under which Jazzy's packages `launch` and `launch_ros` expose their actions and
-substitutions, and from what the actions' `parse` takes.
+`jazzy.py` has all names; here stand those for which something can be used.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Any
+
+from roslings.ros2.launching import jazzy
 
 EACH_NODE = "a Node(...) for each node"
 LIFECYCLE = "Node(...), and in a terminal ros2 lifecycle set NODE configure"
@@ -59,6 +60,8 @@ NAMES = {
 MODULES = {
     "launch.logging": LOG,
     "launch.frontend": "a launch file in Python, XML or YAML",
+    "launch_ros.event_handlers": LIFECYCLE,
+    "launch_ros.events": LIFECYCLE,
     "launch_testing": "pytest, and nodes that it starts",
     "launch_testing_ros": "pytest, and nodes that it starts",
     "launch_param_builder": "parameters=[{...}] of Node",
@@ -69,7 +72,6 @@ MODULES = {
 """A module that Jazzy has, to what to use here."""
 
 ELEMENTS = {
-    "append_env": "",
     "for": "a launch file in Python with a for loop",
     "for_each": "a launch file in Python with a for loop",
     "lifecycle_node": "node, and in a terminal ros2 lifecycle set NODE configure",
@@ -98,6 +100,14 @@ SUBSTITUTIONS = {
 """A `$(...)` that Jazzy has, to what to use here."""
 
 
+def instead_of(module: str, name: str = "") -> str:
+    """What to use in place of `name` of `module`, or of all that is in `module`."""
+    outer = module
+    while outer and outer not in MODULES and name not in NAMES:
+        outer = outer.rpartition(".")[0]
+    return NAMES.get(name) or MODULES.get(f"{module}.{name}") or MODULES.get(outer, "")
+
+
 _offered: dict[str, Mapping[str, Any]] = {}
 
 
@@ -107,8 +117,8 @@ def know(modules: Mapping[str, Mapping[str, Any]]) -> None:
 
 
 def home_of(name: str) -> str | None:
-    """The module that a launch file imports `name` from."""
-    homes = [module for module, names in _offered.items() if name in names]
+    """The module that a launch file imports `name` from, in a launch file of Jazzy."""
+    homes = [module for module, names in (_offered | jazzy.MODULES).items() if name in names]
     return min(homes, key=lambda module: (module.count("."), module)) if homes else None
 
 
@@ -118,8 +128,8 @@ def known_names() -> list[str]:
 
 
 def known_modules() -> list[str]:
-    """Every module that is offered to launch files."""
-    return list(_offered)
+    """Every module that a launch file can import, here or with the full ROS."""
+    return [*jazzy.MODULES, *MODULES]
 
 
 def names_in(module: str) -> list[str]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from pathlib import Path, PurePath
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, get_args, get_origin
 
 from roslings.ros2.launching.substitution import (
     Parts,
@@ -39,6 +39,8 @@ class ParameterValue:
     def evaluate(self, context: LaunchContext) -> Any:
         """The value. Raises SubstitutionFailure."""
         found = value_of(context, self.value, as_text=self.value_type is str)
+        if kind := listed_by(self.value_type):
+            return _list_of(kind, found)
         if self.value_type in PLAIN and not isinstance(found, self.value_type):
             return self._cast(found)
         return found
@@ -51,6 +53,23 @@ class ParameterValue:
         except (TypeError, ValueError):
             name = self.value_type.__name__
             raise SubstitutionFailure(f"{value!r} is no value of type {name}") from None
+
+
+def listed_by(value_type: Any) -> Any:
+    """What `List[float]`, or `list[float]`, lists; None for any other type."""
+    (kind,) = get_args(value_type) if get_origin(value_type) is list else (None,)
+    return kind
+
+
+def _list_of(kind: type[Any], value: Any) -> list[Any]:
+    if isinstance(value, list) and all(isinstance(one, kind) for one in value):
+        return value
+    raise SubstitutionFailure(f"{value!r} is no list in which each value is {_CALLED[kind]}")
+
+
+_CALLED = {
+    bool: "true or false", int: "a whole number", float: "a number with a point", str: "a text",
+}  # fmt: skip
 
 
 class Parameter:

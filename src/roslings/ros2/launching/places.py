@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -38,13 +40,28 @@ class NotReadHere(BadLaunchFile):
         self.exit_code = NOT_READ_HERE
         use = f" Use instead: {instead}" if instead else ""
         super().__init__(
-            place, f"{what} is not known here: it needs the full ros2 on Ubuntu 24.04"
-            f" (sudo apt install ros-jazzy-ros-base).{use}",
+            place, f"{what} is right in Jazzy, and not in this launch: it needs the full ros2 on"
+            f" Ubuntu 24.04 (sudo apt install ros-jazzy-ros-base).{use}",
         )  # fmt: skip
 
 
+_standing: list[Place] = []
+
+
+@contextmanager
+def standing_at(place: Place) -> Iterator[None]:
+    """What is made inside stands at `place`: an element of XML or YAML, which no frame names."""
+    _standing.append(place)
+    try:
+        yield
+    finally:
+        _standing.pop()
+
+
 def calling_place() -> Place:
-    """The line outside this room that is being carried out: the one in the student's file."""
+    """The element that is read, or the line outside this room that is being carried out."""
+    if _standing:
+        return _standing[-1]
     frame = sys._getframe(1)
     while frame.f_back and frame.f_code.co_filename.startswith((OURS, "<frozen")):
         frame = frame.f_back

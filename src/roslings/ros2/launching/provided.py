@@ -5,10 +5,10 @@ Python asks the finder of this module last, so where a real package is installed
 
 from __future__ import annotations
 
-import re
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache
+from importlib import import_module
 from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec
 from types import ModuleType
@@ -22,6 +22,7 @@ from roslings.ros2.launching import (
     elsewhere,
     events,
     handlers,
+    jazzy,
     node,
     parameters,
     processes,
@@ -74,13 +75,34 @@ def _from(module: ModuleType, names: Sequence[str]) -> dict[str, Any]:
 
 @cache
 def modules() -> dict[str, Names]:
-    """Name of a module to what a launch file can import from it."""
+    """Name of a module of Jazzy's to what of it a launch file can import from it here.
+
+    A module of which we have nothing is left out, except where others lie in it.
+    """
+    offered = {module: _ours(module, names) for module, names in jazzy.MODULES.items()}
+    return {m: names for m, names in offered.items() if names or _holds_another(m, offered)}
+
+
+def _ours(module: str, names: Sequence[str]) -> Names:
+    """What we have of `names`; a module apart has what its package exports."""
+    home = module if module in _packages() else module.rpartition(".")[0]
+    here = _packages().get(home, {})
+    return {name: here[name] for name in names if name in here}
+
+
+def _holds_another(module: str, offered: Mapping[str, Names]) -> bool:
+    return any(names and other.startswith(f"{module}.") for other, names in offered.items())
+
+
+@cache
+def _packages() -> dict[str, Names]:
+    """Name of a package to all that we have of it."""
     described = {
         "Parameter": parameters.Parameter,
         "ParameterFile": parameters.ParameterFile,
         "ParameterValue": parameters.ParameterValue,
     }
-    packages: dict[str, Names] = {
+    return {
         "launch": LAUNCH,
         "launch.actions": _from(actions, ACTIONS)
         | {
@@ -103,9 +125,14 @@ def modules() -> dict[str, Names]:
             "SubstitutionFailure": substitution.SubstitutionFailure,
             "TextSubstitution": substitution.TextSubstitution,
         },
+        "launch.utilities": {
+            "normalize_to_list_of_substitutions": _normalized,
+            "perform_substitutions": substitution.performed,
+        },
         "launch_ros.actions": _from(actions, ROS_ACTIONS)
         | {"Node": node.Node, "PushROSNamespace": actions.PushRosNamespace},
         "launch_ros.descriptions": described,
+        "launch_ros.parameter_descriptions": described,
         "launch_ros.substitutions": _from(
             substitutions, ("ExecutableInPackage", "FindPackagePrefix", "FindPackageShare")
         )
@@ -113,35 +140,10 @@ def modules() -> dict[str, Names]:
         "launch_xml.launch_description_sources": _from(sources, ("XMLLaunchDescriptionSource",)),
         "launch_yaml.launch_description_sources": _from(sources, ("YAMLLaunchDescriptionSource",)),
     }
-    whole: dict[str, Names] = {
-        "launch.utilities": {
-            "normalize_to_list_of_substitutions": _normalized,
-            "perform_substitutions": substitution.performed,
-        },
-        "launch_ros": {},
-        "launch_ros.parameter_descriptions": described,
-        "launch_xml": {},
-        "launch_yaml": {},
-    }
-    return packages | whole | _single(packages)
 
 
 def _normalized(parts: Any) -> substitution.Parts:
     return substitution.parts_of(parts, "a text")
-
-
-def _single(packages: Mapping[str, Names]) -> dict[str, Names]:
-    """The module that each class has to itself: `launch.actions.timer_action`."""
-    found: dict[str, Names] = {}
-    for package, names in packages.items():
-        for name, value in names.items():
-            found.setdefault(f"{package}.{snake(name)}", {name: value})
-    return found
-
-
-def snake(name: str) -> str:
-    """`TimerAction` as `timer_action`."""
-    return re.sub(r"(?<=[a-z])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "_", name).lower()
 
 
 class Offer(MetaPathFinder, Loader):
@@ -154,18 +156,30 @@ class Offer(MetaPathFinder, Loader):
         return ModuleSpec(fullname, self, is_package=True) if fullname in modules() else None
 
     def exec_module(self, module: ModuleType) -> None:
-        """Put the names into the module, those of the real one that are missing too."""
-        vars(module).update(modules()[module.__name__])
-        vars(module)["__getattr__"] = _missing_from(module.__name__)
+        """Put the names into the module; what is not there yet is found when it is asked for."""
+        name = module.__name__
+        vars(module).update(modules()[name])
+        vars(module)["__getattr__"] = _found_in(name)
+        vars(module)["__all__"] = [*modules()[name], *_inside(name)]
 
 
-def _missing_from(module: str) -> Callable[[str], Any]:
-    def missing(name: str) -> Any:
-        if name in elsewhere.NAMES:
-            raise NotReadHere(calling_place(), f"'{name}'", elsewhere.NAMES[name])
+def _inside(package: str) -> list[str]:
+    """The packages that lie in `package` itself."""
+    parted = (name.rpartition(".") for name in jazzy.PACKAGES if name in modules())
+    return [name for outer, _, name in parted if outer == package]
+
+
+def _found_in(module: str) -> Callable[[str], Any]:
+    """What is asked of `module` later: the real one imports its parts, and ours does it then."""
+
+    def found(name: str) -> Any:
+        if f"{module}.{name}" in modules():
+            return import_module(f"{module}.{name}")
+        if jazzy.has(module, name) or name in elsewhere.NAMES:
+            raise NotReadHere(calling_place(), f"'{name}'", elsewhere.instead_of(module, name))
         raise AttributeError(f"module '{module}' has no attribute '{name}'", name=name)
 
-    return missing
+    return found
 
 
 _offer = Offer()

@@ -13,7 +13,7 @@ from pathlib import Path
 from types import ModuleType, TracebackType
 from typing import Any
 
-from roslings.ros2.launching import elsewhere
+from roslings.ros2.launching import elsewhere, jazzy
 from roslings.ros2.launching.description import LaunchDescription
 from roslings.ros2.launching.places import OURS, BadLaunchFile, NotReadHere, Place
 from roslings.ros2.problem import Problem, did_you_mean
@@ -22,6 +22,7 @@ FUNCTION = "generate_launch_description"
 _running: list[Place] = []
 _traced: list[bool] = []
 MISSING = re.compile(r"(\w+)\.__init__\(\) missing \d+ required .*arguments?: (.*)")
+NO_ATTRIBUTE = re.compile(r"module '([\w.]+)' has no attribute '(\w+)'")
 NOT_IMPORTED = re.compile(r"cannot import name '(\w+)' from '([\w.]+)'")
 
 
@@ -81,8 +82,7 @@ def students_code(place: Place) -> Iterator[None]:
         raise _no_module(_where(fault.__traceback__, place), fault) from None
     except Exception as fault:
         _trace()
-        where = _where(fault.__traceback__, place)
-        raise BadLaunchFile(where, _told(fault) + _line_of(where)) from None
+        raise _fault(_where(fault.__traceback__, place), fault) from None
     finally:
         _running.pop()
 
@@ -126,6 +126,21 @@ def _line_of(place: Place) -> str:
     return f"\n    {line}" if line else ""
 
 
+def _fault(where: Place, fault: Exception) -> BadLaunchFile:
+    """A mistake, or something of Jazzy's objects that ours do not have."""
+    if isinstance(fault, AttributeError) and (missing := _missing_attribute(fault)):
+        return NotReadHere(where, missing)
+    return BadLaunchFile(where, _told(fault) + _line_of(where))
+
+
+def _missing_attribute(fault: AttributeError) -> str:
+    cls = fault.obj if isinstance(fault.obj, type) else type(fault.obj)
+    is_ours = cls.__module__.startswith(__name__.rpartition(".")[0])
+    return (
+        f"{cls.__name__}.{fault.name}" if is_ours and jazzy.has_attribute(cls, fault.name) else ""
+    )
+
+
 def _told(fault: Exception) -> str:
     for kind, tell in WORDS:
         if isinstance(fault, kind) and (text := tell(fault)):
@@ -151,6 +166,17 @@ def _import_error(fault: Any) -> str:
     return f"'{module}' has no '{name}'.{step or did_you_mean(name, elsewhere.names_in(module))}"
 
 
+def _attribute_error(fault: Any) -> str:
+    """A misspelt name behind `launch.actions.`, or one of another module."""
+    found = NO_ATTRIBUTE.fullmatch(str(fault))
+    if not found or found[1] not in jazzy.MODULES:
+        return ""
+    module, name = found.groups()
+    home = elsewhere.home_of(name)
+    step = f" Write: {home}.{name}" if home else did_you_mean(name, elsewhere.names_in(module))
+    return f"'{module}' has no '{name}'.{step}"
+
+
 def _package_error(fault: Any) -> str:
     from roslings.ros2.packages import PackageNotFound
 
@@ -174,6 +200,7 @@ def _type_error(fault: Any) -> str:
 WORDS: tuple[tuple[type[Exception], Callable[[Any], str]], ...] = (
     (NameError, _name_error),
     (ImportError, _import_error),
+    (AttributeError, _attribute_error),
     (KeyError, _package_error),
     (TypeError, _type_error),
 )
@@ -182,8 +209,8 @@ WORDS: tuple[tuple[type[Exception], Callable[[Any], str]], ...] = (
 
 def _no_module(place: Place, fault: ModuleNotFoundError) -> BadLaunchFile:
     name = fault.name or ""
-    if name in elsewhere.MODULES:
-        return NotReadHere(place, f"'{name}'", elsewhere.MODULES[name])
+    if name in elsewhere.MODULES or name in jazzy.MODULES:
+        return NotReadHere(place, f"'{name}'", elsewhere.instead_of(name))
     near = did_you_mean(name, elsewhere.known_modules())
     step = near or " Is it a package of yours? Build it, and source install/setup.bash."
     return BadLaunchFile(place, f"there is no module '{name}'.{step}{_line_of(place)}")

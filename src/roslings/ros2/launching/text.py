@@ -11,6 +11,7 @@ from roslings.ros2.launching.substitution import Parts, Substitution, TextSubsti
 from roslings.ros2.problem import Problem, did_you_mean
 
 QUOTES = "'\"`"
+ESCAPED = re.compile(r"\\.")
 NAME = re.compile(r"\s*([^\s()$'\"]*)")
 
 
@@ -102,8 +103,9 @@ class _Reader:
         return [*found, TextSubstitution(text=plain)] if plain or not found else found
 
     def _letter(self) -> str:
-        r"""The next one; `\$` is a dollar sign that begins nothing."""
-        self._at += 2 if self._text.startswith("\\$", self._at) else 1
+        r"""The next one; behind a backslash it means nothing but itself: `\$`, `\"`."""
+        found = ESCAPED.match(self._text, self._at)
+        self._at += 2 if found else 1
         return self._text[self._at - 1]
 
     def _substitution(self) -> Substitution:

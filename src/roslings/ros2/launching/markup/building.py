@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import re
 import shlex
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -12,11 +13,17 @@ from roslings.ros2.launching.conditions import Condition, IfCondition, UnlessCon
 from roslings.ros2.launching.description import Entity, LaunchDescription
 from roslings.ros2.launching.markup.tree import Element, read
 from roslings.ros2.launching.node import Node
-from roslings.ros2.launching.parameters import ParameterFile, ParameterValue
-from roslings.ros2.launching.places import BadLaunchFile, NotReadHere
+from roslings.ros2.launching.parameters import ParameterFile, ParameterValue, listed_by
+from roslings.ros2.launching.places import BadLaunchFile, NotReadHere, standing_at
 from roslings.ros2.launching.processes import ExecuteProcess
 from roslings.ros2.launching.sources import IncludeLaunchDescription
-from roslings.ros2.launching.substitution import Parts, Substitution, described, performed
+from roslings.ros2.launching.substitution import (
+    Parts,
+    Substitution,
+    TextSubstitution,
+    described,
+    performed,
+)
 from roslings.ros2.launching.text import UnknownSubstitution, parts_in
 from roslings.ros2.problem import Problem, did_you_mean
 
@@ -25,8 +32,12 @@ PROCESS = (
     "name", "output", "cwd", "launch_prefix", "emulate_tty", "shell", "respawn", "respawn_delay",
     "respawn_max_retries", "sigterm_timeout", "sigkill_timeout", "on_exit",
 )  # fmt: skip
+VALUE = ("name", "value", "type", "value_sep")
 NODE = (*PROCESS, "pkg", "exec", "exec_name", "namespace", "args", "ros_args")
-TYPES = {"bool": bool, "int": int, "float": float, "str": str}
+TYPES: dict[str, Any] = {
+    "bool": bool, "int": int, "float": float, "str": str, "list_of_bool": list[bool],
+    "list_of_int": list[int], "list_of_float": list[float], "list_of_str": list[str], "yaml": None,
+}  # fmt: skip
 
 
 def description_of(file: Path, kind: str) -> LaunchDescription:
@@ -57,13 +68,12 @@ def built(element: Element) -> Entity:
 
 def _placed(element: Element, make: Callable[[Reader], Entity]) -> Entity:
     try:
-        action = make(Reader(element))
+        with standing_at(element.place):
+            return make(Reader(element))
     except BadLaunchFile:
         raise
     except (Problem, TypeError, ValueError) as fault:
         raise BadLaunchFile(element.place, str(fault)) from None
-    action.place = element.place
-    return action
 
 
 class Joined(Substitution):
@@ -82,10 +92,11 @@ class Joined(Substitution):
 
 
 class Reader:
-    """The attributes of one element."""
+    """The attributes of one element, and the parts inside it."""
 
-    def __init__(self, element: Element) -> None:
-        self.element = element
+    def __init__(self, element: Element, conditions: Iterable[str] = CONDITIONS) -> None:
+        """`conditions` are the attributes that every action may have, and no part of one."""
+        self.element, self._conditions = element, conditions
 
     def text(self, name: str) -> Parts:
         """The attribute `name`. Raises BadLaunchFile where it is missing."""
@@ -114,8 +125,10 @@ class Reader:
 
     def words(self, name: str) -> list[Parts]:
         """The attribute `name` as the words of a command line; a `$(...)` is within one word."""
-        text = str(self.element.attributes.get(name, ""))
-        return [self.filled(word) for word in split_outside(text)]
+        parts = self.filled(str(self.element.attributes.get(name, "")))
+        known = {chr(_HIDDEN + at): part for at, part in enumerate(parts)}
+        texts = (p.text if isinstance(p, TextSubstitution) else sign for sign, p in known.items())
+        return [_shown(word, known) for word in shlex.split("".join(texts))]
 
     def condition(self) -> Condition | None:
         """What `if` and `unless` say. Raises BadLaunchFile where there are both."""
@@ -124,40 +137,50 @@ class Reader:
             raise BadLaunchFile(self.element.place, "take 'if' or 'unless', and not both")
         return CONDITIONS[said[0]](self.text(said[0])) if said else None
 
-    def only(self, *known: str) -> None:
-        """Raises BadLaunchFile where an attribute would be ignored."""
-        for name in sorted(set(self.element.attributes) - {*known, *CONDITIONS}):
-            raise BadLaunchFile(
-                self.element.place, f"'{self.element.tag}' has no attribute '{name}' here."
-                f"{did_you_mean(name, known)}",
-            )  # fmt: skip
+    def only(self, *known: str, parts: Iterable[str] = ()) -> None:
+        """Raises BadLaunchFile where an attribute, or an element inside, would be ignored."""
+        tag = self.element.tag
+        for name in sorted(set(self.element.attributes) - {*known, *self._conditions}):
+            near = did_you_mean(name, known)
+            self._refuse(f"'{tag}' has no attribute '{name}' here.{near}")
+        for child in self.element.children:
+            if child.tag not in parts:
+                near = did_you_mean(child.tag, parts)
+                Reader(child)._refuse(f"there is no '{child.tag}' inside '{tag}'.{near}")
+
+    def _refuse(self, reason: str) -> None:
+        raise BadLaunchFile(self.element.place, reason)
+
+    def parts(self, tag: str, *known: str, inside: Iterable[str] = ()) -> list[Reader]:
+        """The elements of one kind inside this one; each has only the attributes `known`."""
+        readers = [Reader(child, conditions=()) for child in self.element.inside(tag)]
+        for reader in readers:
+            reader.only(*known, parts=inside)
+        return readers
 
     def pairs(self, tag: str, first: str, second: str) -> list[tuple[Parts, Parts]]:
         """Two attributes of each element of one kind inside this one."""
-        readers = [Reader(child) for child in self.element.inside(tag)]
+        readers = self.parts(tag, first, second)
         return [(reader.text(first), reader.text(second)) for reader in readers]
 
 
-def split_outside(text: str) -> list[str]:
-    """The words of a command line; blanks inside `$(...)` part nothing."""
-    hidden, depth = "", 0
-    for at, letter in enumerate(text):
-        opens = letter == "(" and (depth > 0 or text[at - 1 : at] == "$")
-        depth += opens - (letter == ")" and depth > 0)
-        hidden += _KEPT.get(letter, letter) if depth > 0 else letter
-    words = shlex.split(hidden)
-    return [word.translate({ord(v): k for k, v in _KEPT.items()}) for word in words]
+_HIDDEN = 0xE000
+"""From here on Unicode is private: each `$(...)` is one such sign while words are parted."""
 
 
-_KEPT = {letter: chr(0xE000 + at) for at, letter in enumerate(" \t\n'\"\\")}
-"""What shlex looks at, to what hides it inside of `$(...)`: private characters of Unicode."""
+def _shown(word: str, known: Mapping[str, Substitution]) -> Parts:
+    """The parts of a word in which signs stand for `$(...)`."""
+    pieces = re.split(f"([{chr(_HIDDEN)}-\uf8ff])", word)
+    found = [known.get(piece) or TextSubstitution(text=piece) for piece in pieces if piece]
+    return found or [TextSubstitution(text="")]
 
 
 def _arg(reader: Reader) -> Entity:
-    reader.only("name", "default", "description", "value")
+    reader.only("name", "default", "description", "value", parts=["choice"])
     given = reader.element.attributes
     default = reader.optional("default")
-    choices = [str(child.attributes.get("value")) for child in reader.element.inside("choice")]
+    listed = reader.parts("choice", "value")
+    choices = [str(choice.element.attributes.get("value")) for choice in listed]
     return actions.DeclareLaunchArgument(
         str(given.get("name") or reader.text("name")), default_value=default,
         description=str(given.get("description", "")), choices=choices or None,
@@ -185,6 +208,14 @@ def _set_env(reader: Reader) -> Entity:
     )
 
 
+def _append_env(reader: Reader) -> Entity:
+    reader.only("name", "value", "prepend", "separator")
+    return actions.AppendEnvironmentVariable(
+        reader.text("name"), reader.text("value"), prepend=reader.optional("prepend") or False,
+        separator=reader.optional("separator") or ":", condition=reader.condition(),
+    )  # fmt: skip
+
+
 def _unset_env(reader: Reader) -> Entity:
     reader.only("name")
     name = reader.text("name")
@@ -197,19 +228,15 @@ def _log(reader: Reader) -> Entity:
 
 
 def _group(reader: Reader) -> Entity:
-    reader.only("scoped", "forwarding")
     element = reader.element
-    kept = [child for child in element.children if child.tag != "keep"]
+    inner = [child for child in element.children if child.tag != "keep"]
+    reader.only("scoped", "forwarding", parts=[child.tag for child in element.children])
+    kept = {tuple(name): value for name, value in reader.pairs("keep", "name", "value")}
     return actions.GroupAction(
-        [built(child) for child in kept],
+        [built(child) for child in inner],
         scoped=_switch(reader, "scoped"), forwarding=_switch(reader, "forwarding"),
-        launch_configurations=dict(_kept(element)), condition=reader.condition(),
+        launch_configurations=kept, condition=reader.condition(),
     )  # fmt: skip
-
-
-def _kept(element: Element) -> list[tuple[str, Parts]]:
-    readers = [Reader(child) for child in element.inside("keep")]
-    return [(str(one.element.attributes.get("name")), one.text("value")) for one in readers]
 
 
 def _switch(reader: Reader, name: str) -> bool:
@@ -220,7 +247,7 @@ def _switch(reader: Reader, name: str) -> bool:
 
 
 def _include(reader: Reader) -> Entity:
-    reader.only("file")
+    reader.only("file", parts=["arg", "let"])
     given = [*reader.pairs("arg", "name", "value"), *reader.pairs("let", "name", "value")]
     return IncludeLaunchDescription(
         reader.text("file"), launch_arguments=given, condition=reader.condition()
@@ -228,7 +255,7 @@ def _include(reader: Reader) -> Entity:
 
 
 def _timer(reader: Reader) -> Entity:
-    reader.only("period")
+    reader.only("period", parts=[child.tag for child in reader.element.children])
     return actions.TimerAction(
         period=reader.text("period"), actions=built_in(reader.element),
         condition=reader.condition(),
@@ -247,7 +274,7 @@ def _push_namespace(reader: Reader) -> Entity:
 
 
 def _set_parameter(reader: Reader) -> Entity:
-    reader.only("name", "value", "type")
+    reader.only(*VALUE)
     return actions.SetParameter(reader.text("name"), _value(reader), condition=reader.condition())
 
 
@@ -267,18 +294,18 @@ def _set_use_sim_time(reader: Reader) -> Entity:
 
 
 def _node(reader: Reader) -> Entity:
-    reader.only(*NODE)
+    reader.only(*NODE, parts=["env", "param", "remap"])
     return Node(
         package=reader.optional("pkg"), executable=reader.text("exec"),
         name=reader.optional("name"), exec_name=reader.optional("exec_name"),
         namespace=reader.optional("namespace"), arguments=reader.words("args"),
-        ros_arguments=reader.words("ros_args"), parameters=_parameters(reader.element),
+        ros_arguments=reader.words("ros_args"), parameters=_parameters(reader),
         remappings=reader.pairs("remap", "from", "to"), **_process(reader),
     )  # fmt: skip
 
 
 def _executable(reader: Reader) -> Entity:
-    reader.only(*PROCESS, "cmd", "args")
+    reader.only(*PROCESS, "cmd", "args", parts=["env"])
     words = [*reader.words("cmd"), *reader.words("args")]
     if str(reader.element.attributes.get("shell", "false")).lower() == "true":
         words = [reader.text("cmd")]
@@ -304,9 +331,8 @@ def _process(reader: Reader) -> dict[str, Any]:
     return {**settings, "condition": reader.condition()}
 
 
-def _environment(reader: Reader) -> dict[str, Parts]:
-    children = [Reader(child) for child in reader.element.inside("env")]
-    return {str(one.element.attributes.get("name")): one.text("value") for one in children}
+def _environment(reader: Reader) -> dict[tuple[Substitution, ...], Parts]:
+    return {tuple(name): value for name, value in reader.pairs("env", "name", "value")}
 
 
 def _at_exit(reader: Reader) -> Entity:
@@ -316,29 +342,27 @@ def _at_exit(reader: Reader) -> Entity:
     return actions.Shutdown(reason="a process that the launch needs has ended")
 
 
-def _parameters(element: Element) -> list[Any]:
+def _parameters(node: Reader) -> list[Any]:
     """Files and values in order; values side by side are one file, as in Jazzy."""
     found: list[Any] = []
-    for param in element.inside("param"):
-        reader = Reader(param)
-        if "from" in param.attributes:
+    for reader in node.parts("param", *VALUE, "from", "allow_substs", inside=["param"]):
+        if "from" in reader.element.attributes:
             reader.only("from", "allow_substs")
             switch = reader.optional("allow_substs") or "false"
             found.append(ParameterFile(reader.text("from"), allow_substs=switch))
         else:
-            found.append(_nested([param]))
+            found.append(_nested([reader]))
     return found
 
 
-def _nested(params: list[Element]) -> dict[str, Any]:
+def _nested(params: list[Reader]) -> dict[str, Any]:
     """One parameter inside another gets a dot between the names."""
     tree: dict[str, Any] = {}
-    for param in params:
-        reader = Reader(param)
-        reader.only("name", "value", "type", "value_sep")
+    for reader in params:
+        reader.only(*VALUE, parts=["param"])
         reader.text("name")
-        inner = param.inside("param")
-        tree[str(param.attributes["name"])] = _nested(inner) if inner else _value(reader)
+        inner = reader.parts("param", *VALUE, inside=["param"])
+        tree[str(reader.element.attributes["name"])] = _nested(inner) if inner else _value(reader)
     return tree
 
 
@@ -351,13 +375,16 @@ def _value(reader: Reader) -> Any:
         raise BadLaunchFile(reader.element.place, f"'type' is one of {known}, and not '{kind}'")
     if value is not None and not isinstance(value, str):
         return value
+    value_type = TYPES.get(str(kind))
     if separator := reader.element.attributes.get("value_sep"):
-        pieces = str(value).split(str(separator))
-        return [ParameterValue(Joined(reader.filled(piece.strip()))) for piece in pieces]
-    return ParameterValue(Joined(reader.text("value")), value_type=TYPES.get(str(kind)))
+        pieces = [Joined(reader.filled(p.strip())) for p in str(value).split(str(separator))]
+        of = listed_by(value_type)
+        return [ParameterValue(piece, value_type=of) for piece in pieces]
+    return ParameterValue(Joined(reader.text("value")), value_type=value_type)
 
 
 TAGS: dict[str, Callable[[Reader], Entity]] = {
+    "append_env": _append_env,
     "arg": _arg,
     "executable": _executable,
     "group": _group,
