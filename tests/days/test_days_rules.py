@@ -8,7 +8,16 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tiny_course import CELLS, CHANGE, METADATA, Cell, with_cell, without, write_course
+from tiny_course import (
+    CELLS,
+    CHANGE,
+    METADATA,
+    Cell,
+    printed,
+    with_cell,
+    without,
+    write_course,
+)
 
 from roslings.lessons.rules.__main__ import main
 from roslings.lessons.rules.prose import blocks_of, sentences, slug, words
@@ -18,6 +27,21 @@ WRONG: dict[str, tuple[Sequence[Cell], str, str]] = {
     # name: (cells, where, what)
     "outputs": (with_cell("first", more={"outputs": [{}]}), "cell first, line 1", "holds outputs"),
     "count": (with_cell("first", more={"execution_count": 3}), "cell first", "execution count"),
+    "compared without outputs": (with_cell("blink-run", more={}), "cell blink-run", "no outputs"),
+    "compared without a count": (
+        with_cell("blink-run", more={"outputs": [printed("on\n")]}), "blink-run", "no execution",
+    ),
+    "compared picture": (
+        with_cell("blink-run", more={
+            "execution_count": 2, "outputs": [{"output_type": "display_data", "data": {}}]}),
+        "cell blink-run", "no text, but display_data",
+    ),
+    "few compared": (with_cell("blink-run", tags=["run"], more={}), "", "of 2 cells are compared"),
+    "path in an output": (
+        with_cell("blink-run", more={
+            "execution_count": 2, "outputs": [printed("/home/anna/x\n")]}),
+        "cell blink-run", "/home/anna",
+    ),
     "random id": (with_cell("first", id="0a1b2c3d"), "cell 0a1b2c3d", "no readable id"),
     "twin ids": (with_cell("first", id="head"), "cell head", "Another cell has this id"),
     "tag": (with_cell("first", tags=["hide"]), "cell first", "'hide' is no tag"),
