@@ -159,6 +159,22 @@ WRONG: dict[str, tuple[Sequence[Cell], str, str]] = {
     "picture that is not there": (
         with_cell("blinking", text=("lamp.svg", "lump.svg")), "blinking", "no picture 'pictures/l",
     ),
+    "picture told otherwise: a number": (
+        with_cell("blinking", text=("A lamp that shines on a desk", "A lamp of 40 watts")),
+        "cell blinking, line 5", "names 40,",
+    ),
+    "picture told otherwise: a name": (
+        with_cell("blinking", text=("A lamp that shines on a desk", "A lamp hears /light")),
+        "cell blinking", "names /light,",
+    ),
+    "picture told otherwise: a count": (
+        with_cell("blinking", text=("A lamp that shines on a desk", "Three lamps that shine")),
+        "cell blinking", "names three,",
+    ),
+    "picture told otherwise: a thing": (
+        with_cell("blinking", text=("A lamp that shines on a desk", "A lamp with a dial")),
+        "cell blinking", "names dial,",
+    ),
     "link that leads nowhere": (
         with_cell("real", text=("The motor", "See [it](../03-moon/lesson.ipynb). The motor")),
         "real", "leads nowhere",
@@ -212,7 +228,7 @@ def test_wrong_metadata_is_told(
     [
         ("</svg>", "", "is no XML"),
         ("<title>A lamp</title>", "", "no <title>"),
-        ("<desc>A lamp that shines.</desc>", "<desc> </desc>", "no <desc>"),
+        ("<desc>A lamp that shines on a desk.</desc>", "<desc> </desc>", "no <desc>"),
         ("0 0 720 200", "0 0 800 200", "not 720 wide"),
         ('font-size="18"', 'font-size="13"', "13 px"),
         ("<rect", '<image href="https://example.org/x.png"/><rect', "from outside"),

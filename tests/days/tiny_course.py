@@ -33,7 +33,7 @@ GLOSSARY = "category: Light\nabout: All of it.\nterms:\n" + "".join(
 ) + OTHER + NEVER  # fmt: skip
 
 DRAWING = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 720 200" role="img">
-<title>A lamp</title><desc>A lamp that shines.</desc>
+<title>A lamp</title><desc>A lamp that shines on a desk.</desc>
 <rect width="720" height="200" rx="12" fill="#fff"/>
 <text x="20" y="40" font-size="18">lamp</text></svg>
 """
