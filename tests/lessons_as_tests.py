@@ -165,8 +165,7 @@ class LessonFile(IPyNbFile):  # type: ignore[misc]
             if folder := self.config.option.walks:
                 keep_walk(self, folder)
         finally:
-            with suppress(AttributeError):
-                super().teardown()
+            super().teardown()
             self._stays.close()
 
     def run(self, name: str, code: str) -> list[Any]:
