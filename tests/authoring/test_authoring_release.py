@@ -37,10 +37,10 @@ def test_no_solution_mutant_or_hidden_check_is_in_it(edition: Path) -> None:
 
 def test_its_lessons_run_under_nbval(edition: Path) -> None:
     """What `./roslings test days --nbval-lax` needs is in it: each cell of each day is a test."""
-    command = [sys.executable, "-m", "pytest", "days", "--nbval-lax", "--collect-only", "-qq", "-n0"]
+    words = ["days", "--nbval-lax", "--collect-only", "-qq", "-n0"]
     done = subprocess.run(
-        command, cwd=edition, env={**os.environ, "PYTHONPATH": str(edition / "src")},
-        capture_output=True, text=True, check=False,
+        [sys.executable, "-m", "pytest", *words], cwd=edition, check=False,
+        env={**os.environ, "PYTHONPATH": str(edition / "src")}, capture_output=True, text=True,
     )  # fmt: skip
     counts = dict(re.findall(r"^days/([^/]+)/lesson\.ipynb: (\d+)$", done.stdout, re.MULTILINE))
     days = [path.parent for path in edition.glob("days/*/lesson.ipynb")]
