@@ -28,8 +28,8 @@ def failed(costs: Path, before: int) -> list[str]:
 
 
 def passes_alone(tests: list[str]) -> bool:
-    """Each time."""
-    command = ["./roslings", "test", "-m", "", "-n", "0", *tests]
+    """Each time. A cell of a lesson is a test where nbval is asked for it."""
+    command = ["./roslings", "test", "-m", "", "-n", "0", "--nbval-lax", *tests]
     return all(subprocess.run(command, check=False).returncode == 0 for _ in range(TIMES))
 
 

@@ -5,11 +5,10 @@ from __future__ import annotations
 import os
 import signal
 import time
-from pathlib import Path
 
 import pytest
 from browser import browser
-from costs import Costs
+from costs import add_costs_option, note_costs
 from once import shared_folder
 
 __all__ = ["browser", "shared_folder"]
@@ -37,9 +36,7 @@ SLOW_UNTIL_S = float(os.environ.get("ROSLINGS_SLOW_UNTIL", "inf"))
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     """Options of the tests."""
-    parser.addoption(
-        "--costs", metavar="FILE", type=Path, help="add what each test cost to FILE, as JSON lines"
-    )
+    add_costs_option(parser)
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -47,8 +44,7 @@ def pytest_configure(config: pytest.Config) -> None:
     os.environ["ROSLINGS_SOAK_S"] = "0"  # what is about half a minute of running says so itself
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
-    if file := config.getoption("--costs"):
-        config.pluginmanager.register(Costs(file.absolute()))
+    note_costs(config)
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import resource
 from collections.abc import Generator
+from contextlib import suppress
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -24,6 +25,21 @@ class Cost:
     wall_s: float = 0.0
     cpu_s: float = 0.0
     """Of the process that ran it, and of every child that it has waited for."""
+
+
+def add_costs_option(parser: pytest.Parser) -> None:
+    """`--costs`; the lessons and the other tests each bring it, and may run together."""
+    with suppress(ValueError):  # it is there already
+        parser.addoption(
+            "--costs", metavar="FILE", type=Path, help="add what each test cost to FILE"
+        )
+
+
+def note_costs(config: pytest.Config) -> None:
+    """Where it was asked for, once."""
+    file = config.getoption("--costs")
+    if file and not config.pluginmanager.has_plugin("costs-of-tests"):
+        config.pluginmanager.register(Costs(file.absolute()), "costs-of-tests")
 
 
 def cpu_s() -> float:

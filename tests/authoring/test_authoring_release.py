@@ -35,6 +35,19 @@ def test_no_solution_mutant_or_hidden_check_is_in_it(edition: Path) -> None:
         assert kept >= {"card.yaml", "task.md", "hints.yaml", "starter"}
 
 
+def test_its_lessons_run_under_nbval(edition: Path) -> None:
+    """What `./roslings test days --nbval-lax` needs is in it: each cell of each day is a test."""
+    words = ["days", "--nbval-lax", "--collect-only", "-qq", "-n0"]
+    done = subprocess.run(
+        [sys.executable, "-m", "pytest", *words], cwd=edition, check=False,
+        env={**os.environ, "PYTHONPATH": str(edition / "src")}, capture_output=True, text=True,
+    )  # fmt: skip
+    counts = dict(re.findall(r"^days/([^/]+)/lesson\.ipynb: (\d+)$", done.stdout, re.MULTILINE))
+    days = [path.parent for path in edition.glob("days/*/lesson.ipynb")]
+    assert sorted(counts) == sorted(day.name for day in days), done.stdout + done.stderr
+    assert len(days) == 10 and all(int(count) > 10 for count in counts.values())
+
+
 def test_each_mutant_sentence_and_answer_line_is_kept_back(edition: Path) -> None:
     """A grep over every file, apart from the one that `release` itself does."""
     texts = [path.read_text("utf-8", "replace") for path in edition.rglob("*") if path.is_file()]

@@ -18,6 +18,7 @@ from roslings.jupyter.copies import Copies
 from roslings.jupyter.errors import NoSuchDay, NotWritten
 from roslings.jupyter.meanings import with_meanings
 from roslings.jupyter.server import Place, command, write_kernel
+from roslings.jupyter.unrun import unrun
 from roslings.lessons import Day, read_lessons
 
 
@@ -36,7 +37,7 @@ def days_of(copies: Copies) -> tuple[Day, ...]:
 
 def as_opened(lesson: Path, copies: Copies) -> bytes:
     """The course's lesson, its words with their meanings."""
-    return with_meanings(lesson.read_bytes(), copies.glossary)
+    return unrun(with_meanings(lesson.read_bytes(), copies.glossary))
 
 
 def test_a_word_brings_its_meaning(copies: Copies) -> None:
@@ -49,6 +50,16 @@ def test_a_word_brings_its_meaning(copies: Copies) -> None:
     source = json.loads(told)["cells"][0]["source"]
     assert f'[thing](#word-{word.id} "{word.title}: ' in source
     assert source.endswith("and [none](#word-no-such).")
+
+
+def test_a_student_sees_no_output_before_running_a_cell(copies: Copies) -> None:
+    """The course's lesson holds those that are compared: they would answer its questions."""
+    copies.copy_all(days_of(copies))
+    theirs = json.loads((copies.course / "days" / DAY / "lesson.ipynb").read_text("utf-8"))
+    own = json.loads((copies.folder / DAY / "lesson.ipynb").read_text("utf-8"))
+    kept = [[c["outputs"] or c["execution_count"] for c in book["cells"] if "outputs" in c]
+            for book in (theirs, own)]  # fmt: skip
+    assert any(kept[0]) and not any(kept[1])
 
 
 def test_the_first_time_all_is_copied(copies: Copies) -> None:

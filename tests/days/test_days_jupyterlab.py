@@ -8,7 +8,8 @@ from typing import Any
 import pytest
 from browser import CHROMIUM
 from jupyterlab import Lab, served
-from lesson_runs import lessons, names, surroundings
+from lesson_runs import lessons, names
+from lessons_as_tests import surroundings
 from tiny_course import CELLS, DAY, Cell, with_cell, write_course
 
 from roslings.course import root

@@ -12,6 +12,7 @@ from roslings.course import all_labs, root
 from roslings.drills import all_drills
 from roslings.lessons import read_glossary
 from roslings.lessons.rules import Lesson, broken_rules
+from roslings.lessons.rules.alternatives import untold
 
 WRITTEN = list(lessons())
 each_lesson = pytest.mark.parametrize("lesson", [
@@ -74,6 +75,41 @@ def test_cells_run_again_and_in_another_order(lesson: Lesson, shared_folder: Pat
 def test_labs_name_days_of_the_path() -> None:
     """A lab of no day has no lesson."""
     assert {lab.card.day for lab in all_labs()} <= {day.id for day in days()}
+
+
+def read(file: Path) -> str:
+    """Its text."""
+    return file.read_text("utf-8")
+
+
+def pages() -> list[Path]:
+    """All Markdown that a student reads beside the lessons."""
+    return sorted([*root().glob("days/*/*.md"), *root().glob("site/pages/reference/*.md")])
+
+
+PICTURE = re.compile(r"!\[([^\]]*)\]\((pictures/[^)]+\.svg)\)")
+
+
+def test_pages_beside_a_lesson_tell_the_pictures_that_are_drawn() -> None:
+    """As the rules want it of lessons."""
+    shown = [(page, *each) for page in pages() for each in PICTURE.findall(read(page))]
+    assert shown
+    wrong = {(target, *untold(alt, page.parent / target)) for page, alt, target in shown}
+    assert {each for each in wrong if len(each) > 1} == set()
+
+
+LEVEL = re.compile(r"\*\*Level:\*\* (\w+)\.")
+
+
+@each_lesson
+def test_a_day_and_its_labs_are_of_one_level(lesson: Lesson) -> None:
+    """The same word at the head of the lesson and of each task."""
+    (level,) = LEVEL.findall("\n".join(cell.text for cell in lesson.cells if not cell.is_code))
+    assert level in ("beginner", "middle")
+    tasks = {lab.name: read(lab.task) for lab in all_labs() if lab.card.day == lesson.day.id}
+    assert {name: LEVEL.findall(text) for name, text in tasks.items()} == {
+        name: [level] for name in tasks
+    }
 
 
 def test_every_day_has_a_lesson_and_a_quiz() -> None:

@@ -8,7 +8,16 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tiny_course import CELLS, CHANGE, METADATA, Cell, with_cell, without, write_course
+from tiny_course import (
+    CELLS,
+    CHANGE,
+    METADATA,
+    Cell,
+    printed,
+    with_cell,
+    without,
+    write_course,
+)
 
 from roslings.lessons.rules.__main__ import main
 from roslings.lessons.rules.prose import blocks_of, sentences, slug, words
@@ -18,6 +27,21 @@ WRONG: dict[str, tuple[Sequence[Cell], str, str]] = {
     # name: (cells, where, what)
     "outputs": (with_cell("first", more={"outputs": [{}]}), "cell first, line 1", "holds outputs"),
     "count": (with_cell("first", more={"execution_count": 3}), "cell first", "execution count"),
+    "compared without outputs": (with_cell("blink-run", more={}), "cell blink-run", "no outputs"),
+    "compared without a count": (
+        with_cell("blink-run", more={"outputs": [printed("on\n")]}), "blink-run", "no execution",
+    ),
+    "compared picture": (
+        with_cell("blink-run", more={
+            "execution_count": 2, "outputs": [{"output_type": "display_data", "data": {}}]}),
+        "cell blink-run", "no text, but display_data",
+    ),
+    "few compared": (with_cell("blink-run", tags=["run"], more={}), "", "of 2 cells are compared"),
+    "path in an output": (
+        with_cell("blink-run", more={
+            "execution_count": 2, "outputs": [printed("/home/anna/x\n")]}),
+        "cell blink-run", "/home/anna",
+    ),
     "random id": (with_cell("first", id="0a1b2c3d"), "cell 0a1b2c3d", "no readable id"),
     "twin ids": (with_cell("first", id="head"), "cell head", "Another cell has this id"),
     "tag": (with_cell("first", tags=["hide"]), "cell first", "'hide' is no tag"),
@@ -135,6 +159,22 @@ WRONG: dict[str, tuple[Sequence[Cell], str, str]] = {
     "picture that is not there": (
         with_cell("blinking", text=("lamp.svg", "lump.svg")), "blinking", "no picture 'pictures/l",
     ),
+    "picture told otherwise: a number": (
+        with_cell("blinking", text=("A lamp that shines on a desk", "A lamp of 40 watts")),
+        "cell blinking, line 5", "names 40,",
+    ),
+    "picture told otherwise: a name": (
+        with_cell("blinking", text=("A lamp that shines on a desk", "A lamp hears /light")),
+        "cell blinking", "names /light,",
+    ),
+    "picture told otherwise: a count": (
+        with_cell("blinking", text=("A lamp that shines on a desk", "Three lamps that shine")),
+        "cell blinking", "names three,",
+    ),
+    "picture told otherwise: a thing": (
+        with_cell("blinking", text=("A lamp that shines on a desk", "A lamp with a dial")),
+        "cell blinking", "names dial,",
+    ),
     "link that leads nowhere": (
         with_cell("real", text=("The motor", "See [it](../03-moon/lesson.ipynb). The motor")),
         "real", "leads nowhere",
@@ -188,7 +228,7 @@ def test_wrong_metadata_is_told(
     [
         ("</svg>", "", "is no XML"),
         ("<title>A lamp</title>", "", "no <title>"),
-        ("<desc>A lamp that shines.</desc>", "<desc> </desc>", "no <desc>"),
+        ("<desc>A lamp that shines on a desk.</desc>", "<desc> </desc>", "no <desc>"),
         ("0 0 720 200", "0 0 800 200", "not 720 wide"),
         ('font-size="18"', 'font-size="13"', "13 px"),
         ("<rect", '<image href="https://example.org/x.png"/><rect', "from outside"),

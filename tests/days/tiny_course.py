@@ -11,6 +11,7 @@ from typing import Any
 from roslings.lessons.document import read
 from roslings.lessons.path import Path as DayPath
 from roslings.lessons.rules import Lesson, read_lesson
+from roslings.lessons.rules.form import COMPARED
 
 DAY = "01-lamp"
 PATH = """days:
@@ -32,7 +33,7 @@ GLOSSARY = "category: Light\nabout: All of it.\nterms:\n" + "".join(
 ) + OTHER + NEVER  # fmt: skip
 
 DRAWING = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 720 200" role="img">
-<title>A lamp</title><desc>A lamp that shines.</desc>
+<title>A lamp</title><desc>A lamp that shines on a desk.</desc>
 <rect width="720" height="200" rx="12" fill="#fff"/>
 <text x="20" y="40" font-size="18">lamp</text></svg>
 """
@@ -92,6 +93,22 @@ class Cell:
         return {**cell, **ran, **self.more}
 
 
+def compared(cell: Cell, count: int, output: dict[str, Any]) -> Cell:
+    """The cell with an output that nbval compares."""
+    ran = {"execution_count": count, "outputs": [output]}
+    return replace(cell, tags=[*cell.tags, COMPARED], more=ran)
+
+
+def printed(text: str) -> dict[str, Any]:
+    """An output, as a notebook holds it."""
+    return {"name": "stdout", "output_type": "stream", "text": text.splitlines(keepends=True)}
+
+
+def raised(name: str, told: str) -> dict[str, Any]:
+    """An error, as a lesson holds it."""
+    return {"ename": name, "evalue": told, "output_type": "error", "traceback": []}
+
+
 HEAD = """# Day 1: A lamp
 
 - **Goal:** You make a light go on.
@@ -121,17 +138,23 @@ CELLS = (
         "![A lamp that shines on a desk](pictures/lamp.svg)",
     ),
     Cell("blink-predict", "Before you run: how often is it on?", tags=["predict"]),
-    Cell("blink-run", "on = [n % 2 for n in range(4)]\nprint(on)", code=True, tags=["run"]),
+    compared(
+        Cell("blink-run", "on = [n % 2 for n in range(4)]\nprint(on)", code=True, tags=["run"]),
+        2, printed("[0, 1, 0, 1]\n"),
+    ),
     Cell("blink-explain", "It is on every second time.", tags=["explain"]),
     Cell(
         "blink-change", CHANGE, code=True, tags=["change", "raises-exception"],
         answer=[["period = 0.5", "period = 0.1"]],
     ),
     Cell("wrong", "## What goes wrong\n\nThe name is wrong."),
-    Cell("wrong-1", "print(lampp)", code=True, tags=["raises-exception"]),
+    compared(
+        Cell("wrong-1", "print(lampp)", code=True, tags=["raises-exception"]),
+        4, raised("NameError", "name 'lampp' is not defined"),
+    ),
     Cell("wrong-1-mended", "lamp = 1\nprint(lamp)", code=True),
     Cell("wrong-2", "print(1 / 0)", code=True, tags=["raises-exception"]),
-    Cell("wrong-2-mended", "print(1 / 1)", code=True),
+    compared(Cell("wrong-2-mended", "print(1 / 1)", code=True), 7, printed("1.0\n")),
     Cell("real", "## On a real robot\n\nA [motor](#word-motor) is stronger. The motor is loud."),
     Cell("lab", LAB),
     Cell("check", "## The check\n\nRun this cell."),
@@ -182,7 +205,7 @@ def notebook(cells: Sequence[Cell], metadata: dict[str, Any]) -> str:
     """The file of a notebook."""
     raw = [cell.raw() for cell in cells]
     content = {"cells": raw, "metadata": metadata, "nbformat": 4, "nbformat_minor": 5}
-    return json.dumps(content, indent=1)
+    return json.dumps(content, indent=1, ensure_ascii=False) + "\n"
 
 
 def read_tiny(path: Path) -> Lesson:

@@ -54,6 +54,16 @@ with session() as ros:
     assert "0.01 True ['/left', '/talker']" in ran.text, ran
 
 
+def test_a_node_belongs_to_the_session_that_starts_it(cells: Kernel) -> None:
+    """Also where another session was opened after it: for ROS, each of them is a program."""
+    ran = cells.run("""
+with session() as first, session() as second:
+    ours, theirs = first.start(Talker), second.start(Talker)
+    print(ours.context is first.context, theirs.context is second.context)
+""")
+    assert "True True" in ran.text, ran
+
+
 def test_names_are_full_and_hidden_nodes_are_left_out(cells: Kernel) -> None:
     """Our own nodes are nobody's business."""
     ran = cells.run("""

@@ -19,7 +19,10 @@ from roslings.course.labs import EXAMPLE, example_root
 from roslings.course.promises import NAME as PROMISES
 from roslings.workspace.sources import files
 
-TESTS = ("conftest.py", "browser.py", "costs.py", "once.py", "seen_with.py", "arena", "report")
+TESTS = (
+    "conftest.py", "browser.py", "costs.py", "lessons_as_tests.py", "once.py", "seen_with.py",
+    "arena", "report",
+)  # fmt: skip
 """Parts of tests/ that students get: they show that the installation works."""
 MAINTAINERS_ONLY = (".ci", ".github", "example-course")
 SOLUTION_COMMAND = re.compile(r"(\./roslings check )[\w-]+( --solution)")

@@ -18,6 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from roslings.jupyter.meanings import with_meanings
+from roslings.jupyter.unrun import unrun
 from roslings.lessons import Day, Glossary
 from roslings.workspace.errors import shown, writing
 
@@ -61,7 +62,7 @@ class Copies:
 
     def _copy(self, day: Day) -> Iterator[str]:
         own, before = self.folder / day.id / LESSON, self._before(day)
-        theirs = with_meanings(_linked(self.lesson_of(day)), self.glossary)
+        theirs = unrun(with_meanings(_linked(self.lesson_of(day)), self.glossary))
         self._copy_beside(day)
         if not own.exists():
             _write(own, theirs)

@@ -139,10 +139,13 @@ class Session:
         the session's other nodes go on.
         Raises NotANode, NoInit, SessionEnded, and what the node's `__init__` raises.
         """
+        from roslings.notebook.default_context import as_default
         from roslings.notebook.starting import made
 
         self._spinning.check()
-        return self._spin(made(kind, given, named, ros_args), threads)
+        with as_default(self.context):  # also where another session was opened after this one
+            node = made(kind, given, named, ros_args)
+        return self._spin(node, threads)
 
     def node(self, name: str, **named: Any) -> Any:
         """A plain rclpy Node that spins in this session."""

@@ -10,7 +10,11 @@ from collections.abc import Iterator
 from roslings.lessons.rules.lesson_file import Broken, Cell, Lesson
 
 KERNEL = "roslings"
-TAGS = frozenset({"predict", "run", "explain", "change", "raises-exception"})
+COMPARED = "nbval-check-output"
+"""The tag of a cell whose output the lesson promises: nbval compares it with the one saved here."""
+TAGS = frozenset({"predict", "run", "explain", "change", "raises-exception", COMPARED})
+TEXT_ALONE = frozenset({"stream", "error"})
+LEAST_COMPARED = 3
 ID = re.compile(r"^[a-z][a-z0-9]*(-[a-z0-9]+)*$")
 MACHINE = re.compile(
     r"/(?:home/(?!you\b|pi\b|ubuntu\b)\w+|(?:root)/|Users/\w+|tmp/ipykernel)|site-packages"
@@ -21,6 +25,7 @@ def broken(lesson: Lesson) -> Iterator[Broken]:
     """Every rule on the file that `lesson` breaks."""
     yield from _of_notebook(lesson)
     yield from _ids(lesson)
+    yield from _promises(lesson)
     for cell in lesson.cells:
         yield from _of_cell(lesson, cell)
 
@@ -49,10 +54,32 @@ def _ids(lesson: Lesson) -> Iterator[Broken]:
             yield lesson.broken_at(cell, 1, "Another cell has this id.", "Choose another one.")
 
 
+def _promises(lesson: Lesson) -> Iterator[Broken]:
+    count = sum(COMPARED in cell.tags for cell in lesson.cells)
+    if count < LEAST_COMPARED:
+        what = f"The outputs of {count} cells are compared, fewer than {LEAST_COMPARED}."
+        yield lesson.broken(what, f"Tag cells that always print the same: {COMPARED}.")
+
+
+def _outputs(lesson: Lesson, cell: Cell) -> Iterator[Broken]:
+    """Saved ones belong to compared cells alone: the others differ from run to run."""
+    outputs = cell.raw.get("outputs") or []
+    has_run = cell.raw.get("execution_count") is not None
+    save = f"Let them be written: ./roslings test days/{lesson.day.id} --nbval-lax --save-outputs"
+    if COMPARED not in cell.tags:
+        if outputs or has_run:
+            what = "The cell holds outputs or an execution count, and is not compared."
+            yield lesson.broken_at(cell, 1, what, f"Clear them, or tag the cell {COMPARED}.")
+    elif not (outputs and has_run):  # nbval compares nothing without a count
+        what = "The cell is compared, and holds no outputs, or no execution count."
+        yield lesson.broken_at(cell, 1, what, save)
+    elif strange := sorted({str(each.get("output_type")) for each in outputs} - TEXT_ALONE):
+        what = f"A compared output is no text, but {', '.join(strange)}."
+        yield lesson.broken_at(cell, 1, what, "Compare what another cell prints.")
+
+
 def _of_cell(lesson: Lesson, cell: Cell) -> Iterator[Broken]:
-    if cell.raw.get("outputs") or cell.raw.get("execution_count") is not None:
-        mend = "Clear all outputs before you commit."
-        yield lesson.broken_at(cell, 1, "The cell holds outputs or an execution count.", mend)
+    yield from _outputs(lesson, cell)
     strange = sorted(set(cell.raw.get("metadata", {})) - {"tags", "roslings"})
     if strange:
         what = f"The cell's metadata hold {', '.join(strange)}."
@@ -60,7 +87,8 @@ def _of_cell(lesson: Lesson, cell: Cell) -> Iterator[Broken]:
     for tag in sorted(set(cell.tags) - TAGS):
         mend = f"Use these alone: {', '.join(sorted(TAGS))}."
         yield lesson.broken_at(cell, 1, f"'{tag}' is no tag of a lesson.", mend)
-    found = MACHINE.search(cell.text) or MACHINE.search(json.dumps(cell.raw.get("metadata", {})))
+    rest = json.dumps([cell.raw.get("metadata", {}), cell.raw.get("outputs", [])])
+    found = MACHINE.search(cell.text) or MACHINE.search(rest)
     if found:
         line = cell.text[: found.start()].count("\n") + 1
         what = f"'{found.group()}' is a path of one machine."

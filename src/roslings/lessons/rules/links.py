@@ -7,6 +7,7 @@ import xml.etree.ElementTree as Xml
 from collections.abc import Iterator
 from pathlib import Path
 
+from roslings.lessons.rules.alternatives import untold
 from roslings.lessons.rules.lesson_file import Broken, Lesson, Part
 from roslings.lessons.rules.prose import IMAGE, LINK
 
@@ -41,6 +42,10 @@ def _picture(lesson: Lesson, part: Part, alt: str, target: str) -> Iterator[Brok
         for what in faults_of_svg(file):
             mend = "See the section Pictures of the form."
             yield lesson.broken_at(part.cell, line, f"{target}: {what}", mend)
+        if missing := ", ".join(untold(alt, file)):
+            what = f"{target}: its text alternative names {missing}, and the drawing does not."
+            mend = "Say what is drawn, or write it into the drawing's <desc>."
+            yield lesson.broken_at(part.cell, line, what, mend)
 
 
 def faults_of_svg(file: Path) -> Iterator[str]:
