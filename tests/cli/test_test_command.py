@@ -1,23 +1,24 @@
-"""`test`: what follows it is for pytest."""
+"""`./roslings test`: which plugins of pytest its processes load."""
 
 from __future__ import annotations
 
-import subprocess
-import sys
+from importlib.metadata import entry_points
+
+import pytest
+
+from roslings.commands.upkeep import plugins_without_use
+
+INSTALLED = {each.name for each in entry_points(group="pytest11")}
 
 
-def test_options_reach_pytest() -> None:
-    """Also those that come first, as in `./roslings test -m slow`."""
-    words = ["test", "-m", "slow", "--collect-only", "-q", "-n", "0", "tests/experiment"]
-    command = [sys.executable, "-m", "roslings", *words]
-    ran = subprocess.run(command, capture_output=True, text=True, check=False)
-    assert ran.returncode == 0, ran.stderr
-    assert "test_clocks.py::test_tricky_nodes" in ran.stdout
-    assert "test_what_follows_the_clock" not in ran.stdout
+@pytest.mark.parametrize("rest", [[], ["tests/judge", "-n", "0"], ["-m", "slow"]])
+def test_what_no_test_asks_for_is_not_loaded(rest: list[str]) -> None:
+    """Each loads in every process; a name that is not installed would leave nothing out."""
+    left_out = set(plugins_without_use(rest))
+    assert "nbval" in left_out and left_out <= INSTALLED and "xdist" not in left_out
 
 
-def test_its_help_is_ours() -> None:
-    """And says so."""
-    command = [sys.executable, "-m", "roslings", "test", "--help"]
-    ran = subprocess.run(command, capture_output=True, text=True, check=False)
-    assert "options for pytest" in ran.stdout
+@pytest.mark.parametrize("rest", [["days", "--nbval-lax"], ["days/02-nodes", "--nbval"], ["days"]])
+def test_lessons_have_their_plugin(rest: list[str]) -> None:
+    """They are run by it."""
+    assert "nbval" not in plugins_without_use(rest)

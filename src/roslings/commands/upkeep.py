@@ -25,7 +25,20 @@ def test(options: argparse.Namespace) -> int:
     return run_pytest([word for word in options.rest if word != "--"])
 
 
+UNUSED = ("rerunfailures", "repeat", "anyio", "colcon_core_warnings_stderr", "pytest_cov")
+"""Plugins of pytest that come with colcon and others, and that no test of ours asks for."""
+OF_LESSONS = "nbval"
+"""The plugin that runs lessons. It loads for seconds, in each process of a run."""
+
+
 def run_pytest(rest: Sequence[str]) -> int:
     """Run pytest in the course's folder, on both cores."""
-    command = [sys.executable, "-m", "pytest", *rest]
+    unused = [f"-pno:{name}" for name in plugins_without_use(rest)]
+    command = [sys.executable, "-m", "pytest", *unused, *rest]
     return subprocess.run(command, cwd=course.root(), check=False).returncode
+
+
+def plugins_without_use(rest: Sequence[str]) -> list[str]:
+    """Installed plugins that these tests do not need."""
+    about_lessons = any(word.startswith(("days", f"--{OF_LESSONS}")) for word in rest)
+    return [*UNUSED, *([] if about_lessons else [OF_LESSONS])]
