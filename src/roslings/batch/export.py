@@ -15,7 +15,7 @@ from roslings.batch.grades import Class, LateRule, class_of
 from roslings.batch.roster import read_roster
 from roslings.batch.student_pages import write_pages
 from roslings.course import Lab
-from roslings.workspace.errors import shown
+from roslings.workspace.errors import from_here
 
 KEY = "handout"
 
@@ -55,7 +55,7 @@ def hand_out(book: Gradebook, lab: Lab, folder: Path) -> list[str]:
     write_all(found.grades, lab, folder, settings.assignment)
     write_pages(book, lab, found.grades, folder / "students")
     write_class_page(lab, found, fingerprint(lab.starter).marks, folder / "class.html")
-    return [*_remarks(found, settings), f"The class on one page: {shown(folder)}/class.html"]
+    return [*_remarks(found, settings), f"The class on one page: {from_here(folder)}/class.html"]
 
 
 def _remarks(found: Class, settings: Settings) -> list[str]:

@@ -285,6 +285,12 @@ def shown(path: Path) -> str:
     return f"~/{path.relative_to(home)}" if path.is_relative_to(home) else str(path)
 
 
+def from_here(path: Path) -> str:
+    """A path as it is typed in this folder: what was given relative is relative again."""
+    here = Path.cwd()
+    return str(path.relative_to(here)) if path.is_relative_to(here) else shown(path)
+
+
 def without_places(text: str, places: Iterable[Path]) -> str:
     """A text for somebody else: these folders of this machine are `submission` in it."""
     names = {name for place in places for path in (place, place.resolve())
@@ -292,6 +298,12 @@ def without_places(text: str, places: Iterable[Path]) -> str:
     for name in sorted(names, key=len, reverse=True):
         text = text.replace(name, "submission")
     return text
+
+
+def quoted_from_here(path: Path) -> str:
+    """The same as it must be typed in a command of this folder."""
+    here = Path.cwd()
+    return shlex.quote(str(path.relative_to(here))) if path.is_relative_to(here) else quoted(path)
 
 
 def quoted(path: Path) -> str:
