@@ -17,6 +17,7 @@ from roslings.batch.export import Settings, hand_out, keep
 from roslings.batch.gradebook import Gradebook, gradebook
 from roslings.batch.grades import LateRule
 from roslings.batch.messages import soak_line, standing_line, summary_lines
+from roslings.batch.moodle_worksheet import read_worksheet
 from roslings.batch.roster import insist_on_owners
 from roslings.batch.scheduler import GradingRequest, Scheduler, Standing
 from roslings.batch.submissions import Submission
@@ -126,6 +127,7 @@ def _settings(choices: Choices, submissions: list[Submission]) -> Settings:
     Raises BadTable, NobodyInTheList.
     """
     if choices.roster:
+        read_worksheet(choices.roster)
         insist_on_owners(choices.roster, [each.name for each in submissions])
     times = {each.name: each.submitted for each in submissions if each.submitted}
     roster = choices.roster.absolute() if choices.roster else None
