@@ -11,6 +11,7 @@ from roslings.batch.grades import Grade
 from roslings.batch.moodle_worksheet import Mark, Worksheet
 from roslings.batch.roster import IDENTIFIER
 from roslings.course import Lab
+from roslings.report.flow import one_line
 from roslings.report.safe_text import harmless
 from roslings.report.whole_file import write_whole
 
@@ -81,7 +82,7 @@ def _reason(grade: Grade) -> str:
     """Why the final score is not the measured one, or why there is none."""
     if grade.override:
         return f"{grade.override.by}: {grade.override.reason}"
-    return " ".join(grade.result.reason.split()) if grade.result else ""
+    return one_line(grade.result.reason) if grade.result else ""
 
 
 def _canvas(grades: Sequence[Grade], assignment: str) -> Iterable[Line]:
@@ -120,8 +121,10 @@ def _mark(grade: Grade) -> Mark | None:
 
 def _comment(grade: Grade) -> str:
     """What to mend first, in a line; the whole of it is on the student's page."""
-    if grade.override or not grade.result or not grade.result.verdict:
+    if grade.override or not grade.result:
         return _reason(grade)
+    if not grade.result.verdict:
+        return f"{_reason(grade)} {one_line(grade.result.next_step)}".strip()
     failed = [check.title for check in grade.result.verdict.failed()]
     return f"To mend: {'; '.join(failed)}" if failed else ""
 
