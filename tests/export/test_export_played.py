@@ -38,7 +38,7 @@ POINTS = {"secret": 25}
 @check()
 def test_secret(package: PackageView) -> None:
     """A secret."""
-    assert package.files.pictures, "no picture"
+    assert not package.files.pictures, "there is a picture"
 '''
 """The solution fails it: of 125 points it has 100."""
 SCORE = 80.0

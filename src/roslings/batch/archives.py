@@ -101,8 +101,16 @@ def unpack(archive: Path, into: Path, budget: Budget | None = None) -> None:
     try:
         _unpack_zip(archive, room) if zipfile.is_zipfile(archive) else _unpack_tar(archive, room)
     except BROKEN as error:
-        words = str(error) or type(error).__name__
-        raise Refused(f"It cannot be unpacked: {words}.", "Pack it again, as .zip.") from error
+        raise _broken(error) from error
+    except OSError as error:
+        if error.errno is not None:  # the disk's; what bz2 cannot read has no number
+            raise
+        raise _broken(error) from error
+
+
+def _broken(error: Exception) -> Refused:
+    words = str(error) or type(error).__name__
+    return Refused(f"It cannot be unpacked: {words}.", PACK_AGAIN)
 
 
 def _insist_on_archive(file: Path) -> None:
