@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
+from roslings import course
 from roslings.authoring.course_files import course_files
 from roslings.course import CourseError, Lab, all_labs
 from roslings.course.labs import EXAMPLE, example_root
@@ -61,8 +62,7 @@ def release(to: Path) -> Edition:
     names = [name for name in found.paths if is_for_students(name)]
     for name in names:
         _copy(found.paths[name], to / name)
-    for path in _texts_in(to):
-        _rewrite(path)
+    rewrite_texts(to)
     if leaking := list(leaks(to, all_labs())):
         shutil.rmtree(to)
         told = "\n".join(leaking)
@@ -81,6 +81,12 @@ def is_for_students(name: str) -> bool:
         return path.stem != "solution"
     hidden = path.parts[0] == "graders" and path.name.startswith("hidden_")
     return not hidden and path.parts[0] not in MAINTAINERS_ONLY
+
+
+def rewrite_texts(edition: Path) -> None:
+    """Say in all texts what works in an edition without solutions."""
+    for path in _texts_in(edition):
+        _rewrite(path)
 
 
 def _copy(source: Path, target: Path) -> None:
@@ -152,3 +158,7 @@ def _answers(lab: Lab) -> Iterator[tuple[str, set[str]]]:
 def _lines(path: Path) -> set[str]:
     lines = (line.strip() for line in path.read_text("utf-8", "replace").splitlines())
     return {line for line in lines if len(line) >= LEAST_LINE}
+
+
+if __name__ == "__main__":  # in an image, whose files came without the answers (.dockerignore)
+    rewrite_texts(course.root())
