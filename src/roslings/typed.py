@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import shlex
 import shutil
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from roslings import course
-from roslings.workspace.errors import quoted
+from roslings.workspace.errors import quoted_from_here
 
 if TYPE_CHECKING:
     from roslings.report.html import Own
@@ -33,7 +32,7 @@ def as_typed(options: argparse.Namespace) -> Typed:
     from roslings.report.typed import Typed
 
     path = getattr(options, "path", None)
-    place = (quoted(path),) if path else ()
+    place = (quoted_from_here(path),) if path else ()
     return Typed(options.lab, program(), place, tuple(_options(options)))
 
 
@@ -50,6 +49,6 @@ def _options(options: argparse.Namespace) -> Iterator[str]:
     yield from (f"--{name}" for name in FLAGS if given.get(name))
     for name in VALUES:
         if value := given.get(name):
-            yield f"--{name} {shlex.quote(str(value))}"
+            yield f"--{name} {quoted_from_here(value)}"
     if given.get("clock", "auto") != "auto":
         yield f"--clock {given['clock']}"

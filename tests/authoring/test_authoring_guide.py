@@ -104,7 +104,7 @@ def test_it_is_released(written: Lab, tmp_path_factory: pytest.TempPathFactory) 
     for folder in ("example", "site/pages/teachers"):
         shutil.copytree(GUIDE.parents[3] / folder, root() / folder)
     edition = tmp_path_factory.mktemp("release") / "students"
-    names = release(edition)
+    names = release(edition).names
     assert f"labs/{written.name}/task.md" in names
     own = [name for name in names if name.startswith("labs/")]
     assert not [name for name in own if "mutants" in name or "promises" in name]

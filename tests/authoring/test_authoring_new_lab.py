@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -10,7 +11,7 @@ import pytest
 
 from roslings.authoring.new_lab import CannotMake, new_lab
 from roslings.authoring.prove import files_fit, gradings_fit, packages_of
-from roslings.course import Lab, lab
+from roslings.course import Lab, lab, root
 from roslings.workspace.inspect import inspect_package
 
 
@@ -69,6 +70,27 @@ def test_a_name_that_would_not_work_is_refused(
     with pytest.raises(CannotMake):
         new_lab(name, package, day)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_day_that_is_not_there_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """With the days that are; and nothing is made."""
+    (tmp_path / "days/02-lines").mkdir(parents=True)
+    monkeypatch.setenv("ROSLINGS_COURSE", str(tmp_path))
+    with pytest.raises(CannotMake, match=r"Did you mean 02-lines\?\nThe days are: 02-lines\."):
+        new_lab("fine", day="03-lines")
+    assert [path.name for path in tmp_path.iterdir()] == ["days"]
+    assert new_lab("fine").card.day == "02-lines"
+
+
+def test_every_page_names_days_that_are_there() -> None:
+    """In each command that takes one."""
+    pages = [root() / "README.md", root() / "CONTRIBUTING.md", *root().glob("site/pages/**/*.md")]
+    texts = "\n".join(page.read_text("utf-8") for page in pages)
+    named = re.findall(r"new-lab [^`\n]*--day (\S+)", texts)
+    assert named
+    assert [day for day in named if not (root() / "days" / day).is_dir()] == []
 
 
 def test_a_lab_is_never_overwritten(made: Lab) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -199,20 +200,50 @@ def test_from_nothing_to_100(command: Path, empty: Path) -> None:
     assert "100 of 100" in graded.stdout
 
 
+def for_a_grading_system() -> list[str]:
+    """The lines that the page says, one after the other."""
+    page = (course.root() / "site/pages/reference/installing.md").read_text("utf-8")
+    block = page.partition("For a grading system")[2].partition("```bash\n")[2].partition("```")[0]
+    return block.splitlines()
+
+
+def test_an_engine_that_came_by_pip_finds_the_example(
+    wheel: Path, empty: Path, tmp_path: Path
+) -> None:
+    """All that the page says for a grading system, but that pip's packages are those from here."""
+    words = ["install", "--no-deps", "--no-index", "--quiet", "--target", str(tmp_path / "site")]
+    run([sys.executable, "-m", "pip", *words, str(wheel)], tmp_path)
+    program = f"{sys.executable} -P -m roslings" if sys.version_info >= (3, 11) else sys.executable
+    here = {"PYTHONPATH": str(tmp_path / "site"), **libraries()}
+    for line in for_a_grading_system()[1:]:
+        typed = re.sub(r"(?<!\S)roslings(?= )", program, line)
+        done = run(["bash", "-c", typed], empty, **here)
+        assert done.returncode == 0, done.stdout + done.stderr
+    assert "100 of 100" in done.stdout
+    made = run(["bash", "-c", f"{program} new-lab lamp"], empty, **here, ROSLINGS_COURSE="course")
+    assert made.returncode == 0, made.stderr
+    assert (empty / "course/labs/lamp/card.yaml").is_file()
+    assert not (empty / "course/.venv").exists()
+
+
+def libraries() -> dict[str, str]:
+    """What a process of this environment has of it."""
+    names = ("LD_LIBRARY_PATH", "_ROS_WHEELS_BOOTSTRAP_COMPLETE", "ROSLINGS_SOAK_S")
+    return {name: os.environ[name] for name in names if name in os.environ}
+
+
 @pytest.mark.slow
 @pytest.mark.twice
 def test_the_extras_alone_grade_too(wheel: Path, empty: Path, tmp_path: Path) -> None:
-    """One environment, made by pip: for a container, or a grading system."""
-    whole = f"{wheel}[{RUNS_A_CHECK}]"
-    command = installed(tmp_path, whole, **kept_downloads())
-    run([str(command), "new"], empty)
-    where = {"ROSLINGS_COURSE": str(empty / "roslings-course")}
-    graded = run(
-        [str(command), "check", "topics", str(course.lab("topics").solution)], empty, **where
-    )
-    assert graded.returncode == 0, graded.stdout + graded.stderr
-    assert "100 of 100" in graded.stdout
-    assert not (empty / "roslings-course" / ".venv").exists()
+    """One environment, made by pip: for a container, or a grading system. As the page says it."""
+    pip, *lines = for_a_grading_system()
+    assert f"roslings[{RUNS_A_CHECK}]" in pip
+    command = installed(tmp_path, f"{wheel}[{RUNS_A_CHECK}]", **kept_downloads())
+    for line in lines:
+        done = run(["bash", "-c", line], empty, PATH=f"{command.parent}:/usr/bin:/bin")
+        assert done.returncode == 0, done.stdout + done.stderr
+    assert "100 of 100" in done.stdout
+    assert not (empty / "course" / ".venv").exists()
 
 
 @pytest.mark.skipif(shutil.which("uvx") is None, reason="there is no uvx on this machine")

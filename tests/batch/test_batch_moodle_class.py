@@ -66,8 +66,12 @@ def download(tmp_path: Path) -> Path:
 @pytest.fixture
 def roster(tmp_path: Path) -> Path:
     """Moodle's grading worksheet, and one student more who handed in nothing."""
-    lines = [f"Participant {number},{name}," for number, name in enumerate(NAMES, start=101)]
-    text = "\n".join(["Identifier,Full name,Email address", *lines, "Participant 200,Late Lu,"])
+    people = [*enumerate(NAMES, start=101), (200, "Late Lu")]
+    lines = [f'"Participant {number}","{name}",,100.00,-,' for number, name in people]
+    head = (
+        'Identifier,"Full name",Grade,"Maximum Grade","Last modified (grade)","Feedback comments"'
+    )
+    text = "\n".join([head, *lines])
     (tmp_path / "worksheet.csv").write_text(text, "utf-8")
     return tmp_path / "worksheet.csv"
 
@@ -89,5 +93,5 @@ def test_a_moodle_class_is_graded_by_one_command(download: Path, roster: Path) -
         assert loose not in done.stdout
     with (place / "out/moodle.csv").open(encoding="utf-8", newline="") as file:
         grades = {row["Identifier"]: row["Grade"] for row in csv.DictReader(file)}
-    assert [grades[f"Participant {101 + n}"] for n in range(30)] == ["100"] * PERFECT + [""] * 24
+    assert [grades[f"Participant {101 + n}"] for n in range(30)] == ["100.00"] * PERFECT + [""] * 24
     assert list((place / "tmp").iterdir()) == []

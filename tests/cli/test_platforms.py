@@ -27,7 +27,7 @@ def refused(package: Path, tmp_path: Path) -> tuple[int, dict[str, str]]:
     ("files", "says"),
     [
         ((), "submission is empty"),
-        (("work.zip",), "but a packed file: work.zip"),
+        (("work.zip",), "work.zip is an empty file"),
         (("chatter/package.xml", "COLCON_IGNORE"), "has the file COLCON_IGNORE"),
         (("chatter/package.xml",), "has no setup.py"),
     ],

@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 from images import GROUPS, Builder, dev_container, lacking
 
+from roslings.authoring.release import is_for_students
 from roslings.course import root
 
 pytestmark = [
@@ -43,14 +44,23 @@ def builder(tmp_path_factory: pytest.TempPathFactory) -> Builder:
 
 
 def test_the_image_grades_and_opens_the_lesson(builder: Builder) -> None:
-    """As a student, not as root; a full score; JupyterLab on the first day."""
+    """As a student, not as root; a full score; JupyterLab on the first day; and no answer."""
     image = builder.build("course")
     settings = builder.settings(image)
     assert settings["User"] == "student"
     assert "8888/tcp" in settings["ExposedPorts"]
     with builder.started(image) as container:
         assert container.run("id", "-u").stdout.strip() == str(STUDENT)
-        graded = container.run("./roslings", "check", "topics", "--solution")
+        there = container.run(
+            "find", ".", "-path", "./.venv*", "-prune", "-o", "-type", "f", "-print"
+        )
+        names = [name.removeprefix("./") for name in there.stdout.splitlines()]
+        assert [name for name in names if not is_for_students(name)] == []
+        said = container.run(
+            "grep", "--only-matching", "./roslings check .* --solution", "README.md"
+        )
+        first = said.stdout.splitlines()[0]
+        graded = container.run(*first.split())
         assert "100 of 100" in graded.stdout, graded.stdout + graded.stderr
         types = container.run("./roslings", "ready", "check", "actions")
         assert (types.returncode, types.stderr) == (0, ""), types.stderr

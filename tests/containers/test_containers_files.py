@@ -10,8 +10,10 @@ from pathlib import Path
 import pytest
 from images import CONTAINERFILE, DEVCONTAINER, dev_container
 
+from roslings.authoring.release import is_for_students
 from roslings.course import root
 
+IGNORE = root() / ".dockerignore"
 NOT_IN_THE_IMAGE = {"tests", "site", "setup.bash", "build", "example-course"}
 BINDER = root() / ".binder"
 
@@ -33,6 +35,78 @@ def test_every_folder_of_the_course_is_copied() -> None:
     wanted = {name for name in folders if not name.startswith(".")} - NOT_IN_THE_IMAGE
     assert names >= wanted | {"roslings", "constraints.txt", "pyproject.toml"}
     assert [name for name in names if not (root() / name).exists()] == []
+
+
+# --- what is in the image: what `release` leaves in ---------------------------------------------
+
+
+def pattern(line: str) -> re.Pattern[str]:
+    """A line of the ignore file as docker reads it: it holds for all that lies below, too."""
+    parts = re.split(r"(\*\*/|\*\*|\*|\?)", line.strip("/"))
+    signs = {"**/": "(?:.*/)?", "**": ".*", "*": "[^/]*", "?": "[^/]"}
+    return re.compile("".join(signs.get(part, re.escape(part)) for part in parts) + "(?:/.*)?")
+
+
+def stays_out(name: str) -> bool:
+    """Whether docker leaves a file of the course outside; the last line that fits counts."""
+    out = False
+    for line in IGNORE.read_text("utf-8").splitlines():
+        text = line.strip()
+        if text and not text.startswith("#") and pattern(text.lstrip("!")).fullmatch(name):
+            out = not text.startswith("!")
+    return out
+
+
+def copied(name: str) -> bool:
+    """Whether the Containerfile copies it."""
+    sources = [
+        source for line in lines() if line.startswith("COPY") for source in line.split()[2:-1]
+    ]
+    return any(name == source or name.startswith(f"{source}/") for source in sources)
+
+
+def tracked() -> list[str]:
+    """All files that git keeps here."""
+    listed = subprocess.run(
+        ["git", "ls-files", "-z"], cwd=root(), capture_output=True, text=True, check=True
+    )
+    return [name for name in listed.stdout.split("\0") if name]
+
+
+def in_new_rooms(name: str) -> str:
+    """The same file in a lab, a day, a grader and a drill that do not exist yet."""
+    name = re.sub(r"^labs/[^/]+", "labs/brand-new", name)
+    name = re.sub(r"^days/\d\d-[^/]+", "days/77-new", name)
+    name = re.sub(r"/drills/[^/]+", "/drills/99_new", name)
+    return re.sub(r"^graders/(hidden|grade)_\w+", r"graders/\1_brand_new", name)
+
+
+NOT_THERE_YET = (
+    "graders/hidden_topics.py", "labs/topics/solution/a/b.cpp", "labs/topics/mutants/a.yaml",
+    "days/02-nodes/drills/07_a/solution.xml", "days/02-nodes/drills/07_a/solution",
+    "days/77-new/drills/solution.py",
+)  # fmt: skip
+
+
+def test_the_image_holds_what_release_leaves_in() -> None:
+    """No answer, no mutant, no hidden check, also of labs to come; and nothing else is missing."""
+    kept = [name for name in tracked() if copied(name)]
+    for name in {*kept, *map(in_new_rooms, kept), *NOT_THERE_YET}:
+        assert stays_out(name) != is_for_students(name), name
+    assert [name for name in kept if "/solution" in name and not stays_out(name)]  # the example's
+
+
+MADE = (
+    ".venv/bin/python", ".venv-apt/x", ".git/config", "src/roslings/__pycache__/a.pyc",
+    "build/site/index.html", "topics.zip", "labs/topics/interfaces/__pycache__/a.pyc",
+    ".mypy_cache/x", "tests/labs/test_labs.py", "days/02-nodes/.ipynb_checkpoints/a",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("name", MADE)
+def test_what_a_clone_makes_stays_out(name: str) -> None:
+    """Environments, caches, and all of git's."""
+    assert stays_out(name)
 
 
 def test_nothing_in_it_runs_as_root() -> None:

@@ -13,7 +13,7 @@ import sys
 import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from stage import NOBODY, readable_to_all
@@ -62,14 +62,22 @@ class Played:
 
 @contextmanager
 def played(
-    name: str, bundle_at: str, environment: Mapping[str, str] | None = None, user: int = 0
+    name: str,
+    bundle_at: str,
+    environment: Mapping[str, str] | None = None,
+    user: int = 0,
+    hidden: str | None = None,
 ) -> Iterator[Played]:
-    """The platform `name`, whose bundle lies at `bundle_at` below a folder of its own."""
+    """The platform `name`, whose bundle lies at `bundle_at` below a folder of its own.
+
+    `hidden` are checks that students do not have, as text.
+    """
     place = Path(tempfile.mkdtemp(prefix="played-"))
     place.chmod(0o755)
     try:
         bundle = place / bundle_at
-        export(name, LAB, bundle)
+        export(name, replace(LAB, hidden=_written(place, hidden)), bundle)
+        (place / "instructors_own.py").unlink(missing_ok=True)
         furnish(bundle / SYSTEMS[name].course.replace("@LAB@", LAB.name))
         home = place / "home"
         home.mkdir()
@@ -79,6 +87,15 @@ def played(
         yield made
     finally:
         shutil.rmtree(place, ignore_errors=True)
+
+
+def _written(place: Path, hidden: str | None) -> Path | None:
+    """The file that an instructor names. It is gone when the platform begins to grade."""
+    if hidden is None:
+        return None
+    file = place / "instructors_own.py"
+    file.write_text(hidden, "utf-8")
+    return file
 
 
 def furnish(root: Path) -> None:

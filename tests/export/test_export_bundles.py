@@ -17,6 +17,7 @@ from roslings import course
 from roslings.authoring.release import leaks
 from roslings.cli import main
 from roslings.export import SYSTEMS, CannotExport, System, bundle, export
+from roslings.export.systems import OF_SYSTEM
 
 LAB = "topics"
 HIDDEN = "POINTS = {}\n# secret: 4711\n"
@@ -81,7 +82,7 @@ def test_an_answer_would_be_found(
     assert list(leaks(bundles / "gradescope", [course.lab(LAB)])) == []
     answer = course.lab(LAB).solution / "chatter" / "talker.py"
     name = answer.relative_to(course.root()).as_posix()
-    monkeypatch.setattr(bundle, "names_for", lambda lab: [name])
+    monkeypatch.setattr(bundle, "names_for", lambda lab, found: [name])
     assert main(["export", "gradescope", LAB, "--to", str(tmp_path / "to")]) == 2
     assert "An answer would leak" in capsys.readouterr().err
     assert not (tmp_path / "to").exists()
@@ -197,15 +198,6 @@ def test_the_example_is_not_for_a_class(tmp_path: Path, capsys: pytest.CaptureFi
     assert "new-lab" in capsys.readouterr().err
 
 
-def test_a_lab_that_git_does_not_keep_is_exported(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A new one, not yet committed."""
-    monkeypatch.setattr(bundle, "course_files", lambda: ["roslings"])
-    names = bundle.names_for(course.lab(LAB))
-    wanted = {"roslings", f"labs/{LAB}/card.yaml", f"graders/grade_{LAB}.py"}
-    assert wanted <= set(names)
-    assert not [name for name in names if "solution" in name or "mutants" in name]
-
-
 def test_it_replaces_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """A folder that holds something stays as it is."""
     (tmp_path / "mine").write_text("")
@@ -213,6 +205,45 @@ def test_it_replaces_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     assert [path.name for path in tmp_path.iterdir()] == ["mine"]
     assert main(["export", "gradescope", LAB, "--to", str(tmp_path / "new")]) == 0
     assert "The wall:" in capsys.readouterr().out
+
+
+INSTALLS = {
+    "gradescope": "setup.sh",
+    "github": "template/.github/workflows/classroom.yml",
+    "classroom50": "runtime.json",
+    "prairielearn": "prepare.sh",
+    "moodle-vpl": "README.md",
+    "gitlab": ".gitlab-ci.yml",
+    "github-ci": ".github/workflows/roslings.yml",
+}
+"""Which file of the bundle says what apt is to bring."""
+WITHOUT_SYSTEM = {"ros2", "vision"}
+"""Groups whose Python packages bring all that they need."""
+
+
+@each_system
+@pytest.mark.parametrize("name", [each.name for each in course.all_labs()])
+def test_every_platform_brings_what_the_labs_card_needs(
+    tmp_path: Path, system: System, name: str
+) -> None:
+    """A compiler for message types; and nothing where the card asks for nothing."""
+    lab = course.lab(name)
+    bundle.write_own_files(system, lab, tmp_path)
+    text = (tmp_path / INSTALLS[system.name]).read_text("utf-8")
+    compiles = "interfaces" in lab.card.groups
+    assert ("g++" in text) == compiles
+    image = "".join(each.read_text("utf-8") for each in tmp_path.rglob("Containerfile"))
+    assert ("python3-dev" in text) == (compiles and "python:3.12" not in text + image)
+    if system.name == "classroom50":
+        wanted = ["g++", "python3-dev"] if compiles else []
+        assert json.loads(text)["apt"] == ["bubblewrap", *wanted]
+
+
+def test_every_group_of_a_card_is_known() -> None:
+    """A new one is put into one of the two tables: whether it needs something of the system."""
+    groups = {group for lab in course.all_labs() for group in lab.card.groups}
+    assert groups <= WITHOUT_SYSTEM | set(OF_SYSTEM)
+    assert not WITHOUT_SYSTEM & set(OF_SYSTEM)
 
 
 @pytest.mark.parametrize("name", ["distance-sensor", "pi-camera", "actions"])

@@ -28,6 +28,23 @@ NO_NAMESPACES = {"ROSLINGS_ISOLATION": "user"}
 """As in a container without further rights: each grading is a user of its own."""
 
 
+HIDDEN = '''
+"""One more check, as the page on hidden checks shows them."""
+from roslings.judge import PackageView, check
+
+POINTS = {"secret": 25}
+
+
+@check()
+def test_secret(package: PackageView) -> None:
+    """A secret."""
+    assert not package.files.pictures, "there is a picture"
+'''
+"""The solution fails it: of 125 points it has 100."""
+SCORE = 80.0
+BROKEN = HIDDEN.replace("from roslings.judge import", "from roslings.no_such_room import")
+
+
 def valid(file: Path, name: str) -> dict[str, object]:
     """A platform's file, held against the fields that it publishes."""
     table: dict[str, object] = json.loads(file.read_text("utf-8"))
@@ -44,17 +61,34 @@ def done_well(done: subprocess.CompletedProcess[str]) -> None:
 
 
 def test_gradescope() -> None:
-    """Root in /autograder: setup.sh while the image is built, then each submission."""
-    with played("gradescope", "autograder/source", NO_NAMESPACES) as gradescope:
+    """Root in /autograder: setup.sh while the image is built, then each submission.
+
+    With hidden checks, as the text advises: their result is there, for the instructor alone.
+    """
+    with played("gradescope", "autograder/source", NO_NAMESPACES, hidden=HIDDEN) as gradescope:
         place = gradescope.place / "autograder"
         shutil.copy2(place / "source/run_autograder", place / "run_autograder")
-        done_well(gradescope.run("./setup.sh", cwd=place / "source", within_s=TEN_MINUTES_S))
+        built = gradescope.run("./setup.sh", cwd=place / "source", within_s=TEN_MINUTES_S)
+        done_well(built)
+        assert "secret" in built.stdout, "the trial is the grading, hidden checks included"
         gradescope.hand_in(place / "submission")
         (place / "results").mkdir()
         done_well(gradescope.run("./run_autograder", cwd=place, within_s=TEN_MINUTES_S))
         table = valid(place / "results/results.json", "gradescope")
-        assert (table["score"], table["extra_data"]["wall"]) == (100, "user")  # type: ignore[index]
+        assert (table["score"], table["extra_data"]["wall"]) == (SCORE, "user")  # type: ignore[index]
+        shown = {test["number"]: test["visibility"] for test in table["tests"]}  # type: ignore[attr-defined]
+        assert [check for check, seen in shown.items() if seen == "hidden"] == ["secret"]
         _gradescope_refuses(gradescope, place)
+
+
+def test_an_image_that_cannot_grade_is_not_built() -> None:
+    """Hidden checks that cannot be loaded are told while the image is built, not to a class."""
+    with played("gradescope", "autograder/source", NO_NAMESPACES, hidden=BROKEN) as gradescope:
+        place = gradescope.place / "autograder/source"
+        built = gradescope.run("./setup.sh", cwd=place, within_s=TEN_MINUTES_S)
+        assert built.returncode == 1, built.stdout + built.stderr
+        assert "no_such_room" in built.stdout + built.stderr
+        assert "roslings cannot grade here" in built.stderr
 
 
 def _gradescope_refuses(gradescope: Played, place: Path) -> None:
@@ -73,8 +107,15 @@ def _gradescope_refuses(gradescope: Played, place: Path) -> None:
 
 
 def test_prairielearn() -> None:
-    """Root in a container without a network; the student's zip file lies in /grade/student."""
-    with played("prairielearn", "roslings", NO_NAMESPACES) as grader:
+    """Root in a container without a network; the student's zip file lies in /grade/student.
+
+    With hidden checks, as the text advises, and the trial that builds the image.
+    """
+    with played("prairielearn", "roslings", NO_NAMESPACES, hidden=HIDDEN) as grader:
+        prepare = str(grader.bundle / "prepare.sh")
+        built = grader.run("bash", prepare, cwd=grader.place, within_s=TEN_MINUTES_S)
+        done_well(built)
+        assert "secret" in built.stdout, "the trial is the grading, hidden checks included"
         grade = grader.place / "grade"
         (grade / "student").mkdir(parents=True)
         (grade / "data").mkdir()
@@ -86,7 +127,7 @@ def test_prairielearn() -> None:
         )  # fmt: skip
         done_well(done)
         table = valid(grade / "results/results.json", "prairielearn")
-        assert (table["gradable"], table["score"]) == (True, 1.0), done.stdout + done.stderr
+        assert (table["gradable"], table["score"]) == (True, SCORE / 100), done.stdout + done.stderr
         assert (grade / "results/results.json").stat().st_size < 1_000_000
 
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -14,10 +15,12 @@ from pathlib import Path
 
 import pytest
 from once import once
+from played import furnish
 
 from roslings.course import root
 
 COURSE = root() / "example-course"
+README = COURSE / "README.md"
 CONFORMS = """
 from roslings.capabilities.conformance import CHECKS
 from valve_course.lifecycle import CAPABILITY
@@ -68,16 +71,63 @@ def test_its_task_says_what_its_card_says(installed: dict[str, str]) -> None:
 
 
 def test_its_lab_is_checked(installed: dict[str, str], tmp_path: Path) -> None:
-    """100 for the solution; the evidence has the part, and the page its section."""
+    """100 for the solution, as its README says it: the course and the rest from the folder here.
+
+    The evidence has the part, and the page its section.
+    """
+    (tmp_path / "example-course").symlink_to(Path(installed["ROSLINGS_COURSE"]).parent)
     page = tmp_path / "page.html"
-    words = ["check", "valve", "--solution", "--evidence", str(tmp_path / "kept")]
-    run(installed, "-m", "roslings", *words, "--html", str(page))
+    (said,) = re.findall(r"(ROSLINGS_COURSE)=(\S+) \S+ (.+)", README.read_text("utf-8"))
+    words = [*said[2].split(), "--evidence", "kept", "--html", page.name]
+    run({**installed, said[0]: said[1]}, *words, cwd=tmp_path)
     verdict = json.loads((tmp_path / "kept/verdict.json").read_bytes())
     assert verdict["score"] == 100
     evidence = json.loads((tmp_path / "kept/evidence.json").read_bytes())
     part = evidence["experiments"]["leading"]["parts"]["lifecycle"]
     assert [step["state"] for step in part["steps"]] == ["inactive", "active", "inactive"]
     assert "The states of the node" in page.read_text("utf-8")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("words", "inside"),
+    [(["release"], ""), (["export", "gradescope", "valve"], "course")],
+    ids=["release", "export"],
+)
+def test_an_edition_of_it_grades_its_own_lab(
+    installed: dict[str, str], tmp_path: Path, words: list[str], inside: str
+) -> None:
+    """The engine and the capability are in it: 100 for the solution, where nothing is installed."""
+    told = run(installed, "-m", "roslings", *words, "--to", "edition", cwd=tmp_path)
+    assert "valve-course 0.1.0" in told
+    edition = tmp_path / "edition" / inside
+    assert not (edition / "labs/valve/solution").exists()
+    furnish(edition)
+    solution = str(COURSE / "course/labs/valve/solution/valve")
+    done = subprocess.run(
+        [edition / "roslings", "check", "valve", solution, "--json", "verdict.json"], cwd=tmp_path,
+        env={"PATH": "/usr/bin:/bin:/usr/sbin:/sbin", "HOME": str(tmp_path)}, capture_output=True,
+        text=True, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert json.loads((tmp_path / "verdict.json").read_bytes())["score"] == 100
+
+
+def test_a_capability_that_needs_more_than_roslings_has_is_refused(
+    installed: dict[str, str], tmp_path: Path
+) -> None:
+    """`./roslings` could not install it: nobody would be graded."""
+    site = shutil.copytree(installed["PYTHONPATH"], tmp_path / "site")
+    (metadata,) = site.glob("valve_course-*.dist-info/METADATA")
+    text = metadata.read_text("utf-8").replace("\n\n", "\n", 1)
+    metadata.write_text(text.rstrip() + "\nRequires-Dist: left-pad>=1\n")
+    done = subprocess.run(
+        [sys.executable, "-m", "roslings", "release", "--to", str(tmp_path / "edition")],
+        env={**installed, "PYTHONPATH": str(site)}, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert done.returncode == 2, done.stdout
+    assert "valve-course 0.1.0 needs left-pad>=1" in done.stderr
+    assert not (tmp_path / "edition").exists()
 
 
 @pytest.mark.slow

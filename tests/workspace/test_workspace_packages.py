@@ -129,8 +129,8 @@ def test_an_empty_folder_and_a_packed_one_are_named(tmp_path: Path) -> None:
     """What is there is said, not only what is not."""
     with pytest.raises(trouble.EmptyFolder, match="is empty"):
         find_package(tmp_path, "chatter")
-    (tmp_path / "work.tar.gz").touch()
-    with pytest.raises(trouble.OnlyPacked, match=r"a packed file: work\.tar\.gz"):
+    (tmp_path / "work.tar.gz").write_bytes(b"\x1f\x8b\x08")
+    with pytest.raises(trouble.OnlyPacked, match=r"but a gz file: work\.tar\.gz"):
         find_package(tmp_path, "chatter")
 
 

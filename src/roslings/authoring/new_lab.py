@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -56,6 +57,7 @@ class Names:
 
 def new_lab(name: str, package: str | None = None, day: str | None = None) -> Lab:
     """Make the lab: card, task, hints, starter, solution, mutants, grader. Raises CannotMake."""
+    _insist_on_example()
     names = Names(name, package or name.replace("-", "_"), day or _last_day())
     _insist_on(names)
     folder = course.root() / "labs" / name
@@ -70,6 +72,14 @@ def new_lab(name: str, package: str | None = None, day: str | None = None) -> La
     return course.lab(name)
 
 
+def _insist_on_example() -> None:
+    if not (example_root() / "labs" / EXAMPLE).is_dir():
+        raise CannotMake(
+            "The example from which new labs are made is neither in this course nor beside the\n"
+            "engine, which came by pip. Make a folder of the engine: roslings new"
+        )
+
+
 def _insist_on(names: Names) -> None:
     if not LAB_NAME.fullmatch(names.lab) or names.lab == EXAMPLE:
         raise CannotMake(
@@ -82,11 +92,21 @@ def _insist_on(names: Names) -> None:
         )
     if not re.fullmatch(r"[0-9]{2}-[a-z0-9-]+", names.day):
         raise CannotMake(f"{names.day!r} is no day. A day is a folder of days/: --day 03-topics")
+    if (days := _days()) and names.day not in days:
+        near = difflib.get_close_matches(names.day, days, n=1)
+        guess = f" Did you mean {near[0]}?" if near else ""
+        raise CannotMake(
+            f"There is no day {names.day!r} in days/.{guess}\nThe days are: {', '.join(days)}."
+        )
+
+
+def _days() -> list[str]:
+    """The folders of lessons; a course may have none, and says then only which day it means."""
+    return sorted(path.name for path in (course.root() / "days").glob("[0-9][0-9]-*"))
 
 
 def _last_day() -> str:
-    days = sorted(path.name for path in (course.root() / "days").glob("[0-9][0-9]-*"))
-    return days[-1] if days else "03-topics"
+    return (_days() or ["03-topics"])[-1]
 
 
 def _copy(example: Path, folder: Path, names: Names) -> None:

@@ -9,14 +9,16 @@ from __future__ import annotations
 
 import re
 import shutil
-import subprocess
 from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
 from roslings import course
+from roslings.authoring.course_files import course_files
 from roslings.course import CourseError, Lab, all_labs
 from roslings.course.labs import EXAMPLE, example_root
 from roslings.course.promises import NAME as PROMISES
+from roslings.workspace.errors import from_here
 from roslings.workspace.sources import files
 
 TESTS = (
@@ -41,23 +43,34 @@ class CannotRelease(CourseError):
     """The edition cannot be made like this."""
 
 
-def release(to: Path) -> list[str]:
-    """Make the students' edition in the new folder `to`; the names of its files.
+@dataclass(frozen=True)
+class Edition:
+    """A students' edition that was made."""
 
-    Raises CannotRelease where `to` holds something, or where an answer would leak.
+    names: list[str]
+    """Of its files."""
+    remarks: list[str]
+    """What is in it that git does not keep, and what is not."""
+
+
+def release(to: Path) -> Edition:
+    """Make the students' edition in the new folder `to`.
+
+    Raises CannotRelease where `to` holds something, or where an answer would leak, and what
+    `course_files` raises.
     """
     if to.exists() and (not to.is_dir() or any(to.iterdir())):
-        raise CannotRelease(f"{to} holds something already. Give a new folder: --to DIR")
-    names = [name for name in course_files() if is_for_students(name)]
+        raise CannotRelease(f"{from_here(to)} holds something already. Give a new folder: --to DIR")
+    found = course_files()
+    names = [name for name in found.paths if is_for_students(name)]
     for name in names:
-        _copy(course.root() / name, to / name)
-    for path in _texts_in(to):
-        _rewrite(path)
+        _copy(found.paths[name], to / name)
+    rewrite_texts(to)
     if leaking := list(leaks(to, all_labs())):
         shutil.rmtree(to)
         told = "\n".join(leaking)
         raise CannotRelease(f"An answer would leak. Nothing was released.\n{told}")
-    return names
+    return Edition(names, list(found.remarks(names)))
 
 
 def is_for_students(name: str) -> bool:
@@ -73,15 +86,10 @@ def is_for_students(name: str) -> bool:
     return not hidden and path.parts[0] not in MAINTAINERS_ONLY
 
 
-def course_files() -> list[str]:
-    """The files that git keeps; all but the hidden and made ones where there is no git."""
-    root = course.root()
-    listed = subprocess.run(
-        ["git", "ls-files", "-z"], cwd=root, capture_output=True, text=True, check=False
-    )
-    if listed.returncode == 0:
-        return [name for name in listed.stdout.split("\0") if name and (root / name).is_file()]
-    return sorted(name for name, path in files(root).items() if path.is_file())
+def rewrite_texts(edition: Path) -> None:
+    """Say in all texts what works in an edition without solutions."""
+    for path in _texts_in(edition):
+        _rewrite(path)
 
 
 def _copy(source: Path, target: Path) -> None:
@@ -153,3 +161,7 @@ def _answers(lab: Lab) -> Iterator[tuple[str, set[str]]]:
 def _lines(path: Path) -> set[str]:
     lines = (line.strip() for line in path.read_text("utf-8", "replace").splitlines())
     return {line for line in lines if len(line) >= LEAST_LINE}
+
+
+if __name__ == "__main__":  # in an image, whose files came without the answers (.dockerignore)
+    rewrite_texts(course.root())

@@ -25,8 +25,9 @@ from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 from typing import IO, cast
 
-from roslings.batch.errors import HostileArchive, Refused
+from roslings.batch.errors import PACK_AGAIN, HostileArchive, Refused
 from roslings.workspace.errors import writing
+from roslings.workspace.file_kinds import UNKNOWN, Kind, kind_of
 from roslings.workspace.sources import Limits, size
 
 SUFFIXES = (".zip", ".tar", ".tar.gz", ".tgz", ".tar.xz", ".txz", ".tar.bz2", ".tbz2")
@@ -96,11 +97,36 @@ def unpack(archive: Path, into: Path, budget: Budget | None = None) -> None:
         raise HostileArchive(f"The file is larger than {size(room.budget.limits.bytes)}.")
     with writing(into):
         into.mkdir(mode=0o700)
+    _insist_on_archive(archive)
     try:
         _unpack_zip(archive, room) if zipfile.is_zipfile(archive) else _unpack_tar(archive, room)
     except BROKEN as error:
-        words = str(error) or type(error).__name__
-        raise Refused(f"It cannot be unpacked: {words}.", "Pack it again, as .zip.") from error
+        raise _broken(error) from error
+    except OSError as error:
+        if error.errno is not None:  # the disk's; what bz2 cannot read has no number
+            raise
+        raise _broken(error) from error
+
+
+def _broken(error: Exception) -> Refused:
+    words = str(error) or type(error).__name__
+    return Refused(f"It cannot be unpacked: {words}.", PACK_AGAIN)
+
+
+def _insist_on_archive(file: Path) -> None:
+    """Bytes of a kind that we know, and that is no archive of ours. Raises Refused."""
+    kind = kind_of(file)
+    if kind.way != "opens" and kind is not UNKNOWN:
+        raise not_opened(kind)
+
+
+def not_opened(kind: Kind) -> Refused:
+    """What is handed in instead of an archive, and the next step."""
+    reasons = {
+        "unpack": f"It is {kind.name}, and such a file is not opened here.",
+        "nothing": f"It is {kind.name}.",
+    }
+    return Refused(reasons.get(kind.way, f"It is {kind.name}, not a packed package."), PACK_AGAIN)
 
 
 @dataclass

@@ -13,6 +13,7 @@ from roslings.batch.result import Result
 from roslings.batch.similar import Pair, alike, equal_groups
 from roslings.batch.student_pages import folder_name
 from roslings.course import Lab
+from roslings.report.flow import one_line
 from roslings.report.html.document import POLICY, brand, style
 from roslings.report.html.markup import Markup, prose, tag
 from roslings.report.whole_file import write_whole
@@ -252,12 +253,7 @@ def _remark(grade: Grade) -> str:
         who = f"{grade.override.by}: {grade.override.reason}"
         return f"score given by a person (measured: {measured}). {who}"
     late = f"{grade.late_days} days late, costs {grade.late_points:g}. " if grade.late_days else ""
-    return late + (_one_line(grade.result.reason) if grade.result else "")
-
-
-def _one_line(reason: str) -> str:
-    """A reason that ends in a colon goes on below it, as in a terminal."""
-    return " ".join(line.strip() for line in reason.splitlines())
+    return late + (one_line(grade.result.reason) if grade.result else "")
 
 
 def _link(submission: str) -> Markup:

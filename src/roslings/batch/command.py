@@ -17,6 +17,7 @@ from roslings.batch.export import Settings, hand_out, keep
 from roslings.batch.gradebook import Gradebook, gradebook
 from roslings.batch.grades import LateRule
 from roslings.batch.messages import soak_line, standing_line, summary_lines
+from roslings.batch.moodle_worksheet import read_worksheet
 from roslings.batch.roster import insist_on_owners
 from roslings.batch.scheduler import GradingRequest, Scheduler, Standing
 from roslings.batch.submissions import Submission
@@ -26,6 +27,7 @@ from roslings.course.soak import soak_seconds
 from roslings.experiment import insist_on_wall
 from roslings.experiment.run_folder import LOCK, run_folder
 from roslings.report import Progress
+from roslings.workspace.errors import from_here
 
 
 class AlreadyGrading(BatchError):
@@ -33,7 +35,7 @@ class AlreadyGrading(BatchError):
 
     def __init__(self, folder: Path) -> None:
         super().__init__(
-            f"Another ./roslings grade works in {folder} now.",
+            f"Another ./roslings grade works in {from_here(folder)} now.",
             "Wait for it, or give another folder: --out DIR",
         )
 
@@ -110,12 +112,12 @@ def _make(choices: Choices) -> None:
     """The folder of the gradebook, for nobody else's eyes. Raises BatchError."""
     out = choices.out.absolute()
     if out.is_relative_to(choices.submissions.absolute()):
-        problem = f"{choices.out} lies among the submissions: it would be graded as one."
+        problem = f"{from_here(choices.out)} lies among the submissions: it would be graded as one."
         raise BatchError(problem, "Give a place outside of that folder: --out ../grades")
     try:
         out.mkdir(mode=0o700, parents=True, exist_ok=True)
     except OSError as error:
-        problem = f"{choices.out} cannot be made: {error.strerror}."
+        problem = f"{from_here(choices.out)} cannot be made: {error.strerror}."
         raise BatchError(problem, "Give a place where you may write: --out ~/grades") from error
 
 
@@ -125,6 +127,7 @@ def _settings(choices: Choices, submissions: list[Submission]) -> Settings:
     Raises BadTable, NobodyInTheList.
     """
     if choices.roster:
+        read_worksheet(choices.roster)
         insist_on_owners(choices.roster, [each.name for each in submissions])
     times = {each.name: each.submitted for each in submissions if each.submitted}
     roster = choices.roster.absolute() if choices.roster else None

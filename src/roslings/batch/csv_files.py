@@ -8,7 +8,10 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from roslings.batch.grades import Grade
+from roslings.batch.moodle_worksheet import Mark, Worksheet
+from roslings.batch.roster import IDENTIFIER
 from roslings.course import Lab
+from roslings.report.flow import one_line
 from roslings.report.safe_text import harmless
 from roslings.report.whole_file import write_whole
 
@@ -19,14 +22,25 @@ MOODLE = ("Identifier", "Full name", "Email address", "Grade", "Feedback comment
 Line = Sequence[str]
 
 
-def write_all(grades: Sequence[Grade], lab: Lab, folder: Path, assignment: str = "") -> None:
+def write_all(
+    grades: Sequence[Grade],
+    lab: Lab,
+    folder: Path,
+    assignment: str = "",
+    worksheet: Worksheet | None = None,
+) -> None:
     """Write grades.csv, canvas.csv and moodle.csv; `assignment` is Canvas's name of the lab.
 
-    Raises CannotWrite.
+    With Moodle's own worksheet, moodle.csv is that, filled in; without, it is a table for Moodle's
+    gradebook. Raises CannotWrite.
     """
     _write(folder / "grades.csv", _plain(grades, list(lab.card.points)))
     _write(folder / "canvas.csv", _canvas(grades, assignment or f"{lab.card.title} ({lab.name})"))
-    _write(folder / "moodle.csv", _moodle(grades))
+    if worksheet is None:
+        _write(folder / "moodle.csv", _moodle(grades))
+    else:
+        marks = {_identifier(each): mark for each in grades if (mark := _mark(each))}
+        write_whole(folder / "moodle.csv", worksheet.filled(marks))
 
 
 def _write(path: Path, lines: Iterable[Line]) -> None:
@@ -68,7 +82,7 @@ def _reason(grade: Grade) -> str:
     """Why the final score is not the measured one, or why there is none."""
     if grade.override:
         return f"{grade.override.by}: {grade.override.reason}"
-    return " ".join(grade.result.reason.split()) if grade.result else ""
+    return one_line(grade.result.reason) if grade.result else ""
 
 
 def _canvas(grades: Sequence[Grade], assignment: str) -> Iterable[Line]:
@@ -86,15 +100,31 @@ def _moodle(grades: Sequence[Grade]) -> Iterable[Line]:
     yield MOODLE
     for each in (each for each in grades if each.student):
         assert each.student
-        identifier = each.student.cells.get("identifier", each.student.id)
-        who = (identifier, each.student.name, each.student.email)
+        who = (_identifier(each), each.student.name, each.student.email)
         yield (*who, _number(each.final), _comment(each))
+
+
+def _identifier(grade: Grade) -> str:
+    """What Moodle calls the student in its worksheet; else their number."""
+    student = grade.student
+    return student.cells.get(IDENTIFIER, student.id).strip() if student else ""
+
+
+def _mark(grade: Grade) -> Mark | None:
+    """What goes into the worksheet; None where a line stays as it is."""
+    if grade.student is None or grade.outcome == "missing":
+        return None
+    if grade.final is None and grade.outcome != "refused":
+        return None  # nobody could tell, and why is not the student's
+    return Mark(grade.final, _safe(_comment(grade)))
 
 
 def _comment(grade: Grade) -> str:
     """What to mend first, in a line; the whole of it is on the student's page."""
-    if grade.override or not grade.result or not grade.result.verdict:
+    if grade.override or not grade.result:
         return _reason(grade)
+    if not grade.result.verdict:
+        return f"{_reason(grade)} {one_line(grade.result.next_step)}".strip()
     failed = [check.title for check in grade.result.verdict.failed()]
     return f"To mend: {'; '.join(failed)}" if failed else ""
 

@@ -15,6 +15,7 @@ from roslings.batch.errors import BatchError, HostileArchive, Refused
 from roslings.batch.platform_names import platform_name
 from roslings.batch.submissions import Submission, find_submissions, name_of
 from roslings.experiment.run_folder import run_folder
+from roslings.workspace.errors import from_here
 from roslings.workspace.packages import LARGEST_XML_BYTES, NAME
 from roslings.workspace.sources import Limits
 
@@ -63,7 +64,7 @@ def _unpacked(download: Path, into: Path) -> Path:
     try:
         unpack(download, into, Budget(WHOLE_CLASS))
     except (HostileArchive, Refused) as refusal:
-        raise BatchError(f"{download}: {refusal.reason}", UNPACK_IT) from refusal
+        raise BatchError(f"{from_here(download)}: {refusal.reason}", UNPACK_IT) from refusal
     return _without_wrapper(into)
 
 
@@ -86,7 +87,7 @@ def is_download(file: Path) -> bool:
     try:
         names = _unwrapped(zip_names(file, WHOLE_CLASS))
     except HostileArchive as hostile:
-        raise BatchError(f"{file}: {hostile.reason}", UNPACK_IT) from hostile
+        raise BatchError(f"{from_here(file)}: {hostile.reason}", UNPACK_IT) from hostile
     tops = {name.partition("/")[0] for name in names}
     packed = {name.partition("/")[0] for name in names if name.lower().endswith(SUFFIXES)}
     return _is_of_a_class(tops) or len(packed) > 1 or _has_a_package_twice(file, names)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from roslings.errors import RoslingsError
+from roslings.workspace.errors import from_here
 
 
 class BatchError(RoslingsError):
@@ -23,14 +24,14 @@ class NoSubmissions(BatchError):
             "Give a folder of submissions (folders, .zip, .tar.gz), a CSV file of them, or the\n"
             "zip file that Moodle or Canvas makes of all submissions."
         )
-        super().__init__(f"{path}: {problem}", step)
+        super().__init__(f"{from_here(path)}: {problem}", step)
 
 
 class BadTable(BatchError):
     """A CSV file that the instructor gave says something that it may not say."""
 
     def __init__(self, path: Path, line: int, problem: str, next_step: str) -> None:
-        super().__init__(f"{path}:{line}: {problem}", next_step)
+        super().__init__(f"{from_here(path)}:{line}: {problem}", next_step)
 
 
 class BadGradebook(BatchError):

@@ -12,10 +12,11 @@ from roslings.batch.csv_files import write_all
 from roslings.batch.fingerprints import fingerprint
 from roslings.batch.gradebook import Gradebook
 from roslings.batch.grades import Class, LateRule, class_of
+from roslings.batch.moodle_worksheet import read_worksheet
 from roslings.batch.roster import read_roster
 from roslings.batch.student_pages import write_pages
 from roslings.course import Lab
-from roslings.workspace.errors import shown
+from roslings.workspace.errors import from_here
 
 KEY = "handout"
 
@@ -52,10 +53,16 @@ def hand_out(book: Gradebook, lab: Lab, folder: Path) -> list[str]:
     settings = settings_of(book)
     students = read_roster(settings.roster) if settings.roster else ()
     found = class_of(book, settings.times, students, settings.rule)
-    write_all(found.grades, lab, folder, settings.assignment)
+    worksheet = read_worksheet(settings.roster) if settings.roster else None
+    write_all(found.grades, lab, folder, settings.assignment, worksheet)
     write_pages(book, lab, found.grades, folder / "students")
     write_class_page(lab, found, fingerprint(lab.starter).marks, folder / "class.html")
-    return [*_remarks(found, settings), f"The class on one page: {shown(folder)}/class.html"]
+    back = [f"To upload as Moodle's worksheet: {from_here(folder)}/moodle.csv"] if worksheet else []
+    return [
+        *_remarks(found, settings),
+        *back,
+        f"The class on one page: {from_here(folder)}/class.html",
+    ]
 
 
 def _remarks(found: Class, settings: Settings) -> list[str]:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections import Counter
 from collections.abc import Iterable, Sequence
 
 from roslings.batch.gradebook import Gradebook
 from roslings.batch.result import Result
 from roslings.batch.scheduler import Standing
+from roslings.report.flow import one_line
 
 WORDS = ("pass", "fail", "refused", "inconclusive")
 MEANINGS = {
@@ -17,6 +19,7 @@ MEANINGS = {
     "inconclusive": "the machine could not tell",
 }
 MOST_NAMED = 10
+COLUMNS = 80
 
 
 def standing_line(standing: Standing) -> str:
@@ -72,13 +75,21 @@ def _named(word: str, results: Iterable[Result]) -> list[str]:
     found = list(results)
     if not found:
         return []
-    lines = [f"  {result.submission}: {_reason(result)}" for result in found[:MOST_NAMED]]
+    lines = [_wrapped(f"{result.submission}: {_reason(result)}") for result in found[:MOST_NAMED]]
     more = [f"  and {len(found) - MOST_NAMED} more"] if len(found) > MOST_NAMED else []
     return [f"{word.capitalize()}:", *lines, *more]
 
 
+def _wrapped(text: str) -> str:
+    """A reason, whole; where it takes more than a line, the others stand below its words."""
+    return textwrap.fill(
+        text, COLUMNS, initial_indent="  ", subsequent_indent=" " * 6, break_long_words=False,
+        break_on_hyphens=False,
+    )  # fmt: skip
+
+
 def _reason(result: Result) -> str:
     if result.reason:
-        return result.reason.splitlines()[0]
+        return one_line(result.reason)
     checks = result.verdict.checks if result.verdict else ()
     return next((f"{c.id}: {c.why}" for c in checks if c.outcome == "inconclusive"), "")

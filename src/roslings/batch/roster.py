@@ -13,6 +13,7 @@ from roslings.batch.errors import BadTable, BatchError
 from roslings.batch.platform_names import platform_name
 from roslings.batch.tables import Row, read_table
 from roslings.report.safe_text import harmless
+from roslings.workspace.errors import from_here
 
 NAMES = ("name", "student", "full name", "student name")
 FIRST, LAST = ("first name", "firstname"), ("last name", "lastname", "surname")
@@ -125,7 +126,7 @@ class NobodyInTheList(BatchError):
             ", ".join(map(repr, some[:3])) for some in (names, [each.name for each in students])
         )
         super().__init__(
-            f"{path}: no submission is of anybody in this class list.\n"
+            f"{from_here(path)}: no submission is of anybody in this class list.\n"
             f"Submissions are called, for example: {harmless(handed_in)}\n"
             f"Students are called, for example: {harmless(listed)}",
             HOW,

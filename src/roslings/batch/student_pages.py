@@ -13,6 +13,7 @@ from roslings.batch.grading import unpacked
 from roslings.batch.result import Result
 from roslings.course import Lab
 from roslings.report import Refusal, write_check50, write_gradescope, write_json, write_junit
+from roslings.report.flow import paragraphs
 from roslings.report.html import OfClass
 from roslings.report.html.document import POLICY, brand, style
 from roslings.report.html.markup import prose, tag
@@ -93,9 +94,9 @@ def _page_without(name: str, result: Result) -> str:
 
 
 def _told(result: Result) -> Iterator[str]:
-    yield from result.reason.splitlines()
+    yield from paragraphs(result.reason)
     if result.state == "refused":  # the next step of a broken grading is the instructor's
-        yield from result.next_step.splitlines()
+        yield from paragraphs(result.next_step)
 
 
 def _page(name: str, heading: str, lines: Iterator[str] | list[str]) -> str:

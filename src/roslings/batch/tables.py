@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterator, Sequence
+import io
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,6 +12,8 @@ from roslings.batch.errors import BadTable
 
 MOST_BYTES = 50_000_000
 SEPARATORS = ",;\t"
+MARK = "\ufeff"
+"""Excel and Moodle put it before a text in UTF-8."""
 
 
 @dataclass(frozen=True)
@@ -35,24 +38,51 @@ class Row:
 
 def read_table(path: Path) -> list[Row]:
     """Every line below the head. Raises BadTable."""
-    lines = _text(path).splitlines()
-    if not lines:
+    (_, head), *lines = read_cells(path).lines
+    names = [name.strip().lower() for name in head]
+    return [Row(path, number, dict(zip(names, cells, strict=False))) for number, cells in lines
+            if any(cell.strip() for cell in cells)]  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Cells:
+    """A table as it was written, and how."""
+
+    lines: list[tuple[int, list[str]]]
+    """Each line's cells with the number of the line that it ends in, the head first."""
+    separator: str
+    line_end: str
+    mark: str
+    """What stands before the first cell: that the text is UTF-8, or nothing."""
+    all_quoted: bool
+
+
+def read_cells(path: Path) -> Cells:
+    """Every line with all that is in it. A quoted cell may hold ends of lines. Raises BadTable."""
+    text = _text(path)
+    plain = text.removeprefix(MARK)
+    head = plain.partition("\n")[0]
+    if not head.strip():
         step = "Its first line names the columns, for example: name,id,email"
         raise BadTable(path, 1, "the table is empty.", step)
-    separator = max(SEPARATORS, key=lines[0].count)
-    return list(_rows(path, csv.reader(lines, delimiter=separator)))
-
-
-def _rows(path: Path, lines: Iterator[list[str]]) -> Iterator[Row]:
-    head = [name.strip().lower() for name in next(lines, [])]
-    for number, cells in enumerate(lines, start=2):
-        if any(cell.strip() for cell in cells):
-            yield Row(path, number, dict(zip(head, cells, strict=False)))
+    separator = max(SEPARATORS, key=head.count)
+    reader = csv.reader(io.StringIO(plain, newline=""), delimiter=separator)
+    try:
+        lines = [(reader.line_num, cells) for cells in reader]
+    except csv.Error as error:
+        step = "Export it again as CSV, and give it as it is."
+        raise BadTable(
+            path, reader.line_num, f"this is no line of a table ({error}).", step
+        ) from error
+    ends = "\r\n" if head.endswith("\r") else "\n"
+    cells = head.rstrip("\r").split(separator)
+    quoted = all(cell.startswith('"') and cell.endswith('"') for cell in cells)
+    return Cells(lines, separator, ends, MARK if plain != text else "", quoted)
 
 
 def _text(path: Path) -> str:
     try:
-        return path.read_bytes()[:MOST_BYTES].decode("utf-8-sig")
+        return path.read_bytes()[:MOST_BYTES].decode("utf-8")
     except UnicodeDecodeError:
         step = "Save it as CSV in UTF-8 (in Excel: CSV UTF-8)."
         raise BadTable(path, 1, "this is no UTF-8 text.", step) from None

@@ -8,16 +8,19 @@ from dataclasses import dataclass, field
 from itertools import islice
 from pathlib import Path
 
-from roslings.batch.archives import Budget, is_archive, is_clutter, unpack
-from roslings.batch.errors import HostileArchive, Refused
+from roslings.batch.archives import Budget, is_archive, is_clutter, not_opened, unpack
+from roslings.batch.errors import PACK_AGAIN, HostileArchive, Refused
 from roslings.batch.newest import newest_first
 from roslings.workspace.errors import (
+    MOST_NAMED,
     MachineTrouble,
     NamedOtherwise,
     OnlyOtherLabs,
+    OnlyPacked,
     WorkspaceError,
     without_places,
 )
+from roslings.workspace.file_kinds import UNKNOWN, kind_of
 from roslings.workspace.likeness import lab_with
 from roslings.workspace.packages import find_package, nothing_in, package_name, packages_in
 from roslings.workspace.sources import files
@@ -26,6 +29,7 @@ MOST_ARCHIVES = 20
 """Of one submission, all levels together."""
 DEEPEST = 3
 """A zip in a zip in a zip."""
+TOO_DEEP = "It lies in a zip in a zip in a zip, and so deep nothing is opened."
 
 
 def package_in(handed_in: Path, name: str, room: Path) -> Path:
@@ -37,7 +41,7 @@ def package_in(handed_in: Path, name: str, room: Path) -> Path:
     """
     opening = Opening(name, room)
     try:
-        package = _chosen(opening.folder_of(handed_in), name)
+        package = _chosen(opening.folder_of(handed_in), opening)
         files(package)  # a link that leaves the package, or too much in it
         return package
     except MachineTrouble:
@@ -55,6 +59,8 @@ class Opening:
     room: Path
     budget: Budget = field(default_factory=Budget)
     unpacked: list[Path] = field(default_factory=list)
+    told: dict[str, str] = field(default_factory=dict)
+    """Archives inside, and why no package came out of each."""
 
     def folder_of(self, handed_in: Path) -> Path:
         """The folder with what was handed in. Raises Refused."""
@@ -62,9 +68,9 @@ class Opening:
             raise Refused("There is nothing at its path.", "Look at the path in the list.")
         if handed_in.is_dir():
             return self._searched(handed_in, 0)
-        if not is_archive(handed_in):
-            reason = f"It is neither a folder nor an archive: {handed_in.suffix or 'no ending'}."
-            raise Refused(reason, "Hand in the zip file that ./roslings pack LAB makes.")
+        kind = kind_of(handed_in)
+        if kind.way != "opens" and not (kind is UNKNOWN and is_archive(handed_in)):
+            raise not_opened(kind)
         return self._out_of(handed_in, 0)
 
     def _out_of(self, archive: Path, depth: int) -> Path:
@@ -76,7 +82,11 @@ class Opening:
 
     def _searched(self, folder: Path, depth: int) -> Path:
         """The folder itself, or what comes out of an archive in it."""
-        if depth == DEEPEST or packages_in(folder):
+        if packages_in(folder):
+            return folder
+        if depth == DEEPEST:
+            too_deep = dict.fromkeys((each.name for each in _archives_in(folder)), TOO_DEEP)
+            self.told.update(too_deep)
             return folder
         inside = list(islice(_archives_in(folder), MOST_ARCHIVES))
         opened = [*self._tried(inside, depth + 1)]
@@ -95,12 +105,19 @@ class Opening:
             except HostileArchive:
                 if len(archives) == 1:
                     raise
-            except Refused:  # broken: what is said is that a packed file is there
-                continue
+            except Refused as refusal:  # said where nothing else has the package
+                self.told[archive.name] = refusal.reason
             else:
+                self.told.setdefault(archive.name, self._why_not(folder))
                 yield folder
                 if self._has_it(folder):
                     return
+
+    def _why_not(self, folder: Path) -> str:
+        """What is in an archive, where no package is."""
+        if isinstance(why := nothing_in(folder, self.name), OnlyPacked):
+            return f"It holds no ROS package, but {why.what}."
+        return "It holds no ROS package."
 
     def _has_it(self, folder: Path) -> bool:
         return any(package_name(package) == self.name for package in packages_in(folder))
@@ -120,10 +137,10 @@ def _is_passed_by(name: str) -> bool:
     return name.startswith(".") or is_clutter(name)
 
 
-def _chosen(folder: Path, name: str) -> Path:
+def _chosen(folder: Path, opening: Opening) -> Path:
     if not packages_in(folder):
-        raise nothing_in(folder, name)
-    package = _found(folder, name)
+        raise _nothing_came_out(opening.told) or nothing_in(folder, opening.name)
+    package = _found(folder, opening.name)
     if not package.resolve().is_relative_to(folder.resolve()):
         reason = "A link in it leads to another place."
         raise Refused(reason, "Replace the link by the files themselves.")
@@ -140,6 +157,19 @@ def _found(folder: Path, name: str) -> Path:
             raise OnlyOtherLabs(name, [(found, lab.name) for found, lab in labs if lab]) from None
         own = [each for each, (_, lab) in zip(nothing.found, labs, strict=True) if not lab]
         raise NamedOtherwise(name, own) from None
+
+
+def _nothing_came_out(told: dict[str, str]) -> Refused | None:
+    """Of any archive inside; None where there is none."""
+    if not told:
+        return None
+    lines = [_of(name, reason) for name, reason in islice(told.items(), MOST_NAMED)]
+    return Refused("\n  ".join(["There is no ROS package in submission:", *lines]), PACK_AGAIN)
+
+
+def _of(name: str, reason: str) -> str:
+    """`It is cut off.` of a file, with the file's name."""
+    return f"{name} {reason[3:]}" if reason.startswith("It ") else f"{name}: {reason}"
 
 
 def _in_its_own_words(error: WorkspaceError, places: tuple[Path, ...]) -> Refused:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from roslings.bootstrap.environment import EnvironmentRequest, make_ready
 from roslings.bootstrap.errors import Trouble, of_the_disk, say
+from roslings.bootstrap.paths import absolute_variables
 from roslings.bootstrap.pins import write_pins
 from roslings.bootstrap.place import Place
 from roslings.bootstrap.wheels import fill
@@ -15,6 +16,7 @@ ROOT = Path(__file__).resolve().parents[3]
 
 def main(words: Sequence[str]) -> int:
     """Runs one of the bootstrap's commands and returns the exit code."""
+    absolute_variables()
     try:
         return _run(words)
     except Trouble as trouble:

@@ -12,6 +12,8 @@ from collections.abc import Callable, Sequence
 from difflib import get_close_matches
 from importlib import import_module
 
+from roslings.bootstrap.paths import absolute_variables
+from roslings.cli.door import absolute_paths
 from roslings.cli.parser import NAMES, parser
 from roslings.errors import INTERRUPTED, OK, WRONG_USE, explain
 
@@ -30,6 +32,7 @@ ONLY_IN_FULL = ("rqt", "rqt_console", "rqt_plot", "rviz2")
 
 def main(arguments: Sequence[str]) -> int:
     """Run one command; returns its exit code."""
+    absolute_variables()
     name, rest = (arguments[0], list(arguments[1:])) if arguments else ("", [])
     if name in OTHERS:
         other: Callable[[list[str]], int] = import_module(OTHERS[name]).main
@@ -41,7 +44,7 @@ def main(arguments: Sequence[str]) -> int:
     if name and not name.startswith("-") and name not in NAMES:
         return _unknown(name)
     options = parser().parse_args(["test", "--", *rest] if for_pytest(arguments) else arguments)
-    return run(options.command, options)
+    return run(options.command, absolute_paths(options))
 
 
 def _unknown(name: str) -> int:

@@ -8,8 +8,8 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 from roslings import course
-from roslings.commands.showing import from_here
 from roslings.errors import FAILED, INCONCLUSIVE, OK, WRONG_USE
+from roslings.workspace.errors import from_here
 
 USUALLY_PROVEN = ("packages", "contract")
 PROVABLE = (*USUALLY_PROVEN, "generated", "rewritten")
@@ -132,7 +132,9 @@ def release(options: argparse.Namespace) -> int:
     """Make the students' edition."""
     from roslings.authoring.release import release as make
 
-    names = make(options.to)
-    print(f"The students' edition is in {from_here(options.to)}: {len(names)} files.")
+    edition = make(options.to)
+    print(f"The students' edition is in {from_here(options.to)}: {len(edition.names)} files.")
     print("No solution, no mutant and no hidden check is in it.")
+    for remark in edition.remarks:
+        print(remark)
     return OK

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from roslings import course
 from roslings.errors import FAILED, OK, WRONG_USE
-from roslings.workspace.errors import shown
+from roslings.workspace.errors import from_here, shown
 from roslings.workspace.student import package_of
 
 if TYPE_CHECKING:
@@ -72,7 +72,8 @@ def graph(options: argparse.Namespace) -> int:
     files = _pictures_wanted(options)
     there = [file for file in files if file.exists() and not options.force]
     if there:
-        print(f"roslings: {there[0]} is there already. Nothing was changed.", file=sys.stderr)
+        taken = f"roslings: {from_here(there[0])} is there already. Nothing was changed."
+        print(taken, file=sys.stderr)
         print("To replace it, add --force.", file=sys.stderr)
         return WRONG_USE
     prepare()
@@ -113,5 +114,5 @@ def _saved(seen: GraphSeen, file: Path, options: argparse.Namespace) -> bool:
     except NotAPng as error:
         print(f"roslings: {error}", file=sys.stderr)
         return False
-    print(f"\nSaved {shown(file) if options.lab else file}")
+    print(f"\nSaved {from_here(file)}")
     return True

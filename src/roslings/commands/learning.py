@@ -9,11 +9,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from roslings import course
-from roslings.commands.showing import from_here, is_stdout, kept, read, replace_kept, show
+from roslings.commands.showing import is_stdout, kept, read, replace_kept, show
 from roslings.course import Lab, NoSolution
 from roslings.errors import OK
 from roslings.typed import own_page, program
-from roslings.workspace.errors import shown
+from roslings.workspace.errors import from_here, shown
 from roslings.workspace.student import package_of, workspace_root
 
 if TYPE_CHECKING:
@@ -123,8 +123,8 @@ def _save(graded: Graded, options: argparse.Namespace, bags: Path | None) -> Non
         graded.write_page(options.html, own_page(options))
     if options.evidence:
         save(graded, options.evidence, bags)
-        say = f"\nThe evidence is in {shown(options.evidence)}. Look at it in a browser:"
-        page = shown(options.evidence / "report.html")
+        say = f"\nThe evidence is in {from_here(options.evidence)}. Look at it in a browser:"
+        page = from_here(options.evidence / "report.html")
         print(f"{say}\n{page}", file=sys.stderr if is_stdout(options.json) else sys.stdout)
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from roslings.course import Lab
 from roslings.errors import EXIT_OF_OUTCOME
-from roslings.workspace.errors import WorkspaceError, shown
+from roslings.workspace.errors import WorkspaceError
 from roslings.workspace.student import workspace_root
 
 if TYPE_CHECKING:
@@ -76,9 +76,3 @@ def _keep(lab: Lab, verdict: Verdict) -> None:
         write_json(verdict, kept(lab))
     except (WorkspaceError, CannotWrite) as error:
         print(f"roslings: the score was not kept. {error}", file=sys.stderr)
-
-
-def from_here(path: Path) -> str:
-    """The path as it is typed in this folder."""
-    here = Path.cwd()
-    return str(path.relative_to(here)) if path.is_relative_to(here) else shown(path)

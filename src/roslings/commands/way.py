@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from roslings import course
-from roslings.commands.showing import from_here
 from roslings.errors import OK
 from roslings.typed import program
 from roslings.workspace import progress
+from roslings.workspace.errors import from_here
 from roslings.workspace.student import workspace_root
 
 if TYPE_CHECKING:

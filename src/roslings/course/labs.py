@@ -19,16 +19,25 @@ if TYPE_CHECKING:
 
 def root() -> Path:
     """The course's folder: the clone this engine lies in, or `ROSLINGS_COURSE`."""
-    return Path(os.environ.get("ROSLINGS_COURSE") or Path(__file__).parents[3])
+    return Path(os.environ.get("ROSLINGS_COURSE") or engine_root()).absolute()
 
 
 EXAMPLE = "example"
 MUTANTS = "mutants"
 
 
+def engine_root() -> Path:
+    """The folder that this engine lies in: a clone, unless it came by pip."""
+    return Path(__file__).parents[3]
+
+
 def example_root() -> Path:
-    """A tiny course with one lab, the one from which new labs are made."""
-    return Path(__file__).parents[3] / EXAMPLE
+    """A tiny course with one lab, the one from which new labs are made.
+
+    The engine's own; one that came by pip has none beside it, and takes the course's.
+    """
+    beside = engine_root() / EXAMPLE
+    return beside if beside.is_dir() else root() / EXAMPLE
 
 
 @dataclass(frozen=True)
@@ -122,7 +131,7 @@ def lab(name: str, hidden: Path | None = None) -> Lab:
     folder = root() / "labs" / name
     if name and (folder / "card.yaml").is_file() and folder.parent == root() / "labs":
         return replace(_lab_in(folder), hidden=hidden)
-    if name == EXAMPLE:
+    if name == EXAMPLE and example_root().is_dir():
         return replace(_lab_in(example_root() / "labs" / EXAMPLE), hidden=hidden)
     raise NoSuchLab(_no_such_lab(name))
 

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path, PurePosixPath
 from uuid import NAMESPACE_URL, uuid5
 
 from roslings import course
-from roslings.authoring.release import course_files, is_for_students, leaks
+from roslings.authoring.course_files import CourseFiles, course_files
+from roslings.authoring.release import is_for_students, leaks
 from roslings.course import Lab
 from roslings.export.errors import CannotExport
-from roslings.export.systems import SYSTEMS, System
-from roslings.workspace.sources import files
+from roslings.export.systems import OF_SYSTEM, SYSTEMS, System
+from roslings.workspace.errors import from_here
 
 PARTS = ("src", "labs", "graders", "days")
 """Folders of the course that a check reads."""
@@ -36,16 +37,18 @@ def export(system_name: str, lab: Lab, to: Path) -> list[str]:
     system = _system(system_name)
     _insist(system, lab, to)
     course_at = to / filled(system.course, lab)
-    for name in names_for(lab):
-        _copy(course.root() / name, course_at / name)
+    found = course_files()
+    names = names_for(lab, found)
+    for name in names:
+        _copy(found.paths[name], course_at / name)
     if lab.hidden:
         _copy(lab.hidden, course_at / HIDDEN).chmod(0o600)
-    for template, name in _templates(system, lab):
-        _fill_in(template, to / name, lab)
+    write_own_files(system, lab, to)
     _insist_on_no_answers(to, lab)
-    return [f"What {system.about} needs for {lab.name!r} is in {to}.",
+    return [f"What {system.about} needs for {lab.name!r} is in {from_here(to)}.",
             f"Upload: {system.upload}.", f"The wall: {system.wall}.",
-            f"Read {to / 'README.md'}: it tells each step."]  # fmt: skip
+            f"Read {from_here(to / 'README.md')}: it tells each step.",
+            *found.remarks(names)]  # fmt: skip
 
 
 def _system(name: str) -> System:
@@ -57,7 +60,7 @@ def _system(name: str) -> System:
 
 def _insist(system: System, lab: Lab, to: Path) -> None:
     if to.exists() and (not to.is_dir() or any(to.iterdir())):
-        raise CannotExport(f"{to} holds something already. Give a new folder: --to DIR")
+        raise CannotExport(f"{from_here(to)} holds something already. Give a new folder: --to DIR")
     if lab.folder.parent != course.root() / "labs":
         step = "Make a lab of your own from it: ./roslings new-lab NAME"
         raise CannotExport(f"The lab {lab.name!r} is an example, with its solution.\n{step}")
@@ -68,17 +71,9 @@ def _insist(system: System, lab: Lab, to: Path) -> None:
         )
 
 
-def names_for(lab: Lab) -> list[str]:
+def names_for(lab: Lab, found: CourseFiles) -> list[str]:
     """The files of the course that grade this lab; no other lab's, and no answers."""
-    names = {*course_files(), *_of_lab(lab)}
-    return sorted(name for name in names if is_for_students(name) and _grades(name, lab))
-
-
-def _of_lab(lab: Lab) -> Iterator[str]:
-    """Also of one that git does not keep yet."""
-    inside = lab.folder.relative_to(course.root())
-    yield from ((inside / name).as_posix() for name in files(lab.folder))
-    yield lab.grader.relative_to(course.root()).as_posix()
+    return sorted(name for name in found.paths if is_for_students(name) and _grades(name, lab))
 
 
 def _grades(name: str, lab: Lab) -> bool:
@@ -100,6 +95,12 @@ def _copy(source: Path, target: Path) -> Path:
 # --- the platform's own files ------------------------------------------------------------------
 
 
+def write_own_files(system: System, lab: Lab, to: Path) -> None:
+    """All of the bundle but the course."""
+    for template, name in _templates(system, lab):
+        _fill_in(template, to / name, lab, system)
+
+
 def _templates(system: System, lab: Lab) -> Iterator[tuple[Path, str]]:
     for path in sorted(system.templates.rglob("*")):
         if path.is_file():
@@ -112,17 +113,26 @@ def _real_name(name: str) -> str:
     return f".{name.removeprefix(DOT)}" if name.startswith(DOT) else name
 
 
-def _fill_in(template: Path, target: Path, lab: Lab) -> None:
+def _fill_in(template: Path, target: Path, lab: Lab, system: System) -> None:
     target.parent.mkdir(parents=True, exist_ok=True)
-    target.write_text(filled(template.read_text("utf-8"), lab), "utf-8")
+    text = filled(template.read_text("utf-8"), lab, system_packages(lab, system))
+    target.write_text(text, "utf-8")
     target.chmod(0o755 if target.name.endswith(RUNS) else 0o644)
 
 
-def filled(text: str, lab: Lab) -> str:
-    """A template's text with this lab's words in it."""
+def system_packages(lab: Lab, system: System) -> list[str]:
+    """What apt brings for the groups of the lab's card, beyond what the platform has."""
+    wanted = (package for group in lab.card.groups for package in OF_SYSTEM.get(group, ()))
+    return [package for package in wanted if package not in system.has]
+
+
+def filled(text: str, lab: Lab, packages: Sequence[str] = ()) -> str:
+    """A template's text with this lab's words in it, and what apt is to bring for it."""
     hidden = f"--hidden course/{HIDDEN}" if lab.hidden else ""
     words = {
         "LAB": lab.name, "TITLE": lab.card.title, "PACKAGE": lab.card.package, "HIDDEN": hidden,
+        "SYSTEM": " ".join(packages), "ALSO": "".join(f" {each}" for each in packages),
+        "QUOTED": "".join(f', "{each}"' for each in packages),
         "UUID": str(uuid5(NAMESPACE_URL, f"roslings/{lab.name}")),
     }  # fmt: skip
     for word, value in words.items():

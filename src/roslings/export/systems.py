@@ -1,7 +1,8 @@
 """The grading platforms: what each is given, and what keeps a student's code from the grade there.
 
 The files of a platform are `templates/NAME/`; a word between two `@` in their text or names is
-filled in: `@LAB@`, `@TITLE@`, `@PACKAGE@`, `@UUID@`, and `@HIDDEN@`, the option for hidden checks.
+filled in: `@LAB@`, `@TITLE@`, `@PACKAGE@`, `@UUID@`, `@HIDDEN@`, the option for hidden checks, and
+what apt is to bring for this lab: `@SYSTEM@`, `@ALSO@` behind other packages, `@QUOTED@` in JSON.
 """
 
 from __future__ import annotations
@@ -10,6 +11,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 TEMPLATES = Path(__file__).parent / "templates"
+COMPILER, HEADERS = "g++", "python3-dev"
+OF_SYSTEM = {"interfaces": (COMPILER, HEADERS)}
+"""Group of a lab's card to the packages of Debian and Ubuntu that its Python packages need."""
 
 
 @dataclass(frozen=True)
@@ -25,6 +29,8 @@ class System:
     """Where in the bundle the course goes."""
     keeps_hidden: bool
     """Students cannot read what is uploaded: hidden checks may be in it."""
+    has: frozenset[str] = frozenset()
+    """Packages of the system that its image has in a way of its own."""
 
     @property
     def templates(self) -> Path:
@@ -36,6 +42,8 @@ NAMESPACES_OR_USER = (
     "the sandbox of namespaces where the container may make one, else a user of its own;"
     " without either nothing is run, and there is no grade"
 )
+PYTHON_IMAGE = frozenset({HEADERS})
+"""The image `python:3.12` has a Python of its own, with its headers."""
 _ALL = (
     System(
         "gradescope", "Gradescope, a programming assignment",
@@ -61,7 +69,7 @@ _ALL = (
         "prairielearn", "PrairieLearn, an external grader",
         "the image that Containerfile makes, and question/ into your course",
         f"{NAMESPACES_OR_USER}. PrairieLearn itself stops the network",
-        "course", keeps_hidden=True,
+        "course", keeps_hidden=True, has=PYTHON_IMAGE,
     ),
     System(
         "moodle-vpl", "Moodle, Virtual Programming Lab",
@@ -75,7 +83,7 @@ _ALL = (
         "the folder as a project of yours; students' projects take its .gitlab-ci.yml",
         f"{NAMESPACES_OR_USER}. It does not keep students from editing their own CI file:"
         " name yours in the settings of their projects",
-        "course", keeps_hidden=False,
+        "course", keeps_hidden=False, has=PYTHON_IMAGE,
     ),
     System(
         "github-ci", "GitHub Actions, with a badge",

@@ -8,6 +8,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from roslings.errors import RoslingsError
 from roslings.evidence import SCHEMA_VERSION, Evidence, evidence_json, read_json
+from roslings.workspace.errors import from_here
 
 FILE = "evidence.json"
 AGAIN = "Save it again with: ./roslings check LAB --evidence DIR"
@@ -17,7 +18,7 @@ class BadEvidence(RoslingsError):
     """A path that should lead to saved evidence does not; the message says what to do."""
 
     def __init__(self, path: Path, problem: str, next_step: str = AGAIN) -> None:
-        super().__init__(f"{path}: {problem}\n{next_step}")
+        super().__init__(f"{from_here(path)}: {problem}\n{next_step}")
 
 
 class _Head(BaseModel):

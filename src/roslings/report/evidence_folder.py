@@ -14,6 +14,7 @@ from roslings.evidence import Evidence
 from roslings.report.evidence_file import FILE, evidence_bytes
 from roslings.report.node_logs import logs_of
 from roslings.report.whole_file import CannotWrite
+from roslings.workspace.errors import from_here, quoted_from_here
 
 BAGS, LOGS = "bags", "logs"
 LONGEST_NAME = 100
@@ -24,7 +25,7 @@ class CannotKeepThere(RoslingsError):
     """Evidence cannot be put at a path; the message says why, and what to do."""
 
     def __init__(self, path: Path, problem: str, next_step: str) -> None:
-        super().__init__(f"{path} {problem} Nothing was changed.\n{next_step}")
+        super().__init__(f"{from_here(path)} {problem} Nothing was changed.\n{next_step}")
 
 
 def require_free(folder: Path) -> None:
@@ -32,14 +33,14 @@ def require_free(folder: Path) -> None:
 
     Raises CannotKeepThere.
     """
-    step = f"Give a new name: --evidence {_free_name(folder)}"
+    step = f"Give a new name: --evidence {quoted_from_here(_free_name(folder))}"
     if folder.resolve() == Path.cwd():
         raise CannotKeepThere(folder, "is the folder that you are in.", step)
     if _taken(folder):
         raise CannotKeepThere(folder, _what_is_there(folder), step)
     parent = folder.absolute().parent
     if not parent.is_dir():
-        step = f"Make the folder around it first: mkdir -p '{parent}'"
+        step = f"Make the folder around it first: mkdir -p {quoted_from_here(parent)}"
         raise CannotKeepThere(folder, "cannot be made here.", step)
     try:
         _part(folder).mkdir()

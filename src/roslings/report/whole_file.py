@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from roslings.errors import INCONCLUSIVE, RoslingsError
+from roslings.workspace.errors import from_here, quoted_from_here
 
 
 class CannotWrite(RoslingsError):
@@ -18,12 +19,12 @@ class CannotWrite(RoslingsError):
     def __init__(self, path: Path, error: OSError) -> None:
         self.path = path
         reason = error.strerror or str(error)
-        super().__init__(f"Cannot write {path}: {reason}. {_next_step(path, error)}")
+        super().__init__(f"Cannot write {from_here(path)}: {reason}. {_next_step(path, error)}")
 
 
 def _next_step(path: Path, error: OSError) -> str:
     if isinstance(error, FileNotFoundError):
-        return f"Make the folder first: mkdir -p '{path.parent}'"
+        return f"Make the folder first: mkdir -p {quoted_from_here(path.parent)}"
     if isinstance(error, IsADirectoryError):
         return "Give the name of a file in it."
     return "Free some space, or give a place where you may write."
@@ -54,7 +55,9 @@ def make_folder_of(path: Path) -> None:
 
 def already_there(path: Path) -> FileExistsError:
     """The refusal to overwrite, with the next step."""
-    return FileExistsError(f"{path} is there already. Give another name, or remove it first.")
+    return FileExistsError(
+        f"{from_here(path)} is there already. Give another name, or remove it first."
+    )
 
 
 def _write(path: Path, content: bytes, overwrite: bool) -> None:

@@ -9,6 +9,9 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from roslings.errors import INCONCLUSIVE, RoslingsError
+from roslings.workspace.file_kinds import Kind
+
+MOST_NAMED = 5
 
 
 class WorkspaceError(RoslingsError):
@@ -82,13 +85,20 @@ class NotAFolder(WorkspaceError):
         )
 
 
-class Archive(WorkspaceError):
-    """The path is a zip or tar file."""
+UNPACK_IT = "Unpack it, and give the folder that comes out."
+TO_HAND_IN = "To hand in: ./roslings pack LAB makes one zip file with nothing packed inside."
+NOTHING_IN_IT = (
+    "Nothing can come out of it. Pack the package anew: ./roslings pack LAB makes the file."
+)
 
-    def __init__(self, path: Path) -> None:
+
+class Archive(WorkspaceError):
+    """The path is a packed file."""
+
+    def __init__(self, path: Path, kind: Kind) -> None:
         super().__init__(
-            f"{shown(path)} is a packed file, not a folder.",
-            "Unpack it, and give the folder that comes out.",
+            f"{shown(path)} is {kind.name}, not a folder.",
+            "Give the folder of your package itself." if kind.way == "nothing" else UNPACK_IT,
         )
 
 
@@ -115,12 +125,15 @@ class EmptyFolder(WorkspaceError):
 class OnlyPacked(WorkspaceError):
     """No package is in the folder, but packed files are."""
 
-    def __init__(self, folder: Path, names: Sequence[str]) -> None:
-        what = f"a packed file: {names[0]}" if len(names) == 1 else f"{len(names)} packed files"
+    def __init__(self, folder: Path, found: Sequence[tuple[str, Kind]]) -> None:
+        (name, kind), *others = found
+        self.what = f"{kind.name}: {name}" if not others else f"{len(found)} packed files"
+        what = f"{self.what}{':' if others else '.'}"
+        lines = [f"\n  {each}: {told.name}" for each, told in found[:MOST_NAMED] if others]
+        can_be_unpacked = any(told.way != "nothing" for _, told in found)
         super().__init__(
-            f"There is no ROS package in {shown(folder)}, but {what}.",
-            "Unpack it, and give the folder that comes out.\n"
-            "To hand in: ./roslings pack LAB makes one zip file with nothing packed inside.",
+            f"There is no ROS package in {shown(folder)}, but {what}{''.join(lines)}",
+            f"{UNPACK_IT}\n{TO_HAND_IN}" if can_be_unpacked else NOTHING_IN_IT,
         )
 
 
@@ -353,6 +366,12 @@ def shown(path: Path) -> str:
     return f"~/{path.relative_to(home)}" if path.is_relative_to(home) else str(path)
 
 
+def from_here(path: Path) -> str:
+    """A path as it is typed in this folder: what was given relative is relative again."""
+    here = Path.cwd()
+    return str(path.relative_to(here)) if path.is_relative_to(here) else shown(path)
+
+
 def without_places(text: str, places: Iterable[Path]) -> str:
     """A text for somebody else: these folders of this machine are `submission` in it."""
     names = {name for place in places for path in (place, place.resolve())
@@ -360,6 +379,12 @@ def without_places(text: str, places: Iterable[Path]) -> str:
     for name in sorted(names, key=len, reverse=True):
         text = text.replace(name, "submission")
     return text
+
+
+def quoted_from_here(path: Path) -> str:
+    """The same as it must be typed in a command of this folder."""
+    here = Path.cwd()
+    return shlex.quote(str(path.relative_to(here))) if path.is_relative_to(here) else quoted(path)
 
 
 def quoted(path: Path) -> str:

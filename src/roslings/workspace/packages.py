@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-import tarfile
-import zipfile
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
@@ -27,9 +25,12 @@ from roslings.workspace.errors import (
     WorkspaceError,
     reading,
 )
+from roslings.workspace.file_kinds import EMPTY, UNKNOWN, Kind, kind_of
 from roslings.workspace.sources import BUILT, MADE
 
 MOST_FOLDERS = 5_000
+MOST_LOOKED_AT = 2_000
+"""Files of a folder without a package, to see whether one is packed."""
 DEEPEST = 8
 LEVELS_UP = 3
 COLCON_MARKERS = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
@@ -144,7 +145,9 @@ def _folder(path: Path) -> Path:
         raise NoSuchPath(path)
     if path.is_dir():
         return path
-    raise Archive(path) if _is_archive(path) else NotAFolder(path)
+    with reading(path):
+        kind = kind_of(path) if path.is_file() else UNKNOWN
+    raise Archive(path, kind) if kind.is_packed else NotAFolder(path)
 
 
 def _exists(path: Path) -> bool:
@@ -157,11 +160,6 @@ def _exists(path: Path) -> bool:
         except (OSError, ValueError):  # gone, a loop of links, too long, a zero byte
             return False
     return True
-
-
-def _is_archive(path: Path) -> bool:
-    with reading(path):
-        return path.is_file() and (zipfile.is_zipfile(path) or tarfile.is_tarfile(path))
 
 
 def _is_ignored(folder: Path) -> bool:
@@ -213,8 +211,19 @@ def nothing_in(folder: Path, name: str) -> WorkspaceError:
     entries = [entry for place in places for entry in _files_in(place)]
     if not entries:
         return EmptyFolder(folder, name)
-    packed = [entry.name for entry in entries if entry.name.lower().endswith(PACKED)]
+    packed = list(_packed(entries))
     return OnlyPacked(folder, packed) if packed else NoPackage(folder, name)
+
+
+def _packed(entries: list[Path]) -> Iterator[tuple[str, Kind]]:
+    """Packed files, by their bytes or by their names, with what they are."""
+    for entry in entries[:MOST_LOOKED_AT]:
+        if entry.is_symlink() or not entry.is_file():
+            continue
+        with suppress(OSError):
+            kind = kind_of(entry)
+            if entry.name.lower().endswith(PACKED) or (kind.is_packed and kind is not EMPTY):
+                yield entry.name, kind
 
 
 def _holds_a_package(folder: Path) -> bool:

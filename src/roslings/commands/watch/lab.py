@@ -9,13 +9,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from roslings.commands.showing import from_here, replace_kept, show
+from roslings.commands.showing import replace_kept, show
 from roslings.commands.watch.keyboard import Keyboard
 from roslings.commands.watch.session import Session, tell
 from roslings.course import Lab
 from roslings.typed import program
 from roslings.workspace import progress
-from roslings.workspace.errors import NotThere
+from roslings.workspace.errors import NotThere, from_here
 from roslings.workspace.student import package_of, start
 
 if TYPE_CHECKING:
