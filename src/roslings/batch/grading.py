@@ -18,7 +18,7 @@ from roslings.batch.result import Order, Result, broken
 from roslings.batch.unpack import package_in
 from roslings.batch.version import version_of
 from roslings.course import Lab
-from roslings.evidence import Evidence, evidence_json, read_json
+from roslings.evidence import Evidence, read_json, thin_json
 from roslings.experiment import Choices, MeasuringFailed, measure
 from roslings.experiment.soaking import SOAKING
 from roslings.judge.loaded import judge_for
@@ -71,7 +71,7 @@ def put(result: Result, order: Order) -> None:
 
 def packed(evidence: Evidence) -> bytes:
     """The evidence as the gradebook keeps it."""
-    return zlib.compress(evidence_json(evidence), 6)
+    return zlib.compress(thin_json(evidence), 6)
 
 
 def unpacked(content: bytes) -> Evidence:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from roslings.record import PartSeen, Record
+from roslings.record import Columns, PartSeen, Record
 
 
 class CableLine(Record):
@@ -42,10 +42,10 @@ class BoardMark(Record):
 class BoardSeen(Record):
     """All that was seen at the board's end of a serial cable."""
 
-    told: list[CableLine] = Field(default_factory=list, description="By the board, unspoiled")
-    heard: list[CableLine] = Field(default_factory=list, description="From the node")
-    motors: list[MotorsSeen] = Field(default_factory=list)
-    marks: list[BoardMark] = Field(default_factory=list)
+    told: Columns[CableLine] = Field(default_factory=list, description="By the board, unspoiled")
+    heard: Columns[CableLine] = Field(default_factory=list, description="From the node")
+    motors: Columns[MotorsSeen] = Field(default_factory=list)
+    marks: Columns[BoardMark] = Field(default_factory=list)
     rejected: int = Field(default=0, description="Lines of the node that the board refused")
     lost_bytes: int = Field(default=0, description="Sent by the board, and read too late")
     host_bits_s: int | None = Field(

@@ -9,6 +9,8 @@ from typing import ClassVar
 
 from pydantic import BaseModel, ConfigDict
 
+from roslings.record.columns import Columns as Columns
+
 
 class Record(BaseModel):
     """A model that is written once, and that refuses unknown fields when it is read back.
