@@ -36,6 +36,8 @@ class PartSeen(Record):
     """The capability's name: the key in evidence."""
     REQUESTS: ClassVar[tuple[str, ...]] = ()
     """Fields that hold what was asked of the grader: where that found no room, they lack some."""
+    FOR_READERS: ClassVar[tuple[str, ...]] = ()
+    """Fields that only a page shows: no check reads them."""
 
     v: int = 1
 
