@@ -53,7 +53,7 @@ OUT_OF_STEP = {
         (changed(experiments={"talking": {}}), "damaged: experiments.talking", "--evidence DIR"),
         (changed(attempts=[OUT_OF_STEP]), "damaged: talking: a segment", "--evidence DIR"),
         (changed(machine=None), "damaged: machine", "--evidence DIR"),
-        (changed(schema=3), "newer roslings (schema 3; this one reads 2)", "git pull"),
+        (changed(schema=4), "newer roslings (schema 4; this one reads 3)", "git pull"),
         (changed(lab="services"), "lab 'services', not of 'topics'", "regrade services"),
         (changed(checks=[], score=100), "a verdict, not the evidence", "evidence.json"),
     ],

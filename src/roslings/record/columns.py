@@ -24,7 +24,8 @@ sign, and objects the order of their names. `writing.py` chooses, `reading.py` r
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Annotated, Any, TypeVar
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, SerializationInfo
@@ -39,8 +40,21 @@ IN_COLUMNS = {"lists": "columns"}
 T = TypeVar("T")
 
 
+def _as_they_are(rows: list[Any]) -> list[Any]:
+    return rows
+
+
+@dataclass(frozen=True)
 class InColumns:
     """Of a list in a record: JSON may have it as a table, and gets it as one."""
+
+    thinned: Callable[[list[Any]], list[Any]] = _as_they_are
+    """Rows that are written in place of the rows: what can be reckoned from the rest is left out.
+
+    Each keeps its number.
+    """
+    restored: Callable[[list[Any]], list[Any]] = _as_they_are
+    """From those, as objects, to those that the list holds."""
 
     def __get_pydantic_core_schema__(self, source: Any, rest: GetCoreSchemaHandler) -> CoreSchema:
         """The list's own schema reads the rows: of a plain list no object is made in between."""
@@ -48,7 +62,7 @@ class InColumns:
         table = core_schema.chain_schema(
             [
                 core_schema.dict_schema(core_schema.str_schema()),
-                core_schema.no_info_plain_validator_function(rows_of),
+                core_schema.no_info_plain_validator_function(self._rows_of),
                 rows,
             ]
         )
@@ -56,7 +70,7 @@ class InColumns:
             [(rows, "list"), (table, "table")],
             mode="left_to_right",
             serialization=core_schema.plain_serializer_function_ser_schema(
-                _as_asked, info_arg=True, when_used="json"
+                self._as_asked, info_arg=True, when_used="json"
             ),
         )
 
@@ -68,13 +82,18 @@ class InColumns:
         table = {"type": "object", "required": ["rows"], "description": "The list in columns"}
         return {"anyOf": [rest(rows), table]}
 
+    def _as_asked(self, values: list[Any], info: SerializationInfo) -> Any:
+        if info.context != IN_COLUMNS:
+            return values
+        table = table_of(self.thinned(values))
+        return table if isinstance(table, dict) else values
+
+    def _rows_of(self, table: Mapping[str, Any]) -> list[Any]:
+        return self.restored(rows_of(table))
+
 
 Columns = Annotated[list[T], InColumns()]
 """A list in a record, of which there may be many: a table in JSON, a list everywhere else."""
-
-
-def _as_asked(values: list[Any], info: SerializationInfo) -> Any:
-    return table_of(values) if info.context == IN_COLUMNS else values
 
 
 def table_of(values: Sequence[Any]) -> Any:

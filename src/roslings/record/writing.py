@@ -292,7 +292,8 @@ def _one_behind_the_other(values: Sequence[Sequence[Any]]) -> Column:
 
 def _others(values: Sequence[Any]) -> Column:
     """Records by their fields; what we do not know is left to pydantic."""
-    names = _names_of(type(values[0]))
+    kind: Any = type(values[0])
+    names = _names_of(kind)
     if not names:
         return [*values]
     return _fields({name: [*map(attrgetter(name), values)] for name in names})
