@@ -7,6 +7,7 @@ import json
 import random
 import types
 import typing
+import zlib
 from collections.abc import Iterator
 from functools import cache
 from typing import Annotated, Any, Literal
@@ -15,6 +16,7 @@ import pytest
 from judged_words import LABS, evidence_of
 from pydantic import BaseModel, TypeAdapter, ValidationError
 
+from roslings.batch.grading import THOROUGHLY, packed, unpacked
 from roslings.capability import capabilities
 from roslings.evidence import (
     Evidence,
@@ -367,6 +369,14 @@ def test_real_evidence_comes_back_as_it_was(name: str) -> None:
         assert again == evidence, package
         assert evidence_json(again) == evidence_json(evidence), package
         assert thin_json(again) == thin_json(evidence), package
+
+
+def test_what_gradebooks_hold_is_read() -> None:
+    """Also what was packed before there were columns."""
+    evidence = dict(evidence_of("topics"))["solution"]
+    assert unpacked(packed(evidence)) == evidence
+    assert unpacked(packed(evidence, THOROUGHLY)) == evidence
+    assert unpacked(zlib.compress(evidence_json(evidence))) == evidence
 
 
 SMALLER = {"serial-bridge": 3.5, "actions": 1.7, "nodes": 1.6, "topics": 1.6}
