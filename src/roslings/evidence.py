@@ -8,18 +8,21 @@ room can speak it. Times that end in `_ns` are nanoseconds: `arrival_ns` on the 
 
 from __future__ import annotations
 
+import gc
 import json
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from typing import Annotated, Any, Literal, TypeVar
 
 from pydantic import BeforeValidator, ConfigDict, Field, SerializeAsAny, TypeAdapter
 from pydantic.dataclasses import dataclass
 
 from roslings.capability import capabilities, capability
-from roslings.record import SMALL, PartSeen, Record, UnknownPart
+from roslings.record import SMALL, Columns, PartSeen, Record, UnknownPart
+from roslings.record.columns import IN_COLUMNS
 
-SCHEMA_VERSION = 2
+SCHEMA_VERSION = 3
 P = TypeVar("P", bound=PartSeen)
 
 
@@ -52,7 +55,7 @@ class GraphSeen(Record):
     """The ROS graph at one moment, without the grader's own node."""
 
     nodes: list[str] = Field(description="Full names; a name appears as often as it was seen")
-    endpoints: list[Endpoint]
+    endpoints: Columns[Endpoint]
     services: dict[str, list[str]] = Field(default_factory=dict, description="Name to types")
 
 
@@ -75,7 +78,7 @@ class TopicSeen(Record):
 
     name: str
     type: str
-    messages: list[MessageSeen] = Field(default_factory=list)
+    messages: Columns[MessageSeen] = Field(default_factory=list)
     not_kept: int = Field(default=0, description="Messages counted but not kept (the bound)")
     not_read: int = Field(
         default=0, description="Messages kept without their content: it was too large"
@@ -154,7 +157,7 @@ class ProcessSeen(Record):
     ended_by_itself: bool = Field(default=False, description="Before the grader asked it to")
     asked_to_end_ns: int | None = Field(default=None, description="When Ctrl-C was pressed")
     ending: Ending | None = None
-    lines: list[LogLine] = Field(default_factory=list)
+    lines: Columns[LogLine] = Field(default_factory=list)
     output_bytes: int = 0
     output_lines: int = 0
     output_dropped_bytes: int = 0
@@ -222,7 +225,7 @@ class CanarySeen(Record):
     """A known-good talker that ran beside the student's nodes, and what it managed."""
 
     wanted_hz: float
-    messages: list[MessageSeen] = Field(default_factory=list)
+    messages: Columns[MessageSeen] = Field(default_factory=list)
     imitated: bool = Field(
         default=False, description="Somebody else published on its topic: it tells nothing"
     )
@@ -289,27 +292,27 @@ class ExperimentSeen(Record):
     clock: Literal["wall", "sim"]
     graph: GraphSeen = Field(default_factory=lambda: GraphSeen(nodes=[], endpoints=[]))
     topics: dict[str, TopicSeen] = Field(default_factory=dict)
-    rosout: dict[str, list[LogLine]] = Field(
+    rosout: dict[str, Columns[LogLine]] = Field(
         default_factory=dict, description="Logger's name to its lines"
     )
     processes: dict[str, ProcessSeen] = Field(default_factory=dict, description="By executable")
-    sent_ns: dict[str, list[int]] = Field(
+    sent_ns: dict[str, Columns[int]] = Field(
         default_factory=dict,
         description="Topic to the times of its messages on the network, where nothing of ours was"
         " in the domain; without the topic where the kernel shows no packets",
     )
-    spoken: list[Spoken] = Field(default_factory=list)
-    ticks: list[Tick] = Field(default_factory=list)
-    segments: list[Segment] = Field(default_factory=list)
+    spoken: Columns[Spoken] = Field(default_factory=list)
+    ticks: Columns[Tick] = Field(default_factory=list)
+    segments: Columns[Segment] = Field(default_factory=list)
     canary: CanarySeen | None = None
     parts: Parts = Field(
         default_factory=dict, description="Name of a capability to what was seen of it"
     )
-    stages: list[StageMark] = Field(default_factory=list)
+    stages: Columns[StageMark] = Field(default_factory=list)
     stuck: list[str] = Field(
         default_factory=list, description="Nodes that ran, and whose callbacks ran no more"
     )
-    dropped: list[Dropped] = Field(
+    dropped: Columns[Dropped] = Field(
         default_factory=list, description="What found no room; of a process: see there"
     )
     watching_s: float = 0.0
@@ -481,7 +484,7 @@ class Span(Record):
 class Evidence(Record):
     """All that was seen of one package in one grading; judged again without running anything."""
 
-    schema_version: Literal[2] = Field(default=2, alias="schema")
+    schema_version: Literal[3] = Field(default=3, alias="schema")
     lab: str
     seed: int
     machine: MachineSeen
@@ -493,7 +496,7 @@ class Evidence(Record):
     )
     soak: SoakSeen | None = Field(default=None, description="None where none was made")
     advice: list[str] = Field(default_factory=list)
-    timeline: list[Span] = Field(default_factory=list, description="Where the seconds went")
+    timeline: Columns[Span] = Field(default_factory=list, description="Where the seconds went")
 
     model_config = ConfigDict(
         extra="forbid", validate_by_name=True, validate_by_alias=True, ser_json_inf_nan="strings"
@@ -505,13 +508,40 @@ class Evidence(Record):
         return [*self.experiments.values(), *self.attempts]
 
 
-def evidence_json(evidence: Evidence, indent: int | None = None) -> bytes:
+@contextmanager
+def nothing_collected() -> Iterator[None]:
+    """Evidence is many objects and no garbage: while it is read, looking for some takes a third."""
+    collects = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if collects:
+            gc.enable()
+
+
+def evidence_json(evidence: Evidence) -> bytes:
     """JSON in UTF-8, in one piece: large evidence has no room for a text of it beside its bytes."""
-    return TypeAdapter(Evidence).dump_json(evidence, by_alias=True, indent=indent)
+    with nothing_collected():
+        return _ADAPTER.dump_json(evidence, by_alias=True)
+
+
+def thin_json(evidence: Evidence, indent: int | None = None) -> bytes:
+    """The same evidence in columns, to be kept: `record/columns.py` says how they are read."""
+    with nothing_collected():
+        return _ADAPTER.dump_json(evidence, by_alias=True, indent=indent, context=IN_COLUMNS)
+
+
+_ADAPTER = TypeAdapter(Evidence)
 
 
 def read_json(content: bytes) -> Evidence:
     """Evidence of this schema, or of an earlier one, step by step. Raises ValidationError."""
+    with nothing_collected():
+        return _read(content)
+
+
+def _read(content: bytes) -> Evidence:
     found = _FIRST_FIELD.match(content)
     if found and int(found[1]) == SCHEMA_VERSION:
         return Evidence.model_validate_json(content)
@@ -544,5 +574,10 @@ def _divided(seen: dict[str, Any]) -> dict[str, Any]:
     return {**rest, "parts": parts}
 
 
-_UPGRADES: dict[int, Callable[[dict[str, Any]], dict[str, Any]]] = {1: _with_parts}
+def _in_lists(evidence: dict[str, Any]) -> dict[str, Any]:
+    """From schema 2 to 3: lists may be tables now, and need not be."""
+    return evidence
+
+
+_UPGRADES: dict[int, Callable[[dict[str, Any]], dict[str, Any]]] = {1: _with_parts, 2: _in_lists}
 """Schema to the step to the next one."""

@@ -20,6 +20,7 @@ from rosbags.typesys import Stores, get_typestore
 
 from roslings import course
 from roslings.course import Edit, Mutant, lab
+from roslings.evidence import evidence_json, read_json
 from roslings.probe.bag import LEFT_OUT, MOST_BYTES
 
 TOPICS = lab("topics")
@@ -73,7 +74,8 @@ class Kept:
     @property
     def evidence(self) -> dict[str, Any]:
         """The evidence."""
-        found: dict[str, Any] = json.loads((self.folder / "evidence.json").read_text("utf-8"))
+        kept = read_json((self.folder / "evidence.json").read_bytes())
+        found: dict[str, Any] = json.loads(evidence_json(kept))
         return found
 
 

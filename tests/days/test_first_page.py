@@ -19,6 +19,7 @@ from terminals import Terminal, opened, until
 from roslings.arena.lease import leased_domain
 from roslings.course import root
 from roslings.devices.rover import default_world
+from roslings.evidence import evidence_json, read_json
 
 PAGE = root() / "days" / "01-install" / "first-15-minutes.md"
 MOST_COMMANDS = 9
@@ -178,7 +179,8 @@ def test_20_seconds_of_robot_time_are_judged(tmp_path: Path) -> None:
         str(kept),
     ]
     subprocess.run(words, cwd=root(), env={**os.environ, "HOME": str(tmp_path)}, check=False)
-    telling = json.loads((kept / "evidence.json").read_text("utf-8"))["experiments"]["telling"]
+    evidence = read_json((kept / "evidence.json").read_bytes())
+    telling = json.loads(evidence_json(evidence))["experiments"]["telling"]
     if telling["clock"] == "sim":
         assert telling["ticks"][-1]["sim_ns"] > 20e9
     else:

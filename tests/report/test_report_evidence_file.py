@@ -53,12 +53,14 @@ OUT_OF_STEP = {
         (changed(experiments={"talking": {}}), "damaged: experiments.talking", "--evidence DIR"),
         (changed(attempts=[OUT_OF_STEP]), "damaged: talking: a segment", "--evidence DIR"),
         (changed(machine=None), "damaged: machine", "--evidence DIR"),
-        (changed(schema=3), "newer roslings (schema 3; this one reads 2)", "git pull"),
+        (changed(timeline={"rows": 9, "fields": {"of": ["it"]}}), "1 values for 9 rows",
+         "--evidence DIR"),
+        (changed(schema=4), "newer roslings (schema 4; this one reads 3)", "git pull"),
         (changed(lab="services"), "lab 'services', not of 'topics'", "regrade services"),
         (changed(checks=[], score=100), "a verdict, not the evidence", "evidence.json"),
     ],
     ids=["empty", "binary", "deep", "foreign", "cut", "hollow", "ticks-gone", "part-gone",
-         "newer", "lab", "verdict"],
+         "short-table", "newer", "lab", "verdict"],
 )  # fmt: skip
 def test_what_cannot_be_judged_is_said(
     tmp_path: Path, content: bytes, words: str, step: str

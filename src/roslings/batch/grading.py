@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import lzma
 import signal
 import time
 import zlib
@@ -18,7 +19,7 @@ from roslings.batch.result import Order, Result, broken
 from roslings.batch.unpack import package_in
 from roslings.batch.version import version_of
 from roslings.course import Lab
-from roslings.evidence import Evidence, evidence_json, read_json
+from roslings.evidence import Evidence, read_json, thin_json
 from roslings.experiment import Choices, MeasuringFailed, measure
 from roslings.experiment.soaking import SOAKING
 from roslings.judge.loaded import judge_for
@@ -69,14 +70,20 @@ def put(result: Result, order: Order) -> None:
     write_whole(order.answer, result.model_dump_json(by_alias=True).encode())
 
 
-def packed(evidence: Evidence) -> bytes:
-    """The evidence as the gradebook keeps it."""
-    return zlib.compress(evidence_json(evidence), 6)
+QUICKLY, THOROUGHLY = 0, 6
+"""Presets of xz: what every grading keeps, and what is kept for years in a repository."""
+_XZ = b"\xfd7zXZ\0"
+
+
+def packed(evidence: Evidence, preset: int = QUICKLY) -> bytes:
+    """The evidence as the gradebook keeps it: in columns, packed by xz."""
+    return lzma.compress(thin_json(evidence), preset=preset)
 
 
 def unpacked(content: bytes) -> Evidence:
-    """The same evidence."""
-    return read_json(zlib.decompress(content))
+    """The same evidence; gradebooks of before columns hold it packed by zlib."""
+    unpack = lzma.decompress if content.startswith(_XZ) else zlib.decompress
+    return read_json(unpack(content))
 
 
 def grade(order: Order) -> tuple[Result, Evidence | None]:

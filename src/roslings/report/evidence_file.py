@@ -7,7 +7,7 @@ from pathlib import Path
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from roslings.errors import RoslingsError
-from roslings.evidence import SCHEMA_VERSION, Evidence, evidence_json, read_json
+from roslings.evidence import SCHEMA_VERSION, Evidence, read_json, thin_json
 from roslings.workspace.errors import from_here
 
 FILE = "evidence.json"
@@ -32,7 +32,7 @@ class _Head(BaseModel):
 
 def evidence_bytes(evidence: Evidence) -> bytes:
     """The evidence as the file holds it: JSON in UTF-8."""
-    return evidence_json(evidence, indent=1) + b"\n"
+    return thin_json(evidence, indent=1) + b"\n"
 
 
 def read_evidence(path: Path, lab: str) -> Evidence:
@@ -85,7 +85,8 @@ def _require_ours(file: Path, content: bytes, lab: str) -> None:
 
 
 def _first(error: ValidationError) -> str:
-    """The first thing that is wrong, on one line."""
-    first = error.errors(include_url=False, include_context=False, include_input=False)[0]
+    """What is wrong, on one line: of all that was tried the one that came furthest."""
+    every = error.errors(include_url=False, include_context=False, include_input=False)
+    first = max(reversed(every), key=lambda each: len(each["loc"]))
     where = ".".join(map(str, first["loc"]))
     return f"{where}: {first['msg']}" if where else str(first["msg"])

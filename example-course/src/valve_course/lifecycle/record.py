@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from roslings.record import PartSeen, Record
+from roslings.record import Columns, PartSeen, Record
 
 
 class StepSeen(Record):
@@ -21,4 +21,4 @@ class LifecycleSeen(PartSeen):
 
     NAME = "lifecycle"
 
-    steps: list[StepSeen] = Field(default_factory=list)
+    steps: Columns[StepSeen] = Field(default_factory=list)

@@ -9,24 +9,21 @@ evidence of a lab has another schema, or its experiments are others, the command
 
 from __future__ import annotations
 
-import os
 import shutil
-import zlib
 from collections.abc import Iterable, Iterator
 from itertools import islice
 from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict, RootModel
 
-from roslings import course
+from roslings.authoring.anonymous import without_machine
 from roslings.batch.gradebook import Gradebook
-from roslings.batch.grading import unpacked
+from roslings.batch.grading import THOROUGHLY, packed, unpacked
 from roslings.batch.result import Result
 from roslings.course import Lab
 from roslings.evidence import Evidence
 
 INDEX = "kills.json"
-SOMEWHERE = b"/course"
 KEPT = 25
 KEPT_BYTES = 130_000
 """At most so many of a lab, of checks as different as can be, and so many bytes."""
@@ -88,9 +85,8 @@ def _with_evidence(
 
 
 def _of_anywhere(content: bytes) -> bytes:
-    """Packed evidence without the place of this course: tracebacks hold it."""
-    here = os.fsencode(course.root())
-    return zlib.compress(zlib.decompress(content).replace(here, SOMEWHERE), 9)
+    """Packed evidence without words of this machine: tracebacks hold them."""
+    return packed(without_machine(unpacked(content)), THOROUGHLY)
 
 
 def _in_bytes(found: Iterable[tuple[Kill, bytes]]) -> Iterator[tuple[Kill, bytes]]:

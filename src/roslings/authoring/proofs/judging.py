@@ -13,10 +13,10 @@ from roslings.authoring.proofs.kept import (
     Said,
     digest_of_evidence,
     name_in,
-    unpack,
     words_of,
 )
 from roslings.authoring.prove import Package, Proof, packages_of, proof_of
+from roslings.batch.grading import unpacked
 from roslings.batch.result import Result
 from roslings.course import Lab
 from roslings.evidence import Evidence
@@ -96,6 +96,6 @@ def _read(file: Path, line: KeptProof) -> Evidence:
     if digest_of_evidence(file) != line.evidence:
         raise UnlikeItsFiles(f"its evidence is not the one that was judged. {MEND}")
     try:
-        return unpack(file.read_bytes())
+        return unpacked(file.read_bytes())
     except (lzma.LZMAError, ValueError) as error:
         raise UnlikeItsFiles(f"its evidence cannot be read: {str(error)[:200]}") from error

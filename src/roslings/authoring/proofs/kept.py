@@ -6,7 +6,6 @@ believed only as far as it fits its files: whoever changes one of them changes t
 
 from __future__ import annotations
 
-import lzma
 import shutil
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -17,8 +16,9 @@ from typing import TypeVar
 from pydantic import BaseModel, ConfigDict, TypeAdapter
 
 from roslings.authoring.prove import Package
+from roslings.batch.grading import THOROUGHLY, packed
 from roslings.course import Lab, root
-from roslings.evidence import Evidence, evidence_json, read_json
+from roslings.evidence import Evidence
 from roslings.verdict import CheckOutcome, Verdict
 from roslings.workspace.normal import digest_of, digest_of_files
 from roslings.workspace.sources import files
@@ -96,13 +96,8 @@ def content_of(package: Package) -> str:
 
 
 def pack(evidence: Evidence) -> bytes:
-    """As it is kept: as small as can be, for it is packed once and read at each landing."""
-    return lzma.compress(evidence_json(evidence), preset=9 | lzma.PRESET_EXTREME)
-
-
-def unpack(content: bytes) -> Evidence:
-    """The same evidence."""
-    return read_json(lzma.decompress(content))
+    """As it is kept: small, for it is packed once and read at each landing."""
+    return packed(evidence, THOROUGHLY)
 
 
 @dataclass(frozen=True)

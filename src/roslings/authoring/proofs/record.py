@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from roslings.authoring.proofs.anonymous import without_machine
+from roslings.authoring.anonymous import for_judging, without_machine
 from roslings.authoring.proofs.digests import Measuring, card_digest
 from roslings.authoring.proofs.judging import words_now
 from roslings.authoring.proofs.kept import (
@@ -98,7 +98,7 @@ class Recorder:
                 yield from self._put(each.package, each.evidence)
 
     def _put(self, package: Package, evidence: Evidence) -> Iterator[Proof]:
-        lab, kept = package.lab, without_machine(evidence)
+        lab, kept = package.lab, for_judging(without_machine(evidence))
         content = pack(kept)
         if len(content) > LARGEST_BYTES:
             problem = f"its evidence has {len(content):,} bytes; {LARGEST_BYTES:,} are the most"

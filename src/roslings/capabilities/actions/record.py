@@ -8,7 +8,7 @@ from typing import Any, Literal
 from pydantic import Field
 
 from roslings.capabilities.robot.record import DriveSeen
-from roslings.record import PartSeen, Record
+from roslings.record import Columns, PartSeen, Record
 
 
 class ActionEnd(Record):
@@ -104,6 +104,6 @@ class ActionsSeen(PartSeen):
     REQUESTS = ("orders",)
 
     limits: GoalLimits = Field(default_factory=GoalLimits)
-    ends: list[ActionEnd] = Field(default_factory=list)
-    goals: list[GoalSeen] = Field(default_factory=list, description="Given by the grader")
-    orders: list[GoalSeen] = Field(default_factory=list, description="Given to the grader")
+    ends: Columns[ActionEnd] = Field(default_factory=list)
+    goals: Columns[GoalSeen] = Field(default_factory=list, description="Given by the grader")
+    orders: Columns[GoalSeen] = Field(default_factory=list, description="Given to the grader")

@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from pydantic import Field
 
-from roslings.record import PartSeen, Record
+from roslings.record import Columns, PartSeen, Record
 
 
 class TopicHeld(Record):
@@ -32,8 +32,8 @@ class DriveHeld(Record):
     duration_s: float
     distance_m: float
     top_speed_m_s: float
-    topics: list[TopicHeld]
-    pauses: list[PauseHeld] = Field(description="Those that may be gaps, by the card's number")
+    topics: Columns[TopicHeld]
+    pauses: Columns[PauseHeld] = Field(description="Those that may be gaps, by the card's number")
 
     def gaps(self, periods: float) -> list[PauseHeld]:
         """The pauses that are longer than so many usual periods."""
@@ -53,4 +53,4 @@ class BagsSeen(PartSeen):
 
     NAME: ClassVar[str] = "bags"
 
-    given: list[BagGiven] = Field(default_factory=list)
+    given: Columns[BagGiven] = Field(default_factory=list)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from roslings.record import PartSeen, Record
+from roslings.record import Columns, PartSeen, Record
 
 
 class PixelsSeen(Record):
@@ -84,6 +84,7 @@ class CameraSeen(PartSeen):
     """All that was seen of pictures in an experiment; what a message holds is a `PixelsSeen`."""
 
     NAME = "camera"
+    FOR_READERS = ("pictures",)
 
-    shown: list[PictureShown] = Field(default_factory=list, description="By the grader")
+    shown: Columns[PictureShown] = Field(default_factory=list, description="By the grader")
     pictures: list[PictureKept] = Field(default_factory=list, description="For the reader")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from roslings.record import PartSeen, Record
+from roslings.record import Columns, PartSeen, Record
 
 LABEL = "ros2 launch"
 """The name of the process that launches the others."""
@@ -47,7 +47,7 @@ class LaunchSeen(PartSeen):
         default_factory=dict,
         description="Executable to how many of it ran when all nodes were there",
     )
-    killed: list[ProgramKilled] = Field(default_factory=list)
+    killed: Columns[ProgramKilled] = Field(default_factory=list)
     patience_s: float = Field(
         default=4.0, description="So long a topic that is missing was waited for"
     )

@@ -6,7 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from roslings.record import PartSeen, Record
+from roslings.record import Columns, PartSeen, Record
 
 
 class ParameterDeclared(Record):
@@ -67,7 +67,7 @@ class ParametersSeen(PartSeen):
     names: dict[str, list[str]] = Field(
         default_factory=dict, description="Node to the names of its parameters"
     )
-    declared: list[ParameterDeclared] = Field(default_factory=list)
-    sets: list[ParameterSet] = Field(default_factory=list, description="Tries to set one")
-    trials: list[ParameterTrial] = Field(default_factory=list)
-    read: list[ParametersRead] = Field(default_factory=list)
+    declared: Columns[ParameterDeclared] = Field(default_factory=list)
+    sets: Columns[ParameterSet] = Field(default_factory=list, description="Tries to set one")
+    trials: Columns[ParameterTrial] = Field(default_factory=list)
+    read: Columns[ParametersRead] = Field(default_factory=list)

@@ -6,7 +6,7 @@ from typing import Any
 
 from pydantic import Field
 
-from roslings.record import PartSeen, Record
+from roslings.record import Columns, PartSeen, Record
 
 
 class MoveSeen(Record):
@@ -75,10 +75,10 @@ class QosSeen(PartSeen):
 
     NAME = "qos"
 
-    drives: list[DriveSeen] = Field(default_factory=list)
-    stops: list[StopSeen] = Field(default_factory=list)
-    joins: list[JoinSeen] = Field(default_factory=list)
-    presses: list[PressSeen] = Field(default_factory=list)
-    moves: list[MoveSeen] = Field(default_factory=list, description="What the motors were told")
-    sent_ns: list[int] = Field(default_factory=list, description="The operator's commands")
+    drives: Columns[DriveSeen] = Field(default_factory=list)
+    stops: Columns[StopSeen] = Field(default_factory=list)
+    joins: Columns[JoinSeen] = Field(default_factory=list)
+    presses: Columns[PressSeen] = Field(default_factory=list)
+    moves: Columns[MoveSeen] = Field(default_factory=list, description="What the motors were told")
+    sent_ns: Columns[int] = Field(default_factory=list, description="The operator's commands")
     hosts: HostsSeen | None = None

@@ -38,6 +38,9 @@ says so every 3 s, its `heartbeat_period`, and a node would not know where the r
 HEARD_S = 0.01
 """So long the robot waits after each message for the reader to confirm it, until it once has."""
 
+KEPT_DECIMALS = 6
+"""Micrometres: a path has hundreds of places, and no check looks closer."""
+
 STANDS_M_S = 0.005
 STANDS_RAD_S = 0.02
 STANDS_WITHIN_S = 1.5
@@ -149,9 +152,9 @@ class Robot:
         self.seen.path.append(
             PoseSeen(
                 arrival_ns=time.monotonic_ns(),
-                x_m=pose.x_m,
-                y_m=pose.y_m,
-                heading_rad=pose.heading_rad,
+                x_m=round(pose.x_m, KEPT_DECIMALS),
+                y_m=round(pose.y_m, KEPT_DECIMALS),
+                heading_rad=round(pose.heading_rad, KEPT_DECIMALS),
             )
         )
         if self._voice is not None and self._voice.get_subscription_count():

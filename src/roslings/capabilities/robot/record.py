@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from roslings.record import PartSeen, Record
+from roslings.record import Columns, PartSeen, Record
 
 
 class PoseSeen(Record):
@@ -27,15 +27,15 @@ class CommandSeen(Record):
 class DriveSeen(Record):
     """A drive: how a robot moved, and what it was told."""
 
-    path: list[PoseSeen] = Field(default_factory=list)
-    commands: list[CommandSeen] = Field(default_factory=list)
+    path: Columns[PoseSeen] = Field(default_factory=list)
+    commands: Columns[CommandSeen] = Field(default_factory=list)
 
 
 class WaySeen(Record):
     """Where something went, on the floor."""
 
     name: str
-    points_m: list[tuple[float, float]] = Field(description="x and y, metres")
+    points_m: Columns[tuple[float, float]] = Field(description="x and y, metres")
 
 
 class RobotSeen(PartSeen):
@@ -45,4 +45,4 @@ class RobotSeen(PartSeen):
     REQUESTS = ("drive",)
 
     drive: DriveSeen | None = Field(default=None, description="The robot, where there was one")
-    ways: list[WaySeen] = Field(default_factory=list)
+    ways: Columns[WaySeen] = Field(default_factory=list)

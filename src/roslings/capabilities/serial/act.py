@@ -30,6 +30,7 @@ from roslings.experiment.start import PLAIN, Start
 from roslings.experiment.timing import accounting, timing
 from roslings.matching import nearest_endpoint
 
+NS_PER_US = 1000
 SAY_EVERY_S = 0.05
 STANDS_WITHIN_S = 5.0
 STANDS_RAD_S = 0.02
@@ -297,15 +298,17 @@ class Cable:
 def lines_of(chunks: Sequence[Chunk]) -> list[CableLine]:
     """The lines in bytes that came in pieces; a line's time is that of its end.
 
-    What has no end for too long is a line as well, a wrong one.
+    What has no end for too long is a line as well, a wrong one. The time is cut to microseconds, as
+    the board's clock has them: nobody asks for more, and there are thousands of lines.
     """
     lines, begun = list[CableLine](), b""
     for chunk in chunks:
         *whole, begun = (begun + chunk.content).split(b"\n")
         if len(begun) > LONGEST_LINE:
             whole, begun = [*whole, begun], b""
+        sent_ns = chunk.sent_ns // NS_PER_US * NS_PER_US
         lines += [
-            CableLine(board_s=chunk.board_s, sent_ns=chunk.sent_ns, text=line.decode("latin-1"))
+            CableLine(board_s=chunk.board_s, sent_ns=sent_ns, text=line.decode("latin-1"))
             for line in whole
             if line
         ]

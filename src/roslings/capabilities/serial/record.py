@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from typing import Annotated, Any
+
 from pydantic import Field
 
-from roslings.record import PartSeen, Record
+from roslings.models.board_lines import checksum
+from roslings.record import Columns, PartSeen, Record
+from roslings.record.columns import InColumns
 
 
 class CableLine(Record):
@@ -13,6 +18,51 @@ class CableLine(Record):
     board_s: float = Field(description="The board's clock")
     sent_ns: int = Field(description="Observer's monotonic clock")
     text: str
+
+
+@dataclass(slots=True)
+class _Unsealed:
+    """A line in columns: its checksum, which nothing packs, is reckoned again."""
+
+    board_s: float
+    sent_ns: int
+    text: str
+
+
+SEAL = len("FFFF")
+
+
+def unsealed(text: str) -> str:
+    """A line without its checksum; one that has none, or a wrong one, with all that it has.
+
+    What then ends in `*` had its checksum; so what did before gets an end of line more.
+    """
+    cut = text[:-SEAL]
+    if cut[:1] == "$" and cut[1:].endswith("*") and text.isascii() and sealed(cut) == text:
+        return cut
+    return f"{text}\n" if text.rstrip("\n").endswith("*") else text
+
+
+def sealed(text: str) -> str:
+    """The line again."""
+    if text.endswith("*"):
+        return f"{text}{checksum(text[1:-1].encode('latin-1')):04X}"
+    return text[:-1] if text.rstrip("\n").endswith("*") else text
+
+
+def _all_unsealed(lines: list[CableLine]) -> list[_Unsealed]:
+    return [_Unsealed(line.board_s, line.sent_ns, unsealed(line.text)) for line in lines]
+
+
+def _all_sealed(lines: list[Any]) -> list[Any]:
+    """Of anything that is no line, pydantic tells."""
+    for line in lines:
+        if isinstance(line, dict) and isinstance(text := line.get("text"), str):
+            line["text"] = sealed(text)
+    return lines
+
+
+CableLines = Annotated[list[CableLine], InColumns(_all_unsealed, _all_sealed)]
 
 
 class MotorsSeen(Record):
@@ -42,10 +92,10 @@ class BoardMark(Record):
 class BoardSeen(Record):
     """All that was seen at the board's end of a serial cable."""
 
-    told: list[CableLine] = Field(default_factory=list, description="By the board, unspoiled")
-    heard: list[CableLine] = Field(default_factory=list, description="From the node")
-    motors: list[MotorsSeen] = Field(default_factory=list)
-    marks: list[BoardMark] = Field(default_factory=list)
+    told: CableLines = Field(default_factory=list, description="By the board, unspoiled")
+    heard: CableLines = Field(default_factory=list, description="From the node")
+    motors: Columns[MotorsSeen] = Field(default_factory=list)
+    marks: Columns[BoardMark] = Field(default_factory=list)
     rejected: int = Field(default=0, description="Lines of the node that the board refused")
     lost_bytes: int = Field(default=0, description="Sent by the board, and read too late")
     host_bits_s: int | None = Field(

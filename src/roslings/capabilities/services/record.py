@@ -6,7 +6,7 @@ from typing import Any, Literal
 
 from pydantic import Field
 
-from roslings.record import PartSeen, Record
+from roslings.record import Columns, PartSeen, Record
 
 
 class ServiceEnd(Record):
@@ -52,6 +52,6 @@ class ServicesSeen(PartSeen):
     REQUESTS = ("served",)
 
     limits: CallLimits = Field(default_factory=CallLimits)
-    ends: list[ServiceEnd] = Field(default_factory=list)
-    calls: list[CallSeen] = Field(default_factory=list, description="Made by the grader")
-    served: list[CallSeen] = Field(default_factory=list, description="Answered by the grader")
+    ends: Columns[ServiceEnd] = Field(default_factory=list)
+    calls: Columns[CallSeen] = Field(default_factory=list, description="Made by the grader")
+    served: Columns[CallSeen] = Field(default_factory=list, description="Answered by the grader")

@@ -9,6 +9,8 @@ from typing import ClassVar
 
 from pydantic import BaseModel, ConfigDict
 
+from roslings.record.columns import Columns as Columns
+
 
 class Record(BaseModel):
     """A model that is written once, and that refuses unknown fields when it is read back.
@@ -34,6 +36,8 @@ class PartSeen(Record):
     """The capability's name: the key in evidence."""
     REQUESTS: ClassVar[tuple[str, ...]] = ()
     """Fields that hold what was asked of the grader: where that found no room, they lack some."""
+    FOR_READERS: ClassVar[tuple[str, ...]] = ()
+    """Fields that only a page shows: no check reads them."""
 
     v: int = 1
 
