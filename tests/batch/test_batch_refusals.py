@@ -108,7 +108,13 @@ HERE = Path("submission")
 RAR, CUT_OFF = MAGIC[b"Rar!\x1a\x07"], file_kinds.CUT_OFF
 TOLD: dict[type[WorkspaceError], tuple[WorkspaceError, ...]] = {
     errors.NoSuchPath: (errors.NoSuchPath(HERE),),
-    errors.NoWorkspace: (errors.NoWorkspace(HERE),),
+    errors.NoWorkspace: (errors.NoWorkspace(HERE, "topics"),),
+    errors.NotBegun: (errors.NotBegun("topics", "chatter", HERE),),
+    errors.OfOtherLab: (errors.OfOtherLab(HERE, "nodes", "topics"),),
+    errors.OnlyOtherLabs: (errors.OnlyOtherLabs("chatter", [("rover_status", "nodes")]),),
+    errors.NotThere: (errors.NotThere(HERE, "./roslings start topics"),),
+    errors.NoFile: (errors.NoFile(HERE),),
+    errors.ChangedMeanwhile: (errors.ChangedMeanwhile(HERE),),
     errors.NotAFolder: (errors.NotAFolder(HERE),),
     errors.Archive: (errors.Archive(HERE, RAR), errors.Archive(HERE, CUT_OFF)),
     errors.NoPackage: (errors.NoPackage(HERE, "chatter"),),

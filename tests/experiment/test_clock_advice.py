@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Literal
 
 import pytest
-from recorded import recorded
+from recorded_evidence import recorded
 from watching import HERE, watched
 
 from roslings.authoring.generated.kills import read_kills

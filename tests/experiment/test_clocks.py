@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
-from recorded import recorded, view
+from recorded_evidence import recorded, view
 from watching import HERE, RATE, TOPIC, watched
 
 from roslings.capabilities.topics.demands import have_rate

@@ -11,7 +11,8 @@ from roslings.capabilities.actions import faults as action_faults
 from roslings.capabilities.actions.contract import ActionContract
 from roslings.capabilities.actions.demands import accept, hear_meanwhile
 from roslings.capabilities.actions.record import HEARS, GoalSeen, answer_to
-from roslings.capabilities.camera.demands import MISSING, tell_of_trouble
+from roslings.capabilities.camera.act import MISSING
+from roslings.capabilities.camera.demands import tell_of_trouble
 from roslings.capabilities.camera.detection import Screen, find_the_ball
 from roslings.capabilities.camera.faults import detection as showing_faults
 from roslings.capabilities.camera.faults import images as camera_faults

@@ -9,8 +9,8 @@ import pytest
 from seen_with import seen_with
 from ways_to_write import WAYS, written
 
+from roslings.capabilities.camera.act import MISSING
 from roslings.capabilities.camera.demands import (
-    MISSING,
     begin_so_light,
     come_after,
     follow_brightness,
