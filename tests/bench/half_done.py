@@ -1,7 +1,6 @@
 """How long packages on the way are graded, over their solution; prints, and asserts nothing.
 
-    .venv/bin/python tests/bench/half_done.py                 the starter and each state of all labs
-    .venv/bin/python tests/bench/half_done.py services topics
+    .venv/bin/python tests/bench/half_done.py [LAB ...]      the starter and each state; of all labs
 
 From command to verdict, by the command that a student types.
 """
