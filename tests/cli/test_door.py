@@ -23,6 +23,7 @@ NO_PATHS = {
     "ROSLINGS_BREAK": "whether a terminal has sourced an exercise",
     "ROSLINGS_GRADER": "a repository of an organisation, on GitHub",
     "ROSLINGS_ISOLATION": "the name of a wall",
+    "ROSLINGS_MUTANTS_UNTIL": "seconds since 1970",
     "ROSLINGS_RESULTS": "a result itself, for the reporter of GitHub Classroom",
     "ROSLINGS_SITE": "whether the site runs the lesson",
     "ROSLINGS_SOAK_S": "seconds",
