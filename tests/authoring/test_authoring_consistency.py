@@ -55,7 +55,7 @@ OWN = "each mutant is a package of its own"
 POINTS = "the card gives points for the grader's checks"
 ORDER = "what a check needs, and what explains it, is checked before"
 FAULTS = "each fault that is named is one"
-READ = "card, hints, mutants and grader can be read"
+READ = "its files can be read"
 RULES = {HINTS, ANCHORS, MUTANTS, NAMES, TASK, FITS, OWN, POINTS, ORDER, FAULTS, READ}
 
 
@@ -138,6 +138,16 @@ CASES: dict[str, tuple[tuple[str, str, str], str, str]] = {
     "a mutant is no YAML of a mutant": (
         (SLOW, "fails:", "failing:"), READ, f"{SLOW}:",
     ),
+    "the task has a damaged section": (
+        ("task.md", "<!-- card: contract -->", "<!-- card: contact -->"), TASK, "task.md:",
+    ),
+    "what accounts for a sentence is misspelt": (
+        ("promises.yaml", "sentences:", "sentence:"), READ, "promises.yaml:",
+    ),
+    "the solution is not there": (
+        ("card.yaml", "package: follower", "package: walker"), READ,
+        "solution/walker: there is no such folder",
+    ),
     "the grader is no Python": (
         (GRADER, "def test_ends(", "def test_ends(("), READ, "SyntaxError",
     ),
@@ -201,12 +211,16 @@ def test_all_mistakes_are_told_at_once(made: Lab) -> None:
 
 
 def test_a_card_that_is_wrong_keeps_nothing_else_from_being_told(made: Lab) -> None:
-    """A check more, and no points taken away: the hint and the mutant are missed all the same."""
+    """A check more, and no points taken away: hint and mutant are missed all the same, and what
+    does not apply is told.
+    """
     change(made.folder / "card.yaml", "  ends: 5", "  ends: 5\n  extra: 2")
-    change(made.folder / "card.yaml", "title:", "titel:")
+    change(made.folder / "card.yaml", "build_type:", "built_type:")
+    change(made.folder / SLOW, "create_timer(1.0,", "timer(9.9,")
     found = wrong()
+    assert "timer(9.9," in found[FITS]
     assert "extra" in found[HINTS] and "extra" in found[MUTANTS]
-    assert "add up to 102" in found[READ] and "titel" in found[READ]
+    assert "add up to 102" in found[READ] and "built_type" in found[READ]
 
 
 # --- the command -------------------------------------------------------------------------------

@@ -18,8 +18,10 @@ from pydantic import BaseModel, ValidationError
 from roslings.authoring.prove import DOES_NOT_APPLY, Proof
 from roslings.course import Lab, Mutant, root
 from roslings.course.card import Card, Hint, Hints
-from roslings.course.files import BadCourseFile, line_in, read_tree
+from roslings.course.files import BadCourseFile, CourseError, line_in, read_tree
 from roslings.course.labs import MUTANTS
+from roslings.course.promises import NAME as PROMISES
+from roslings.course.promises import Promises
 from roslings.course.task import is_current
 from roslings.judge.faults import Fault
 from roslings.judge.sheet import CheckLine, sheet
@@ -33,11 +35,14 @@ Read = TypeVar("Read", bound=BaseModel)
 def files_fit(lab: Lab) -> Iterator[Proof]:
     """All that must hold of a lab's files. What cannot be read is told, and the rest goes on."""
     seen = LabFiles(lab)
-    rules = [*FOR_ALL, *(FOR_READABLE if seen.card else ()), *(WITH_GRADER if seen.checks else ())]
-    for about, problems in rules:
+    asked = [
+        *ALL, *(WITH_CARD if seen.card else ()), *(WITH_SOLUTION if seen.solution else ()),
+        *(WITH_GRADER if seen.checks else ()),
+    ]  # fmt: skip
+    for about, problems in asked:
         yield Proof(f"{lab.name}: {about}", "\n       ".join(problems(seen)))
     unread = "\n       ".join(seen.unread)
-    yield Proof(f"{lab.name}: card, hints, mutants and grader can be read", unread)
+    yield Proof(f"{lab.name}: its files can be read", unread)
 
 
 @dataclass
@@ -50,12 +55,26 @@ class LabFiles:
 
     def __post_init__(self) -> None:
         """Read all of it now: who asks for `unread` must find all of it."""
-        _ = self.card, self.points, self.hints, self.mutants, self.checks
+        _ = self.card, self.solution, self.points, self.hints, self.mutants, self.checks
+        if (promises := self.lab.folder / PROMISES).is_file():
+            self._read(promises, Promises)
 
     @cached_property
     def card(self) -> Card | None:
         """None where it says something wrong."""
         return self._read(self.lab.folder / "card.yaml", Card)
+
+    @cached_property
+    def solution(self) -> Path | None:
+        """The package that mutants are made of, also where the card says something else wrong."""
+        try:
+            found = self.lab.solution
+        except CourseError:
+            return None
+        if not found.is_dir():
+            self.unread.append(f"{found.relative_to(self.lab.folder)}: there is no such folder")
+            return None
+        return found
 
     @cached_property
     def points(self) -> tuple[str, ...]:
@@ -122,7 +141,8 @@ class LabFiles:
         except ValidationError as error:
             for each in error.errors():
                 where = ".".join(map(str, each["loc"]))
-                self._note(path, line_in(path, each["loc"]), f"{where}: {each['msg']}")
+                problem = each["msg"].removeprefix("Value error, ")
+                self._note(path, line_in(path, each["loc"]), f"{where}: {problem}")
         return None
 
     def _note(self, path: Path, line: int, problem: str) -> None:
@@ -176,8 +196,13 @@ def _file(mutant: Mutant) -> str:
 
 
 def _task(seen: LabFiles) -> Iterator[str]:
-    if not is_current(seen.lab):
-        yield f"bring it up to date: python -m roslings.course.task {seen.lab.name}"
+    try:
+        if not is_current(seen.lab):
+            yield f"bring it up to date: python -m roslings.course.task {seen.lab.name}"
+    except BadCourseFile as error:
+        yield f"{error.path.name}:{error.line}: {error.problem}"
+    except OSError as error:
+        yield f"{seen.lab.task.name}: {error.strerror}"
 
 
 def _hints(seen: LabFiles) -> Iterator[str]:
@@ -272,14 +297,14 @@ def _named(about: str, names: Collection[str]) -> Iterator[str]:
 
 
 Rules = tuple[tuple[str, Callable[[LabFiles], Iterator[str]]], ...]
-FOR_ALL: Rules = (
+ALL: Rules = (
     ("each check has a hint, and each hint a check", _hints),
     ("each hint leads to a paragraph of a lesson", _anchors),
     ("each check is shown at work by a mutant", _caught),
     ("each mutant names checks of the card", _names),
 )
-FOR_READABLE: Rules = (
-    ("task.md says what the card says", _task),
+WITH_CARD: Rules = (("task.md says what the card says", _task),)
+WITH_SOLUTION: Rules = (
     ("each mutant fits the solution", _applies),
     ("each mutant is a package of its own", _twins),
 )
