@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import html
-import json
 import re
 import subprocess
 from collections.abc import Iterator
@@ -15,7 +14,7 @@ import pytest
 from roslings.course import root
 from roslings.doctor.registry import all_checks
 from roslings.lessons import read_glossary
-from roslings.lessons.rules.prose import slug
+from roslings.lessons.anchors import anchors_of, cells_of
 
 COURSE = "example-course/course/"
 """Its days are places of their own."""
@@ -29,8 +28,7 @@ PLACE = re.compile(
 LINK = re.compile(r"\]\(<?([\w./-]*)#([\w-]+)>?\)")
 """Of Markdown, to this page or to another file."""
 HREF = re.compile(r"href=[\"']([\w./-]*)#([\w-]+)[\"']")
-TAGS, FENCE, HEADING = re.compile(r"<[^>]+>"), re.compile(r"```.*?```", re.S), r"^#{1,4} (.+)$"
-LABEL = re.compile(r"^\(([\w-]+)\)=$|\{#([\w-]+)\}|\bid=\"([\w-]+)\"", re.M)
+TAGS = re.compile(r"<[^>]+>")
 LINKED = (".md", ".ipynb", ".yaml", ".html")
 
 
@@ -44,24 +42,15 @@ def tracked() -> list[Path]:
 
 
 @cache
-def read(file: Path, kinds: tuple[str, ...] = ("markdown", "code")) -> str:
+def read(file: Path) -> str:
     """What is said in a file: of a notebook its cells, of a drawing its letters."""
     try:
         text = file.read_text("utf-8")
     except UnicodeDecodeError:
         return ""
     if file.suffix == ".ipynb":
-        cells = (cell for cell in json.loads(text)["cells"] if cell["cell_type"] in kinds)
-        return "\n\n".join("".join(cell["source"]) for cell in cells)
+        return cells_of(text, ("markdown", "code"))
     return html.unescape(TAGS.sub("", text)) if file.suffix == ".svg" else text
-
-
-@cache
-def anchors_of(file: Path) -> frozenset[str]:
-    """The headings of a page, and what is labelled in it; none where there is no such page."""
-    text = FENCE.sub("", read(file, ("markdown",))) if file.is_file() else ""
-    titles = {slug(title) for title in re.findall(HEADING, text, re.M)}
-    return frozenset(titles | {label for found in LABEL.findall(text) for label in found if label})
 
 
 def page_of(place: str, course: Path) -> Path:

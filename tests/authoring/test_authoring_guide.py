@@ -11,9 +11,10 @@ from pathlib import Path
 import pytest
 import yaml
 
+from roslings.authoring.consistency import files_fit
 from roslings.authoring.contract.promises import Account, prove_promises
 from roslings.authoring.new_lab import new_lab
-from roslings.authoring.prove import Proof, files_fit
+from roslings.authoring.prove import Proof
 from roslings.authoring.release import leaks, release
 from roslings.course import Lab, lab, root
 from roslings.course.task import write_task

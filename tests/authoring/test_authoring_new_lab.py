@@ -9,8 +9,9 @@ from pathlib import Path
 
 import pytest
 
+from roslings.authoring.consistency import files_fit
 from roslings.authoring.new_lab import CannotMake, new_lab
-from roslings.authoring.prove import files_fit, gradings_fit, packages_of
+from roslings.authoring.prove import gradings_fit, packages_of
 from roslings.course import Lab, lab, root
 from roslings.workspace.inspect import inspect_package
 
@@ -45,13 +46,13 @@ def test_its_parts_fit_each_other(made: Lab) -> None:
 
 
 def test_what_does_not_fit_is_told(made: Lab) -> None:
-    """A check without hint and mutant, and a task that is older than the card."""
+    """A check without hint, mutant and function, and a task that is older than the card."""
     card = made.folder / "card.yaml"
     text = card.read_text("utf-8").replace("  ends: 5", "  ends: 3\n  extra: 2")
-    card.write_text(text.replace("hz: 5.0", "hz: 4.0"), "utf-8")
+    card.write_text(text.replace("hz: 1.0", "hz: 4.0"), "utf-8")
     wrong = "\n".join(proof.line for proof in files_fit(lab("line-follower")) if not proof.holds)
-    assert wrong.count("WRONG") == 3
-    assert wrong.count("extra") == 2
+    assert wrong.count("WRONG") == 4
+    assert wrong.count("extra") == 3
     assert "roslings.course.task line-follower" in wrong
 
 
@@ -111,7 +112,7 @@ def test_a_new_lab_is_proven_and_a_spoilt_one_is_not(made: Lab, tmp_path: Path) 
     code = made.solution / "follower" / "follower.py"
     code.write_text(code.read_text("utf-8").replace("1.0,", "0.9,"), "utf-8")
     (made.folder / "mutants" / "rate_2_hz.yaml").unlink()
-    command.append("--packages")
+    command += ["--packages", "--anyway"]
     done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path)
     assert done.returncode == 1
     assert "WRONG  line-follower: the solution gets 100 of 100" in done.stdout

@@ -32,10 +32,10 @@ class Names:
     day: str
 
     def put_into(self, text: str) -> str:
-        """The example's text with these names."""
+        """The example's text with these names; its hints lead to the same lessons."""
         text = re.sub(rf"\b{EXAMPLE}\b(?!\.com)", self.lab, text)
         text = text.replace("../../../pyproject", "../../pyproject")
-        text = re.sub(r"days/03-topics|(?<=day: )03-topics", self._day_for, text)
+        text = re.sub(r"(?<=day: )03-topics", self.day, text)
         if self.package.startswith(tuple("aeio")):
             text = _ARTICLE.sub(r"\1n ", text)
         for word, name in self._words.items():
@@ -46,9 +46,6 @@ class Names:
     def _words(self) -> dict[str, str]:
         """Package, class and constant of the example to the new ones."""
         return {PACKAGE: self.package, CLASS: self._class, PACKAGE.upper(): self.package.upper()}
-
-    def _day_for(self, found: re.Match[str]) -> str:
-        return f"days/{self.day}" if found[0].startswith("days/") else self.day
 
     @property
     def _class(self) -> str:

@@ -6,6 +6,7 @@ What could not be told is graded again; what can never be told is not proven.
 
 from __future__ import annotations
 
+import tempfile
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from operator import itemgetter
@@ -18,11 +19,13 @@ from roslings.batch.result import Order, Result
 from roslings.batch.scheduler import GradingRequest, Scheduler, Watcher, always
 from roslings.batch.submissions import Submission
 from roslings.batch.worker_pool import GRADING
-from roslings.course import Lab, Mutant
-from roslings.course.task import is_current
+from roslings.course import CourseError, Lab, Mutant
 from roslings.experiment.run_folder import LOCK, run_folder
 from roslings.grader import Clock
-from roslings.judge.sheet import dependants, explained, sheet
+from roslings.judge.sheet import dependants, explained
+
+DOES_NOT_APPLY = (CourseError, OSError, ValueError)
+"""What making a mutant raises: an edit that does not fit, a file that is not there, or no text."""
 
 
 @dataclass(frozen=True)
@@ -200,31 +203,19 @@ def packages_of(lab: Lab) -> list[Package]:
 
 
 def prove(labs: Sequence[Lab], watcher: Watcher, jobs: int | None = None) -> Iterator[Proof]:
-    """All that must hold: what the files tell first, then what the gradings tell."""
-    for lab in labs:
-        yield from files_fit(lab)
-    packages = [package for lab in labs for package in packages_of(lab)]
+    """What the gradings tell; a mutant that cannot be made was told before (`consistency.py`)."""
+    packages = [package for lab in labs for package in packages_of(lab) if can_be_made(package)]
     yield from gradings_fit(packages, watcher, jobs)
 
 
-def files_fit(lab: Lab) -> Iterator[Proof]:
-    """What can be seen without running anything."""
-    stale = f"bring it up to date: python -m roslings.course.task {lab.name}"
-    yield Proof(f"{lab.name}: task.md says what the card says", "" if is_current(lab) else stale)
-    without = [check for check in lab.card.points if check not in lab.hints]
-    problem = f"without one: {_all(without)}" if without else ""
-    yield Proof(f"{lab.name}: each check has a hint", problem)
-    caught = {check for mutant in lab.mutants() for check in mutant.fails}
-    unseen = [check for check in lab.card.points if check not in caught]
-    problem = f"nobody has seen these fail: {_all(unseen)}" if unseen else ""
-    yield Proof(f"{lab.name}: each check is shown at work by a mutant", problem)
-    lines = sheet(lab)
-    unmet = [
-        name for number, line in enumerate(lines) for name in line.explained_by
-        if name not in {earlier.id for earlier in lines[:number]}
-    ]  # fmt: skip
-    problem = f"no earlier check: {_all(unmet)}" if unmet else ""
-    yield Proof(f"{lab.name}: what explains a failure is checked before", problem)
+def can_be_made(package: Package) -> bool:
+    """Whether there is anything to grade."""
+    with tempfile.TemporaryDirectory(prefix="roslings-") as scratch:
+        try:
+            package.make(Path(scratch))
+        except DOES_NOT_APPLY:
+            return False
+    return True
 
 
 def gradings_fit(

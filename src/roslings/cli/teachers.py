@@ -115,6 +115,9 @@ def prove_options(word: argparse.ArgumentParser) -> None:
     word.add_argument("labs", metavar="LAB", nargs="*", help="for example: topics")
     word.add_argument("--all", action="store_true", help="list what holds, too")
     word.add_argument(
+        "--anyway", action="store_true", help="grade even where the files do not fit each other"
+    )
+    word.add_argument(
         "--drills", metavar="DAY|NAME", nargs="*", help="drills, of a day or by name (default: all)"
     )
     word.add_argument(

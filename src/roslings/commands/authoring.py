@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable, Iterable
-from typing import Any
+from collections.abc import Callable, Iterable, Sequence
+from typing import TYPE_CHECKING, Any
 
 from roslings import course
 from roslings.errors import FAILED, INCONCLUSIVE, OK, WRONG_USE
 from roslings.workspace.errors import from_here
+
+if TYPE_CHECKING:
+    from roslings.authoring.telling import Told
+    from roslings.course import Lab
 
 USUALLY_PROVEN = ("packages", "contract")
 PROVABLE = (*USUALLY_PROVEN, "generated", "rewritten")
@@ -47,13 +51,18 @@ def _prove_labs(options: argparse.Namespace) -> int:
     names = [name for name in PROVABLE if getattr(options, name)]
     parts = [_proofs_of(name, options) for name in names or USUALLY_PROVEN]
     labs = [course.lab(name) for name in dict.fromkeys(options.labs)]
+    seen = _seen_in_files(labs, with_contract=options.contract or not names)
+    if not options.anyway and _do_not_fit(seen, options):
+        print("Nothing was graded. Mend this first, or grade all the same: --anyway")
+        return FAILED
     try:
         with Progress() as progress:
-            lines = [line for part in parts for line in part(labs, Teller(progress), options.jobs)]
+            graded = [line for part in parts for line in part(labs, Teller(progress), options.jobs)]
     except KeyboardInterrupt:
         if options.generated:
             print("\nWhat is graded is kept. The same command goes on from here.", file=sys.stderr)
         raise
+    lines = [*seen, *graded]
     for text in told(lines, all_of_them=options.all):
         print(text)
     wrong = [line for line in lines if isinstance(line, Proof) and not line.holds]
@@ -63,6 +72,35 @@ def _prove_labs(options: argparse.Namespace) -> int:
             print(f"The lab {lab.name!r} is proven{only}.")
         return OK
     return INCONCLUSIVE if all(proof.is_open for proof in wrong) else FAILED
+
+
+def _seen_in_files(labs: Iterable[Lab], *, with_contract: bool) -> list[Told]:
+    """What can be seen without running anything.
+
+    Its task is looked at where its files fit: until then some of what accounts for it is missing.
+    """
+    from roslings.authoring.consistency import files_fit
+    from roslings.authoring.contract import contract_is_told
+
+    seen: list[Told] = []
+    for lab in labs:
+        proofs = list(files_fit(lab))
+        seen += proofs
+        if with_contract and all(proof.holds for proof in proofs):
+            seen += contract_is_told(lab)
+    return seen
+
+
+def _do_not_fit(seen: Sequence[Told], options: argparse.Namespace) -> bool:
+    """Whether some of it is wrong; then that is said."""
+    from roslings.authoring.prove import Proof
+    from roslings.authoring.telling import told
+
+    if all(line.holds for line in seen if isinstance(line, Proof)):
+        return False
+    for text in told(seen, all_of_them=options.all):
+        print(text)
+    return True
 
 
 def _prove_drills(options: argparse.Namespace) -> int:
@@ -90,6 +128,9 @@ def _prove_kept(options: argparse.Namespace) -> int:
     from roslings.report import Progress
 
     labs = labs_or_all(options.labs)
+    if _do_not_fit(_seen_in_files(labs, with_contract=False), options):
+        print("No proof was judged or made. Mend this first.")
+        return FAILED
     with Progress() as progress:
         teller = Teller(progress)
         lines = [

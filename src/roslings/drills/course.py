@@ -7,7 +7,6 @@ A drill is a folder `days/DAY/drills/NN_name/` with `drill.yaml`, `starter.py` a
 from __future__ import annotations
 
 import difflib
-import json
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -17,6 +16,7 @@ from typing import TYPE_CHECKING
 
 from roslings.course import root
 from roslings.course.files import BadCourseFile, CourseError, line_in, read_yaml
+from roslings.lessons.anchors import anchors_of
 
 if TYPE_CHECKING:
     from roslings.drills.card import DrillCard
@@ -150,7 +150,7 @@ def problems(one: Drill) -> Iterator[BadCourseFile]:
     day, _, anchor = card.lesson.partition("#")
     if day != f"days/{one.day}":
         yield BadCourseFile(*one.where("lesson"), f"its day is days/{one.day}, not {day}")
-    elif anchor not in anchors(one.folder.parents[1] / "lesson.ipynb"):
+    elif anchor not in anchors_of(one.folder.parents[1] / "lesson.ipynb"):
         yield BadCourseFile(*one.where("lesson"), f"the lesson has no heading #{anchor}")
     yield from _longer_than_a_drill(one)
 
@@ -163,17 +163,3 @@ def _longer_than_a_drill(one: Drill) -> Iterator[BadCourseFile]:
     count = len(one.starter.read_text("utf-8").splitlines()) if one.starter.is_file() else LINES[0]
     if not LINES[0] <= count <= LINES[1]:
         yield BadCourseFile(one.starter, 1, f"it has {count} lines; {LINES[0]} to {LINES[1]} fit")
-
-
-def anchors(lesson: Path) -> frozenset[str]:
-    """What a link into a lesson may point to: its headings, as the site spells them."""
-    if not lesson.is_file():
-        return frozenset()
-    cells = json.loads(lesson.read_text("utf-8"))["cells"]
-    texts = ("".join(cell["source"]) for cell in cells if cell["cell_type"] == "markdown")
-    headings = (line for text in texts for line in text.splitlines() if re.match(r"#+ ", line))
-    return frozenset(_slug(heading.lstrip("#").strip()) for heading in headings)
-
-
-def _slug(heading: str) -> str:
-    return re.sub(r"[^\w\- ]", "", heading.lower()).strip().replace(" ", "-")
