@@ -29,6 +29,13 @@ each_lesson = pytest.mark.parametrize("lesson", [
 ])  # fmt: skip
 
 
+@pytest.fixture(autouse=True)
+def _as_typed(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """nbval's options as `--nbval-lax` sets them: the plugin is loaded where lessons are run."""
+    for name, value in {"nbval_lax": True, "nbdime": False, "nbval_sanitize_with": None}.items():
+        monkeypatch.setattr(request.config.option, name, value, raising=False)
+
+
 def compared(lesson: Lesson, parent: pytest.Session) -> list[LessonCell]:
     """The cells whose outputs a lesson promises, as nbval reads them."""
     file = LessonFile.from_parent(parent, path=lesson.path)

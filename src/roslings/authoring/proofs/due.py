@@ -2,8 +2,9 @@
 
 - Solutions and starters: always, so that each experiment of the course is made.
 - What has no proof, or whose package, card or experiments are others now: always.
-- Where what measures all labs is not what measured last: a fifth of all, the oldest first. Where
-  some are of one age, the digest of what measures draws lots: another state, another fifth.
+- What measures all labs has measured a fifth of all: where it is another than before, as many are
+  due as that takes, the oldest first. Where some are of one age, the digest of what measures draws
+  lots: another state, another fifth.
 - Twenty more at each landing; the commit draws them.
 
 No rule looks at the calendar, or at what git tells of the past.
@@ -86,11 +87,6 @@ class Proofs:
         states = self._states
         return len(states) - 1 - states.index(line.core) if line.core in states else len(states)
 
-    @property
-    def core_is_new(self) -> bool:
-        """What measures all labs is not what measured last."""
-        return self._states[-1:] != (self.measuring.core,)
-
     def stale(self) -> list[Standing]:
         """Those whose package, card or experiments are others now, or that were never measured."""
         return [each for each in self.standings if each.stale]
@@ -101,17 +97,21 @@ class Proofs:
         for each in self.standings:
             if isinstance(each.package, Solution | Starter):
                 found.setdefault(each.package.name, Due(each.package, "at each landing"))
-        for each in self._for_the_core() if self.core_is_new else ():
+        for each in self._for_the_core():
             found.setdefault(each.package.name, Due(each.package, "what measures is another"))
         for each in self._by_lot(commit, found):
             found[each.package.name] = Due(each.package, "drawn by the commit")
         return list(found.values())
 
     def _for_the_core(self) -> list[Standing]:
-        """A fifth, the oldest first; those of one age in an order that the core draws."""
-        drawn = _shuffled(self.standings, self.measuring.core)
-        oldest = sorted(drawn, key=lambda each: -each.age)
-        return oldest[: -(-len(oldest) // PART)]
+        """What is missing of a fifth, the oldest first; those of one age in an order by lot."""
+        older = [each for each in self.standings if not self._is_of_this_core(each)]
+        missing = -(-len(self.standings) // PART) - (len(self.standings) - len(older))
+        drawn = _shuffled(older, self.measuring.core)
+        return sorted(drawn, key=lambda each: -each.age)[: max(missing, 0)]
+
+    def _is_of_this_core(self, each: Standing) -> bool:
+        return each.line is not None and each.line.core == self.measuring.core
 
     def _by_lot(self, commit: str, but: Mapping[str, Due]) -> list[Standing]:
         left = [each for each in self.standings if each.package.name not in but]
