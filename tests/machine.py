@@ -144,7 +144,7 @@ def tun(_: Environment) -> str:
     try:
         os.close(os.open("/dev/net/tun", os.O_RDWR))
     except OSError as error:
-        return error.strerror
+        return str(error.strerror)
     return ""
 
 

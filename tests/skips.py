@@ -13,12 +13,13 @@ from __future__ import annotations
 import importlib
 import re
 from collections.abc import Generator
-from typing import Any
+from typing import Any, TypeVar
 
 import pytest
 from machine import TABLE, lack_of
 
 PLUGIN = "skips-have-reasons"
+AReport = TypeVar("AReport", pytest.TestReport, pytest.CollectReport)
 NAMED = re.compile(r"(?:Skipped: )?no (?P<name>.+?): .", re.DOTALL)
 
 
@@ -69,7 +70,7 @@ class Reasons:
         return judged((yield))
 
 
-def judged(report: Any) -> Any:
+def judged(report: AReport) -> AReport:
     """A skip has its name in `lack` for `costs.py`, or is a failure."""
     if hasattr(report, "wasxfail"):
         return _failed(report, f"a failure that is expected ({report.wasxfail})")
@@ -81,11 +82,11 @@ def judged(report: Any) -> Any:
         return _failed(report, f"{words!r} is no reason of tests/machine.py")
     if not lack_of(found["name"]):
         return _failed(report, f"{words!r}, but the probe finds it here")
-    report.lack = found["name"]
+    report.__dict__["lack"] = found["name"]
     return report
 
 
-def _failed(report: Any, why: str) -> Any:
+def _failed(report: AReport, why: str) -> AReport:
     report.outcome = "failed"
     report.longrepr = f"{report.nodeid} may not be skipped: {why}"
     report.__dict__.pop("wasxfail", None)

@@ -113,17 +113,17 @@ NOBODY = 65534
 
 
 @pytest.fixture
-def without_rights() -> Iterator[None]:
-    """Root may open everything: this process is somebody else for a while."""
+def closed_port(tmp_path: Path) -> Iterator[Path]:
+    """Nobody may open it. Root may open everything, so this process is somebody else meanwhile."""
+    port = tmp_path / "tty"
+    port.touch(mode=0)
     if (before := os.geteuid()) == 0:
         os.seteuid(NOBODY)
-    yield
+    yield port
     os.seteuid(before)
 
 
-def test_a_port_without_permission_names_the_group(tmp_path: Path, without_rights: None) -> None:
+def test_a_port_without_permission_names_the_group(closed_port: Path) -> None:
     """The beginner's first fault with a board."""
-    port = tmp_path / "tty"
-    port.touch(mode=0)
     with pytest.raises(CannotOpen, match="dialout"):
-        try_port(port)
+        try_port(closed_port)
