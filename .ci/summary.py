@@ -5,9 +5,10 @@
 STAGES has a line `SECONDS CPU_SECONDS STATUS NAME` for each stage, COSTS a line of JSON for each
 test (`tests/costs.py`), DUE one for each package that was due (`prove --due --told`). A mutant is
 proven where it was measured live, or where its kept evidence was judged. The last line says what is
-proven and no more: what was skipped is not.
+proven and no more: what was skipped is not, and it says for want of what (`tests/machine.py`).
 Ends with 1 where a stage failed, where nothing asked for a mutant or a rogue that lies in this
-clone, or where fewer than `FEWEST` of a kind were graded.
+clone, where fewer than `FEWEST` of a kind were graded, where all was skipped, or where something
+was skipped for no known reason.
 """
 
 from __future__ import annotations
@@ -15,12 +16,13 @@ from __future__ import annotations
 import json
 import re
 import sys
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-sys.path[:0] = [str(ROOT / "tests/rogues"), str(ROOT / "src")]
+sys.path[:0] = [str(ROOT / "tests/rogues"), str(ROOT / "tests"), str(ROOT / "src")]
 SLOWEST = 20
 KEPT = re.compile(r"test_authoring_proofs\.py::test_what_is_kept_shows_what_it_must\[(.+)\]$")
 ROGUE = re.compile(r"test_rogues\.py::test_a_(?:wild_)?rogue_is_contained\[(.+)\]$")
@@ -38,6 +40,8 @@ class Test:
     outcome: str
     wall_s: float
     cpu_s: float
+    lack: str = ""
+    """Of a skipped one: a name in `tests/machine.py`."""
 
 
 @dataclass(frozen=True)
@@ -165,7 +169,7 @@ def main(stages_file: Path, costs_file: Path, due_file: Path) -> int:
     for count in found:
         print("\n".join(count.lines()))
     print(f"Mutants measured live at this landing: {len(live)}")
-    wrong = [*broken(run, found)]
+    wrong = [*broken(run, found), *unfounded(tests)]
     print(f"FAILED: {'; '.join(wrong)}" if wrong else proven(tests, found))
     return int(bool(wrong))
 
@@ -182,13 +186,43 @@ def broken(run: Stages, found: Sequence[Count]) -> Iterator[str]:
             yield f"{graded} {kind} are proven, and {fewest} are the fewest that show something"
 
 
+def unfounded(tests: Sequence[Test]) -> Iterator[str]:
+    """Skips that are no reason to call anything proven."""
+    skipped = [each for each in tests if each.outcome == "skipped"]
+    if tests and len(skipped) == len(tests):
+        yield f"all {len(tests)} tests were skipped: {_lacks(skipped)}"
+    if unnamed := sum(_kind(each) is None for each in skipped):
+        yield f"{unnamed} tests were skipped for no reason that tests/machine.py names"
+
+
 def proven(tests: Sequence[Test], found: Sequence[Count]) -> str:
     """The last line of a run that passed: it says no more than was proven."""
-    skipped = sum(each.outcome == "skipped" for each in tests)
-    if not skipped and not any(count.unproven for count in found):
-        return "All is well: every mutant and every rogue is proven, and no test was skipped."
-    open_ones = ", ".join(f"{each.unproven} of {len(each.there)} {_named(each)}" for each in found)
-    return f"Passed, but NOT PROVEN: {open_ones}; {skipped} of {len(tests)} tests skipped."
+    skipped = [each for each in tests if each.outcome == "skipped"]
+    out_of_time = sum(_kind(each) == "time" for each in skipped)
+    of_machine = [each for each in skipped if _kind(each) == "machine"]
+    parts = []
+    if any(count.unproven for count in found):
+        parts += [", ".join(f"{c.unproven} of {len(c.there)} {_named(c)}" for c in found)]
+    if out_of_time:
+        parts += [f"{out_of_time} of {len(tests)} tests left out for want of time"]
+    but = f"proven, but for {len(of_machine)} of the machine: {_lacks(of_machine)}"
+    if parts:
+        return f"Passed, but NOT PROVEN: {'; '.join([*parts, but] if of_machine else parts)}."
+    if of_machine:
+        return f"P{but[1:]}."
+    return "All is well: every mutant and every rogue is proven, and no test was skipped."
+
+
+def _kind(test: Test) -> str | None:
+    from machine import TABLE
+
+    return TABLE[test.lack].kind if test.lack in TABLE else None
+
+
+def _lacks(tests: Sequence[Test]) -> str:
+    """How many for want of what; the most first."""
+    counted = Counter(each.lack or "reason" for each in tests)
+    return ", ".join(f"{number} no {lack}" for lack, number in counted.most_common())
 
 
 def _named(count: Count) -> str:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import os
 import signal
-import time
 
 import pytest
 from browser import browser
 from costs import add_costs_option, note_costs
 from once import shared_folder
+from skips import hold_to_reasons, skip_without
 
 __all__ = ["browser", "shared_folder"]
 
@@ -30,9 +30,6 @@ DEAR = (
 )
 """Fixtures that are long in making, or keep a processor busy: one worker makes each, once."""
 
-SLOW_UNTIL_S = float(os.environ.get("ROSLINGS_SLOW_UNTIL", "inf"))
-"""Seconds since 1970. On a slow machine `.ci/run` leaves out what it has no time for."""
-
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     """Options of the tests."""
@@ -45,13 +42,14 @@ def pytest_configure(config: pytest.Config) -> None:
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
     note_costs(config)
+    hold_to_reasons(config)
 
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_runtest_setup(item: pytest.Item) -> None:
     """A slow test is not begun when the time is over, and nothing is made ready for it."""
-    if item.get_closest_marker("slow") and time.time() > SLOW_UNTIL_S:
-        pytest.skip("no time was left for it on this machine (ROSLINGS_SLOW_UNTIL)")
+    if item.get_closest_marker("slow"):
+        skip_without("time for slow tests")
 
 
 @pytest.hookimpl(tryfirst=True)

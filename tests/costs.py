@@ -22,6 +22,8 @@ class Cost:
 
     test: str
     outcome: str = "passed"
+    lack: str = ""
+    """Of a skipped one: what the machine has not (`machine.py`)."""
     wall_s: float = 0.0
     cpu_s: float = 0.0
     """Of the process that ran it, and of every child that it has waited for."""
@@ -85,6 +87,13 @@ class Costs:
         cost.cpu_s += getattr(report, "cpu_s", 0.0)
         if report.outcome != "passed":
             cost.outcome = report.outcome
+            cost.lack = getattr(report, "lack", "")
+
+    def pytest_collectreport(self, report: Any) -> None:
+        """A whole file that was skipped is one line."""
+        if report.skipped:
+            lack = getattr(report, "lack", "")
+            self._costs[report.nodeid] = Cost(report.nodeid, report.outcome, lack)
 
     def pytest_sessionfinish(self, session: pytest.Session) -> None:
         """Write all down."""

@@ -27,6 +27,7 @@ from costs import add_costs_option, note_costs
 from nbval.kernel import RunningKernel
 from nbval.plugin import IPyNbCell, IPyNbFile, NbCellError
 from pydantic import BaseModel
+from skips import hold_to_reasons
 
 from roslings.arena.lease import leased_domain
 from roslings.course import root
@@ -340,6 +341,7 @@ def pytest_configure(config: pytest.Config) -> None:
     if config.option.nbval_kernel_startup_timeout == NBVALS_START_S:
         config.option.nbval_kernel_startup_timeout = START_S
     note_costs(config)
+    hold_to_reasons(config)
 
 
 @pytest.hookimpl(wrapper=True)

@@ -7,8 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-
-from roslings.arena import choose_isolation
+from skips import skip_without
 
 
 def children_of_this_process() -> set[str]:
@@ -39,9 +38,8 @@ def command_of(pid: int) -> str:
 @pytest.fixture(params=["namespace", "domain"])
 def namespaces(request: pytest.FixtureRequest) -> bool:
     """Run the test behind both walls, where the machine has both."""
-    isolation = choose_isolation()
-    if request.param == "namespace" and isolation.wall == "domain":
-        pytest.skip(f"this machine refuses namespaces: {isolation.because}")
+    if request.param == "namespace":
+        skip_without("namespaces")
     return bool(request.param == "namespace")
 
 

@@ -11,8 +11,9 @@ import textwrap
 from pathlib import Path
 
 import pytest
+from skips import skip_without
 
-from roslings.arena import choose_isolation, hosts, kernel
+from roslings.arena import hosts, kernel
 from roslings.arena.hosts import NoHosts, two_hosts
 from roslings.arena.isolation import BARE, ENTER
 from roslings.arena.link import Link
@@ -42,10 +43,7 @@ def say(host, to, words):
 
 def behind_the_wall(source: str) -> str:
     """What a script prints that runs where the measuring process does."""
-    if choose_isolation().wall != "namespace":
-        pytest.skip("this machine refuses namespaces")
-    if not os.access(hosts.TUN, os.R_OK | os.W_OK):
-        pytest.skip("this machine has no /dev/net/tun")
+    skip_without("namespaces", "/dev/net/tun")
     script = BEHIND_THE_WALL + textwrap.dedent(source)
     command = [*BARE, str(ENTER), sys.executable, "-c", script]
     done = subprocess.run(

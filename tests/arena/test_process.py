@@ -11,6 +11,7 @@ import time
 from pathlib import Path
 
 import pytest
+from skips import needs, skip_without
 
 from roslings.arena import Launch, Process
 from roslings.arena import process as process_room
@@ -122,9 +123,7 @@ while True:
 """
 
 
-@pytest.mark.skipif(
-    not Path("/proc/self/schedstat").exists(), reason="the kernel does not count it"
-)
+@needs("schedstat")
 @pytest.mark.parametrize("program", [SLOW_TO_END, ENDS_IN_A_THREAD], ids=["main", "thread"])
 def test_while_it_waits_for_a_processor_its_time_stands_still(
     tmp_path: Path, namespaces: bool, program: str
@@ -401,7 +400,7 @@ def test_the_time_without_a_processor_is_known_by_thread(tmp_path: Path, namespa
     """
     with Process("it", launch(tmp_path, namespaces, *python(source))) as process:
         if not process.waits_ns():
-            pytest.skip("this kernel keeps no account of waiting (schedstat)")
+            skip_without("schedstat")
         grown = False
         deadline_s = time.monotonic() + LONG_S
         before = process.waits_ns()

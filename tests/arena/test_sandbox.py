@@ -11,6 +11,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from skips import imported, needs, skip_without
 
 from roslings.arena import Isolation, Launch, Process, Sandbox, choose_isolation
 from roslings.arena import sandbox as sandbox_module
@@ -26,9 +27,9 @@ LONG_S = 60.0
 def isolation(monkeypatch: pytest.MonkeyPatch) -> Isolation:
     """The machine's best walls, which have a sandbox."""
     monkeypatch.delenv("ROSLINGS_ISOLATION", raising=False)
+    skip_without("namespaces", "bubblewrap")
     found = choose_isolation()
-    if found.sandbox is None:
-        pytest.skip(f"{found.lack}")
+    assert found.sandbox, found.lack
     return found
 
 
@@ -112,7 +113,7 @@ OPENS_EACH_SETTING = """
                 came[errno.errorcode[error.errno]] += 1
     print(*sorted(came))
 """
-needs_root = pytest.mark.skipif(os.geteuid() != 0, reason="only root's are open to its processes")
+needs_root = needs("root")
 
 
 def test_no_setting_of_the_kernel_can_be_written(sandbox: Sandbox) -> None:
@@ -230,7 +231,7 @@ def test_one_process_has_so_much_memory(sandbox: Sandbox) -> None:
 def test_many_processes_have_so_much_memory(sandbox: Sandbox, grouped: bool) -> None:
     """Together: by the group, and where there is none, because the guardian looks."""
     if grouped and not any("memory" in tree.controllers for tree in sandbox.trees):
-        pytest.skip("no control group for memory can be made here")
+        skip_without("control group for memory")
     trees = sandbox.trees if grouped else ()
     bounds = replace(Bounds(), memory_bytes=160 * MB)
     launch = Launch(
@@ -323,7 +324,7 @@ def _covered(path: str, folders: Sequence[Path]) -> bool:
 
 def test_what_stands_in_for_packages_of_ros_is_there(sandbox: Sandbox) -> None:
     """A program writes a bag with `rosbag2_py`, as outside; of the engine it sees no more."""
-    pytest.importorskip("rosbags")
+    imported("rosbags")
     source = """
         import importlib.util, rosbag2_py
         from rclpy.serialization import serialize_message

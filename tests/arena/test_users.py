@@ -8,12 +8,12 @@ import sys
 import textwrap
 from pathlib import Path
 
-import pytest
-from shown import shown, why_not
+from shown import shown
+from skips import needs
 
 from roslings.arena.users import _lack_above, _lack_within
 
-needs_users = pytest.mark.skipif(os.geteuid() != 0, reason="only root can make users")
+needs_users = needs("root", "other users")
 
 AS_STRANGER = """
     import sys
@@ -39,8 +39,6 @@ AS_STRANGER = """
 
 def run(source: str, left: str = "") -> list[str]:
     """What a stranger's Python says, and the last line of the one that ran it."""
-    if reason := why_not():
-        pytest.skip(reason)
     words = [sys.executable, "-c", textwrap.dedent(AS_STRANGER), textwrap.dedent(source), left]
     done = subprocess.run(shown(*words), capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
@@ -128,8 +126,6 @@ def test_two_gradings_are_two_users() -> None:
         with leased_user() as one, leased_user() as other:
             print(one.uid != other.uid)
     """
-    if reason := why_not():
-        pytest.skip(reason)
     words = shown(sys.executable, "-c", textwrap.dedent(source))
     assert subprocess.run(words, capture_output=True, text=True, check=True).stdout == "True\n"
 

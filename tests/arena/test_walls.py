@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import os
 import subprocess
 import sys
 import textwrap
 from pathlib import Path
 
 import pytest
+from skips import needs, skip_without
 
 from roslings.arena import choose_isolation, isolation, isolation_for_strangers
 from roslings.arena.environment import base_environment
@@ -32,9 +32,9 @@ REFUSING = """
 
 def needs_namespaces() -> None:
     """Skip where the machine refuses namespaces."""
+    skip_without("namespaces")
     isolation = choose_isolation()
-    if isolation.wall == "domain" and "ROSLINGS_ISOLATION" not in os.environ:
-        pytest.skip(f"this machine refuses namespaces: {isolation.because}")
+    assert isolation.wall == "namespace", isolation.because
 
 
 @pytest.mark.parametrize("kind", ["net", "pid"])
@@ -47,7 +47,7 @@ def test_a_kernel_that_refuses_namespaces_is_noticed(
     script = textwrap.dedent(REFUSING.format(folder=str(ENTER.parent), kind=kind))
     ran = subprocess.run([*BARE, "-c", script], capture_output=True, text=True, check=False)
     if ran.returncode and "Permission denied" in ran.stderr:
-        pytest.skip("this user may not set the limit, even one level down")
+        skip_without("limit one level down")
     wall, because = ran.stdout.splitlines()
     assert wall == "domain"
     assert because
@@ -66,7 +66,7 @@ def test_the_second_wall_can_be_chosen_for_strangers(monkeypatch: pytest.MonkeyP
     assert choose_isolation().wall != "user"
 
 
-@pytest.mark.skipif(os.geteuid() != 0, reason="only root can be another user")
+@needs("root")
 def test_without_a_sandbox_root_takes_a_user_or_says_why_not(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

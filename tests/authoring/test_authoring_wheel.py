@@ -14,6 +14,7 @@ from email.parser import Parser
 from pathlib import Path
 
 import pytest
+from skips import needs
 
 from roslings import __version__, course
 from roslings.authoring.release import is_for_students, leaks
@@ -246,7 +247,7 @@ def test_the_extras_alone_grade_too(wheel: Path, empty: Path, tmp_path: Path) ->
     assert not (empty / "course" / ".venv").exists()
 
 
-@pytest.mark.skipif(shutil.which("uvx") is None, reason="there is no uvx on this machine")
+@needs("uvx")
 def test_uvx_makes_the_course_without_an_installation(wheel: Path, tmp_path: Path) -> None:
     """What the page on installing says of it."""
     uvx = shutil.which("uvx") or "uvx"

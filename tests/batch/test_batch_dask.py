@@ -14,6 +14,7 @@ from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 import pytest
+from skips import imported
 
 from roslings.batch.command import Choices, grade
 from roslings.batch.dask_pool import NoCluster, UnfitWorkers
@@ -21,7 +22,7 @@ from roslings.batch.gradebook import gradebook
 from roslings.batch.result import Result
 from roslings.course import lab
 
-pytest.importorskip("distributed")
+imported("distributed")
 
 TOPICS = lab("topics")
 LONG_S = 300.0

@@ -13,6 +13,7 @@ import pytest
 from course_copy import CourseCopy, plain_environment
 from package_index import PackageIndex
 from pythons_here import BASE
+from skips import skip_without
 from tiny_wheels import make_wheel, wheel_of_installed
 
 TOOLS = ("pip", "setuptools")
@@ -26,9 +27,8 @@ def wheels_for_all(tmp_path_factory: pytest.TempPathFactory) -> Path:
         try:
             wheel_of_installed(folder, tool)
         except PackageNotFoundError:
-            pytest.skip(
-                f"{tool} is not installed beside pytest: run the tests with ./roslings test"
-            )
+            skip_without("pip beside pytest")
+            raise
     for name in ("ros-x", "col-x", "draw-x", "bag-x"):
         make_wheel(folder, name, "1.0")
     program = {"check_x.py": "def main():\n    print('checked')\n"}
@@ -127,7 +127,8 @@ def bare_python(tmp_path: Path) -> Callable[..., str]:
         ask = [str(python), "-c", f"import {without[-1]}"]
         done = subprocess.run(ask, capture_output=True, text=True, check=False)
         if "No module named" not in done.stderr:
-            pytest.skip("a copy of this Python still sees the whole library")
+            skip_without("Python that can be copied")
+            raise AssertionError(done.stderr or f"{python} sees {without[-1]}")
         return str(python)
 
     return make

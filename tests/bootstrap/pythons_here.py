@@ -5,7 +5,7 @@ from __future__ import annotations
 import subprocess
 import sys
 
-import pytest
+from skips import skip_without
 
 BASE = getattr(sys, "_base_executable", "") or sys.executable
 
@@ -18,4 +18,5 @@ def find_python(minor: int) -> str:
         ask = [python, "-c", f"import sys; sys.exit(sys.version_info[:2] != (3, {minor}))"]
         if subprocess.run(ask, capture_output=True, check=False).returncode == 0:
             return python
-    pytest.skip(f"this machine has no Python 3.{minor}")
+    skip_without(f"Python 3.{minor}")
+    raise AssertionError(f"Python 3.{minor} runs here, and the bootstrap does not find it")

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 from compiled import uncompiled
 from course_copy import CourseCopy
+from skips import skip_without
 from test_bootstrap_refusals import in_namespace
 
 from roslings import course as real_course
@@ -100,8 +101,7 @@ def told(done: subprocess.CompletedProcess[str], folder: Path) -> list[str]:
 @pytest.fixture
 def set_up() -> None:
     """An environment that the bootstrap has made; anybody's else may be as it likes."""
-    if not (Path(sys.prefix) / "roslings/bytecode").exists():
-        pytest.skip("this environment is not made by ./roslings")
+    skip_without("environment made by ./roslings")
 
 
 def test_a_real_build_compiles_nothing(set_up: None, tmp_path: Path) -> None:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from course_copy import CourseCopy
+from skips import imported
 
 from roslings.bootstrap.errors import Trouble
 from roslings.bootstrap.interfaces import Interfaces
@@ -101,7 +102,7 @@ def test_they_stand_as_long_as_nothing_changes(tmp_path: Path) -> None:
 
 def test_the_wheels_files_get_this_machines_headers(tmp_path: Path) -> None:
     """Those of the container where the wheels were made, and of a folder that was moved."""
-    pytest.importorskip("numpy")
+    imported("numpy")
     interfaces = interfaces_of(tmp_path)
     file = tmp_path / ".venv/share/std_msgs/cmake/export.cmake"
     file.parent.mkdir(parents=True)

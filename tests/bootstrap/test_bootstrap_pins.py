@@ -17,6 +17,7 @@ import pytest
 from course_copy import REAL
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
+from skips import skip_without
 
 from roslings.bootstrap import constraints, groups, sizes
 from roslings.bootstrap.installing import TOOLS
@@ -87,7 +88,7 @@ def test_every_package_that_a_group_needs_is_pinned_for_it(group: str) -> None:
     here = {canonicalize_name(p.name): p for p in pinned if not p.marker or p.marker.evaluate()}
     needed = closure(group)
     if not all(is_installed(need.name) for need in first_of(group)):
-        pytest.skip(f"the group {group} is not installed here")
+        skip_without("ROS from pip")
     assert len(needed) >= len(first_of(group)) > 0
     assert needed - set(here) == set()
     wrong = [name for name in here if name in needed and version(name) not in here[name].specifier]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shutil
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -12,6 +11,7 @@ import pytest
 from course_copy import CourseCopy
 from package_index import PackageIndex
 from pythons_here import BASE
+from skips import skip_without
 
 from roslings.bootstrap import seeds
 from roslings.bootstrap.errors import Trouble
@@ -106,9 +106,8 @@ def test_without_any_pip_the_next_step_is_said(bare: str, tmp_path: Path) -> Non
 def test_apt_gives_pip_without_root(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """`apt-get download` needs no sudo, and its pip fits the Python that apt installed."""
     monkeypatch.setenv("PATH", "/usr/bin:/bin")
-    if not (shutil.which("apt-get") and shutil.which("python3")):
-        pytest.skip("this machine has no apt-get, or no Python from it")
+    skip_without("apt")
     found = list(seeds.from_apt(tmp_path / "scratch"))
     if not found:
-        pytest.skip("apt-get download gives no python3-pip-whl here")
+        skip_without("pip from apt")
     assert seeds.answers("/usr/bin/python3", found[0])

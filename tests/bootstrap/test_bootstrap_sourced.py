@@ -5,7 +5,6 @@ apt's Jazzy is not on every machine that tests: a prefix made of the wheels stan
 
 from __future__ import annotations
 
-import importlib.util
 import json
 import os
 import shutil
@@ -17,6 +16,7 @@ import pytest
 from compiled import uncompiled
 from course_copy import REAL, CourseCopy, plain_environment
 from pythons_here import BASE
+from skips import skip_without
 
 from roslings.bootstrap.interfaces import packages_of
 from roslings.bootstrap.packages import installed
@@ -28,8 +28,7 @@ NEEDED_BY_ROS = ("numpy", "pyyaml", "lark-parser")
 @pytest.fixture(scope="module")
 def jazzy(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
     """A prefix with the real rclpy, and what sourcing its setup.bash would set."""
-    if importlib.util.find_spec("rclpy") is None:
-        pytest.skip("rclpy is not installed here")
+    skip_without("module rclpy")
     prefix = tmp_path_factory.mktemp("opt") / "jazzy"
     site = prefix / f"lib/python3.{sys.version_info.minor}/site-packages"
     site.mkdir(parents=True)

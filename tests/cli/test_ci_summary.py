@@ -23,7 +23,7 @@ def summary(
 ) -> tuple[int, str]:
     """Status and words, for a run with these tests, stages and packages that were due.
 
-    A mutant among the tests is one that was due.
+    A mutant among the tests is one that was due. `skipped: NAME` is skipped for want of that.
     """
     due = {name: word for name, word in outcomes.items() if ": mutant " in name} | (due or {})
     outcomes = {name: word for name, word in outcomes.items() if name not in due}
@@ -33,7 +33,7 @@ def summary(
     ), "utf-8")  # fmt: skip
     (folder / "stages").write_text(stages, "utf-8")
     costs = (
-        {"test": name, "outcome": outcome, "wall_s": number, "cpu_s": number / 2}
+        {"test": name, "wall_s": number, "cpu_s": number / 2, **came_of(outcome)}
         for number, (name, outcome) in enumerate(outcomes.items())
     )
     (folder / "costs").write_text("".join(f"{json.dumps(cost)}\n" for cost in costs), "utf-8")
@@ -41,6 +41,12 @@ def summary(
     done = subprocess.run(words, capture_output=True, text=True, check=False)
     assert "Traceback" not in done.stderr, done.stderr
     return done.returncode, done.stdout
+
+
+def came_of(outcome: str) -> dict[str, str]:
+    """As `tests/costs.py` writes it; `skipped` alone is for want of time."""
+    word, _, lack = outcome.partition(": ")
+    return {"outcome": word, "lack": lack or ("time for slow tests" if word == "skipped" else "")}
 
 
 def test_what_was_not_graded_is_named(tmp_path: Path) -> None:
@@ -110,15 +116,46 @@ def test_what_was_skipped_is_not_called_well(kind: str, tmp_path: Path) -> None:
     assert f" 1 of {len(all_of_them(tmp_path)['mutants'])} mutants" in last(words) or kind != MUTANT
 
 
+def with_all(folder: Path, *others: str) -> tuple[int, str, int]:
+    """Every mutant and rogue is proven, and `others` came of further tests; how many tests."""
+    outcomes = {name: "passed" for names in all_of_them(folder).values() for name in names}
+    outcomes |= {f"tests/test_it.py::test_{n}": word for n, word in enumerate(others)}
+    status, words = summary(folder, outcomes, "1 1 0 One\n")
+    return status, last(words), sum(": mutant " not in name for name in outcomes)
+
+
 def test_another_test_that_was_skipped_counts_too(tmp_path: Path) -> None:
     """It need not be a mutant or a rogue."""
-    outcomes = dict.fromkeys([*all_of_them(tmp_path)["mutants"]], "passed")
-    outcomes |= dict.fromkeys([*all_of_them(tmp_path)["rogues"]], "passed")
-    _, words = summary(
-        tmp_path, {**outcomes, "tests/test_it.py::test_it": "skipped"}, "1 1 0 One\n"
-    )
-    tests = 1 + sum(": mutant " not in name for name in outcomes)
-    assert last(words).endswith(f"; 1 of {tests} tests skipped.")
+    status, line, tests = with_all(tmp_path, "skipped")
+    assert status == 0
+    assert line == f"Passed, but NOT PROVEN: 1 of {tests} tests left out for want of time."
+
+
+def test_what_the_machine_lacks_is_named_and_counted(tmp_path: Path) -> None:
+    """Alone, and beside what there was no time for; the most first."""
+    lacks = ("skipped: root", "skipped: /dev/net/tun", "skipped: /dev/net/tun")
+    told = "roven, but for 3 of the machine: 2 no /dev/net/tun, 1 no root."
+    status, line, _ = with_all(tmp_path, *lacks)
+    assert (status, line) == (0, f"P{told}")
+    status, line, tests = with_all(tmp_path, *lacks, "skipped")
+    want = f"1 of {tests} tests left out for want of time; p{told}"
+    assert (status, line) == (0, f"Passed, but NOT PROVEN: {want}")
+
+
+def test_a_skip_without_a_known_reason_fails_the_run(tmp_path: Path) -> None:
+    """No hook has named it: the file of costs was written without it."""
+    status, line, _ = with_all(tmp_path, "skipped: bad weather")
+    assert status == 1
+    assert line == "FAILED: 1 tests were skipped for no reason that tests/machine.py names"
+
+
+def test_a_run_in_which_all_was_skipped_fails_with_the_reason(tmp_path: Path) -> None:
+    """Also where each single reason is a true one."""
+    tests = {f"tests/test_it.py::test_{number}": "skipped: module rclpy" for number in range(4)}
+    due = {package(name): "passed" for name in MUTANTS}
+    status, words = summary(tmp_path, tests, "1 1 0 One\n", due)
+    assert status == 1
+    assert "all 4 tests were skipped: 4 no module rclpy" in last(words)
 
 
 @pytest.mark.parametrize(("kind", "fewest"), [("mutants", 120), ("rogues", 30)])

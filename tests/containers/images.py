@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import shutil
 import subprocess
 from collections.abc import Iterator
@@ -22,14 +21,6 @@ MIRROR = "http://deb.debian.org/debian"
 BASE = "localhost/base"
 WHEELS = "/wheels"
 GROUPS = ("ros", "colcon", "check", "ros2", "graph", "vision", "notebook", "lab", "interfaces")
-
-
-def lacking() -> str:
-    """Why images cannot be built here; empty where they can."""
-    missing = [name for name in ("buildah", "debootstrap") if shutil.which(name) is None]
-    if missing:
-        return f"needs {' and '.join(missing)}: apt install buildah debootstrap"
-    return "" if os.geteuid() == 0 else "debootstrap makes a system's folder as root only"
 
 
 def dev_container(name: str = "") -> Any:

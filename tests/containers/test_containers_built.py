@@ -11,7 +11,8 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from images import GROUPS, Builder, dev_container, lacking
+from images import GROUPS, Builder, dev_container
+from skips import needs
 
 from roslings.authoring.release import is_for_students
 from roslings.course import root
@@ -20,7 +21,7 @@ pytestmark = [
     pytest.mark.slow,
     pytest.mark.alone,
     pytest.mark.twice,
-    pytest.mark.skipif(bool(lacking()), reason=lacking() or "all is here"),
+    needs("root", "buildah", "debootstrap", "Python 3.11"),
 ]
 ADDRESS = re.compile(r"http://127\.0\.0\.1:\d+/lab\S*")
 STUDENT = 1000
@@ -31,9 +32,7 @@ def builder(tmp_path_factory: pytest.TempPathFactory) -> Builder:
     """With a Debian to build on, and what pip would fetch for its Python."""
     folder = tmp_path_factory.mktemp("images")
     words = [str(root() / "roslings"), "wheels", str(folder / "wheels"), *GROUPS]
-    found = shutil.which("python3.11")
-    if found is None:
-        pytest.skip("fetches packages for Debian's Python with a python3.11")
+    found = shutil.which("python3.11")  # Debian's own version
     fetched = subprocess.run(
         ["env", f"ROSLINGS_PYTHON={found}", *words], capture_output=True, text=True, check=False
     )

@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from browser import CHROMIUM
 from jupyterlab import Lab, served
 from lesson_runs import lessons, names
 from lessons_as_tests import surroundings
+from skips import needs
 from tiny_course import CELLS, DAY, Cell, with_cell, write_course
 
 from roslings.course import root
@@ -17,7 +17,7 @@ from roslings.lessons.rules import Lesson
 
 pytestmark = [
     pytest.mark.slow,
-    pytest.mark.skipif(CHROMIUM is None, reason="needs Chromium: sudo apt install chromium"),
+    needs("Chromium"),
 ]
 WRITTEN = list(lessons())
 LIVE = """from roslings.notebook import quiz, session, show_graph

@@ -11,19 +11,20 @@ from pathlib import Path
 
 import pytest
 from program import PATIENCE_S, environment, run
+from skips import imported, needs
 
 from roslings.arena.lease import leased_domain
 from roslings.course import root
 from roslings.devices.board import Board, Chip, Mega
-from roslings.devices.emulated import APT_LINE, EmulatedMega, built, missing
+from roslings.devices.emulated import EmulatedMega, built
 from roslings.devices.rover import Body, Motion, Rover
 
 LAB = root() / "labs" / "serial-bridge"
 SKETCH = LAB / "firmware" / "rover_mega" / "rover_mega.ino"
 MOTION = Motion(0.2, 0.5)
 TWIST = "{linear: {x: 0.2}, angular: {z: 0.5}}"
-without_emulator = pytest.mark.skipif(bool(missing()), reason=f"needs: {APT_LINE}")
-pytest.importorskip("serial", reason="needs pyserial: ./roslings check serial-bridge")
+without_emulator = needs("emulated board")
+imported("serial")
 
 
 @pytest.fixture(params=["python", pytest.param("emulated", marks=without_emulator)])

@@ -12,17 +12,18 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
+from skips import needs
 
 from roslings.course import root
 from roslings.devices.board import Chip, Drive, LineReader, Mega, Speeds, Spoiler, framed
-from roslings.devices.emulated import APT_LINE, EmulatedMega, built, missing
+from roslings.devices.emulated import EmulatedMega, built
 from roslings.devices.rover import Body, Box, Motion, Pose, Rover, Wheels, World
 from roslings.models.board_lines import LONGEST_LINE
 from roslings.models.differential_drive import moved
 
 SKETCH = root() / "labs" / "serial-bridge" / "firmware" / "rover_mega" / "rover_mega.ino"
 FLOOR = World(room=Box(-50, -50, 50, 50))
-without_emulator = pytest.mark.skipif(bool(missing()), reason=f"needs: {APT_LINE}")
+without_emulator = needs("emulated board")
 
 
 @pytest.fixture(params=["python", pytest.param("emulated", marks=without_emulator)])

@@ -10,12 +10,13 @@ from pathlib import Path
 
 import pytest
 from program import environment, run, running
+from skips import imported
 
 from roslings.devices.board import Board, Drive, LineReader, Mega, Spoiler, framed
 from roslings.devices.board.wire import HELD_S, Wire
 from roslings.devices.rover import Box, Rover, World
 
-serial = pytest.importorskip("serial", reason="needs pyserial: ./roslings check serial-bridge")
+serial = imported("serial")
 FLOOR = World(room=Box(-50, -50, 50, 50))
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from program import Program, environment, run, running
 from rosbags.highlevel import AnyReader
+from skips import imported
 
 from roslings.arena.lease import leased_domain
 from roslings.devices.rover import Ball, Box, Circle, Motion, Rover, World
@@ -72,7 +73,7 @@ def test_its_topics_have_the_usual_names_and_types(
 
 def test_asked_to_it_publishes_tf(terminal: dict[str, str], tmp_path: Path) -> None:
     """20 times a second, beside /odom, and from one to the other."""
-    pytest.importorskip("tf2_msgs", reason="./roslings test builds it")
+    imported("tf2_msgs")
     with running(["rover", "--view", "lines", "--tf"], terminal, tmp_path) as rover:
         rover.wait_for("says /odom, /scan, /tf")
         rover.wait_for("standing")

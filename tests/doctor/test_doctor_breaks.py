@@ -16,6 +16,7 @@ from roslings.doctor.breaks.grade import MARK, Grade, grade, what_is_lost
 from roslings.doctor.breaks.injuries import HEALTHY, NoColcon, build
 from roslings.doctor.machine import this_machine
 from roslings.doctor.registry import all_checks, find_check
+from skips import skip_without
 
 from clinic import Clinic, change_text
 
@@ -115,7 +116,8 @@ def test_the_exercise_of_the_old_build_is_built_for_real(tmp_path: Path) -> None
         cli._injure(exercise, folder, machine)
     except cli.WrongUse as problem:
         assert isinstance(problem.__cause__, NoColcon)
-        pytest.skip("colcon is not installed")
+        skip_without("colcon")
+        raise
     ill = grade(exercise, folder, machine)
     assert ill == Grade(False, "greeter/hello.py of greeter was changed after the last build.")
     build(folder, machine)

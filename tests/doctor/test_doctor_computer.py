@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import os
-import shutil
 import subprocess
 from pathlib import Path
 
 import pytest
 from roslings.doctor.machine import Interpreter
 from roslings.doctor.surroundings import in_short
+from skips import skip_without
 
 from clinic import TODAY, Clinic, assert_absent, assert_ill, assert_well, ordinary_user
 
@@ -198,14 +198,10 @@ def test_a_real_small_disk_is_seen(clinic: Clinic) -> None:
         "mount -t tmpfs -o size=8m none /mnt && python3 -c "
         "'import shutil; print(shutil.disk_usage(\"/mnt\").free)'"
     )
-    unshare = shutil.which("unshare")
-    if unshare is None:
-        pytest.skip("there is no program unshare here")
+    skip_without("small disk")
     ran = subprocess.run(
-        [unshare, "-Urm", "sh", "-c", script], capture_output=True, text=True, check=False
+        ["unshare", "-Urm", "sh", "-c", script], capture_output=True, text=True, check=True
     )
-    if ran.returncode:
-        pytest.skip(f"this kernel makes no namespace: {ran.stderr.strip()}")
     free = int(ran.stdout)
     clinic.change(free_bytes=lambda path: free)
     assert_ill(clinic.look("disk-space"), "fault", "Only 8 MB")

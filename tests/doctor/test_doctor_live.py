@@ -15,12 +15,13 @@ from roslings.doctor.live import conversation
 from roslings.doctor.machine import Machine, this_machine
 from roslings.doctor.registry import find_check
 from roslings.doctor.ros import Ros, find_ros
+from skips import needs
 
 from clinic import Clinic, assert_absent, assert_ill, assert_well
 
 REAL = this_machine()
 ROS = find_ros(REAL)
-with_ros = pytest.mark.skipif(ROS is None, reason="ROS 2 Jazzy is not installed")
+with_ros = needs("module rclpy")
 
 
 def look(machine: Machine, id: str) -> Finding:

@@ -11,6 +11,7 @@ import pytest
 from roslings.doctor.finding import Status
 from roslings.doctor.packages import Package, entry_point, read_setup
 from roslings.doctor.registry import all_checks
+from skips import needs
 
 from clinic import Clinic, assert_absent, assert_ill, assert_well, change_text, ordinary_user
 
@@ -178,7 +179,7 @@ def test_a_setup_py_that_computes_is_not_guessed(clinic: Clinic) -> None:
     assert_well(clinic.look("ws-marker"))
 
 
-@pytest.mark.skipif(os.getuid() != 0, reason="only root can give a file to somebody else")
+@needs("root")
 def test_ill_ws_owner(clinic: Clinic) -> None:
     clinic.installed(clinic.package())
     clinic.give_to_student()

@@ -6,12 +6,13 @@ from pathlib import Path
 
 import pytest
 from launches import seen_of
+from skips import imported
 
 from roslings.capabilities.launch.demands import start_all
 from roslings.capabilities.launch.faults import LaunchFailed, LaunchMissesNode
 from roslings.judge import ExperimentView, Inconclusive
 
-pytest.importorskip("rclpy")
+imported("rclpy")
 BOTH = start_all(["/left", "/right"])
 PYTHON = """\
 import os

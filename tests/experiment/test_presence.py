@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, cast
 
 import pytest
+from skips import imported
 from watching import watched
 
 from roslings.arena import Arena
@@ -18,7 +19,7 @@ from roslings.experiment.own_time import OwnTime
 from roslings.experiment.presence import GRACE_S, Absences, Presence
 from roslings.probe import Probe
 
-pytest.importorskip("rclpy")
+imported("rclpy")
 WITHIN_S = 30.0
 LATE = Path(__file__).parent / "late"
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import base64
 import json
-import os
 import shutil
 import subprocess
 from pathlib import Path
@@ -17,11 +16,12 @@ from xml.etree.ElementTree import fromstring
 import jsonschema
 import pytest
 from played import LAB, ORDINARY, Played, played
+from skips import needs
 from test_export_results import schema
 
 pytestmark = [
     pytest.mark.slow,
-    pytest.mark.skipif(os.geteuid() != 0, reason="to be the platforms' users, be root"),
+    needs("root"),
 ]
 TEN_MINUTES_S = 600.0
 NO_NAMESPACES = {"ROSLINGS_ISOLATION": "user"}

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import shutil
-import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator, Sequence
@@ -18,7 +17,6 @@ from pydantic import BaseModel
 from rogue import LAB
 from stage import LONG_S, Stage, adopting, files_in, known, living, quiet, readable_to_all, said
 
-from roslings.arena import choose_isolation
 from roslings.course import root
 
 Wall = Literal["namespaces_as_root", "namespaces_as_user", "user"]
@@ -83,17 +81,12 @@ def with_users() -> list[str]:
     return readable_to_all(0, f"--hide={root() / 'labs'}")
 
 
-def why_not(wall: Wall) -> str:
-    """Why this wall cannot be had here; empty where it can."""
-    if wall != "namespaces_as_user" and os.geteuid() != 0:
-        return "these tests run as an ordinary user"
-    if wall != "user":
-        lack = choose_isolation().lack
-        return lack.reason if lack else ""
-    source = "from roslings.arena.users import lack_of_users as l; x = l(); print(x and x.reason)"
-    command = [*with_users(), sys.executable, "-c", source]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    return "" if done.stdout == "None\n" else done.stdout + done.stderr
+NEEDED: dict[Wall, tuple[str, ...]] = {
+    "user": ("root", "other users"),
+    "namespaces_as_user": ("namespaces", "bubblewrap", "bounded processes"),
+    "namespaces_as_root": ("root", "namespaces", "bubblewrap", "bounded processes"),
+}
+"""Of a machine, by the names of `machine.py`."""
 
 
 @contextmanager

@@ -15,9 +15,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from behind import HONEST, SLOW, WALLS, Graded, Wall, grade, why_not
+from behind import HONEST, NEEDED, SLOW, WALLS, Graded, Wall, grade
 from forger import HONEST_SCORE, Forger, forgers
 from once import once
+from skips import skip_without
 
 ENTRIES = {each.name: each for each in forgers()}
 JOBS = 2
@@ -75,8 +76,7 @@ def graded_behind(request: pytest.FixtureRequest, shared_folder: Path) -> Callab
 
     @functools.cache
     def graded(wall: Wall) -> Graded:
-        if reason := why_not(wall):
-            pytest.skip(reason)
+        skip_without(*NEEDED[wall])
         file = shared_folder / f"forgers-{wall}.json"
         found = once(file, lambda: grade(asked.get(wall, []), wall, JOBS).model_dump_json())
         return Graded.model_validate_json(found)

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any, get_args
 
 import pytest
+from skips import imported
 
 import roslings
 from roslings.capabilities.qos import demands as times
@@ -28,7 +29,7 @@ from roslings.judge import ExperimentView, have_just_this_qos, match_qos
 from roslings.judge.faults import EndpointKind, Fault, Matched, python_words, qos_conflicts
 from roslings.judge.faults.qos import CALLS, OtherQos
 
-rclpy_qos = pytest.importorskip("rclpy.qos")
+rclpy_qos = imported("rclpy.qos")
 KINDS: tuple[EndpointKind, ...] = get_args(EndpointKind)
 PAIRS = [Matched(*pair) for pair in itertools.product(
     ("reliable", "best_effort"), ("volatile", "transient_local")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 
 import pytest
+from skips import imported
 
 from roslings.judge.faults import EndpointKind, Matched, qos_conflicts
 
@@ -19,7 +20,7 @@ def test_it_is_rclpys_own_rule(
     ours: tuple[str, str], theirs: tuple[str, str], kind: EndpointKind
 ) -> None:
     """Every pair of profiles, on both sides."""
-    qos = pytest.importorskip("rclpy.qos")
+    qos = imported("rclpy.qos")
 
     def profile(words: tuple[str, str]) -> object:
         return qos.QoSProfile(

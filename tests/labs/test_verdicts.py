@@ -26,6 +26,7 @@ import pytest
 from commit import newest_commit
 from nothing import Nothing
 from once import once
+from skips import skip_without
 
 from roslings.authoring.prove import Package, Proof, Wrong, gradings_fit
 from roslings.course import Lab, Mutant, all_labs
@@ -173,7 +174,7 @@ def proof_of(request: pytest.FixtureRequest, shared_folder: Path) -> Callable[[s
 
     def of(package: str) -> Proof:
         if package not in proofs():
-            pytest.skip("no time was left for it on this machine (ROSLINGS_MUTANTS_UNTIL)")
+            skip_without("time for packages")
         return proofs()[package]
 
     return of

@@ -5,9 +5,9 @@ from __future__ import annotations
 import subprocess
 import sys
 
-import pytest
+from skips import imported
 
-pytest.importorskip("rclpy")
+imported("rclpy")
 
 PROGRAM = """
 import threading

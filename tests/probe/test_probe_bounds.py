@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
+from skips import imported
 
 from roslings.arena.lease import leased_domain
 from roslings.course.contract import RateContract
@@ -19,7 +20,7 @@ from roslings.probe.ear import OWN_BYTES, QUEUE_BYTES, Ear, Queues
 from roslings.probe.graph import Looker
 from roslings.probe.recorder import LARGEST_CONTENT, MESSAGE_BYTES, MOST_MESSAGES, TEXT_BYTES
 
-pytest.importorskip("rclpy")
+imported("rclpy")
 MANY_HZ = 15
 WITHIN_S = 30.0
 PICTURE_BYTES = 640 * 480 * 3

@@ -6,13 +6,14 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
+from skips import imported
 
 from roslings.arena.lease import leased_domain
 from roslings.evidence import ExperimentSeen, GraphSeen
 from roslings.probe import Probe
 from roslings.probe.graph import Looker
 
-pytest.importorskip("rclpy")
+imported("rclpy")
 WITHIN_S = 20.0
 WORD = ("publisher", "/talker", "/word")
 

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from skips import imported
 from written_evidence import evidence, messages, steady, talking
 from written_verdicts import full_score, inconclusive, three_faults, too_slow, verdict
 
@@ -18,7 +19,7 @@ from roslings.report.html import Asked, Own, html_of
 from roslings.report.typed import Typed
 from roslings.verdict import Verdict
 
-Axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe
+Axe = imported("axe_playwright_python.sync_playwright").Axe
 
 TOPICS = lab("topics")
 ASKED = [Asked("/chatter", "std_msgs/msg/String", 2.0, 1.9, 2.1)]

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 import written_verdicts as written
+from skips import imported
 
 from roslings.report import BadVerdictFile, CannotWrite, read_json, write_json
 from roslings.report.schema import SCHEMA_FILE, schema_text, verdict_schema
@@ -41,7 +42,7 @@ def test_the_schema_names_its_version() -> None:
 @pytest.mark.parametrize("verdict", VERDICTS)
 def test_what_is_written_is_what_the_schema_says(verdict: Verdict, tmp_path: Path) -> None:
     """A validator that knows nothing of pydantic agrees, and refuses a damaged file."""
-    jsonschema = pytest.importorskip("jsonschema", reason="jsonschema is in the group test")
+    jsonschema = imported("jsonschema")
     validator = jsonschema.Draft202012Validator(json.loads(SCHEMA_FILE.read_text("utf-8")))
     write_json(verdict, tmp_path / "verdict.json")
     found = json.loads((tmp_path / "verdict.json").read_text("utf-8"))

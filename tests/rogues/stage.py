@@ -33,7 +33,9 @@ NOBODY = 65534
 LONG_S = 7200.0
 UNTIL_S = float(os.environ.get("ROSLINGS_TESTS_UNTIL", "inf"))
 """After this moment of time.time(), what takes the whole machine begins no more."""
-NO_TIME = "no time was left for it on this machine (ROSLINGS_TESTS_UNTIL)"
+TIME = "time for what takes the whole machine"
+SANDBOX = ("namespaces", "bubblewrap", "bounded processes")
+"""What a machine must have for it, by the names of `machine.py`."""
 BUILDS_WITHIN_S = 45.0
 """What never comes to an end burns a processor for that long; an honest build takes a second."""
 QUIET_WITHIN_S = 60.0

@@ -27,10 +27,11 @@ import pytest
 from gallery import Seen, seen_of, untrue
 from parcels import PARCELS, Parcel
 from rogue import LAB, Attempt, Truth, attempts
+from skips import needs, skip_without
 from stage import (
     LONG_S,
-    NO_TIME,
-    UNTIL_S,
+    SANDBOX,
+    TIME,
     Stage,
     abandoned_groups,
     adopting,
@@ -40,7 +41,6 @@ from stage import (
     stage,
 )
 
-from roslings.arena import choose_isolation
 from roslings.course import Mutant
 
 MANY = int(os.environ.get("ROSLINGS_MANY", "24"))
@@ -49,12 +49,10 @@ SEED = 20_261_121
 LONG = frozenset({"endless_loop-build"})
 """Takes all the time that a build may take; once, in the gallery, is enough."""
 
-LACK = choose_isolation().lack
-NO_SANDBOX = f"{LACK.reason}: {LACK.next_step}" if LACK else ""
 pytestmark = [
     pytest.mark.slow,
     pytest.mark.alone,
-    pytest.mark.skipif(bool(LACK), reason=NO_SANDBOX),
+    needs(*SANDBOX),
 ]
 
 
@@ -154,10 +152,9 @@ ENDINGS: tuple[Callable[[subprocess.Popen[str]], None], ...] = (
 )
 def test_killed_and_resumed_nothing_is_lost_doubled_or_left(ordinary: bool) -> None:
     """Three ends in the middle; then each has its verdict, and nothing else is there."""
-    if ordinary and os.geteuid() != 0:
-        pytest.skip("these tests run as an ordinary user already")
-    if time.time() >= UNTIL_S:
-        pytest.skip(NO_TIME)
+    if ordinary:
+        skip_without("root")
+    skip_without(TIME)
     handed = mixed(MANY)
     with stage(ordinary) as made, adopting() as left:
         for each in handed:

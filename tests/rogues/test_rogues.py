@@ -20,7 +20,6 @@ from __future__ import annotations
 import ast
 import functools
 import os
-import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -29,9 +28,9 @@ from gallery import Entry, Gallery, Seen, hang, hang_in_turns, next_to, turns, u
 from once import once
 from parcels import PARCELS, Parcel
 from rogue import Attempt, attempts
-from stage import NO_TIME, UNTIL_S
+from skips import needs, skip_without
+from stage import SANDBOX, TIME, UNTIL_S
 
-from roslings.arena import choose_isolation
 from roslings.batch.errors import Refused
 from roslings.batch.unpack import package_in
 
@@ -41,10 +40,8 @@ HARMLESS = ("exits_0_from_atexit-run", "fake_std_msgs", "reads-build", "zip_link
 
 JOBS, JOBS_OF_THE_WILD = 4, 2
 """Most of a grading is waiting. One that rages has its honest neighbour beside it, and no other."""
-LACK = choose_isolation().lack
-NO_SANDBOX = f"{LACK.reason}: {LACK.next_step}" if LACK else ""
-needs_sandbox = pytest.mark.skipif(bool(LACK), reason=NO_SANDBOX)
-needs_root = pytest.mark.skipif(os.geteuid() != 0, reason="these tests run as an ordinary user")
+needs_sandbox = needs(*SANDBOX)
+needs_root = needs("root")
 ONE_WORKER = pytest.mark.xdist_group("rogues")
 """It asks for both galleries, one after the other: no other waits for them."""
 MARKS_OF = {"root": [needs_root, ONE_WORKER], "ordinary": [ONE_WORKER]}
@@ -185,8 +182,8 @@ def test_a_wild_rogue_is_contained(
     """The same of those that stress the machine, where there was time for it."""
     gallery = graded_as(user, True)
     was_graded = rogue in gallery.seen or (rogue == NOTHING_LEFT and gallery.seen)
-    if not was_graded and time.time() >= UNTIL_S:
-        pytest.skip(NO_TIME)
+    if not was_graded:
+        skip_without(TIME)
     insist_on(rogue, gallery)
 
 

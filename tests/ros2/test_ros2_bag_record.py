@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import pty
-import shutil
 import signal
 import sys
 from pathlib import Path
@@ -12,6 +11,7 @@ from pathlib import Path
 import pytest
 import yaml
 from recorded import messages, offered, write_bag
+from skips import needs
 from terminal import Running, Shell, eventually
 
 from roslings.ros2.commands.bag import ABSENT
@@ -241,7 +241,7 @@ def test_a_place_that_cannot_be_written(empty: Shell) -> None:
     assert "cannot write the bag 'file/b': Not a directory. Make room there" in ran.err
 
 
-@pytest.mark.skipif(not shutil.which("unshare") or os.geteuid() != 0, reason="needs a small disk")
+@needs("small disk of root's")
 def test_a_full_disk_ends_the_recording(here: Shell) -> None:
     """It says so, and the bag holds what found room."""
     small = here.folder / "small"
@@ -252,8 +252,6 @@ def test_a_full_disk_ends_the_recording(here: Shell) -> None:
     command = ["unshare", "-m", "sh", "-c", script, "sh", sys.executable]
     with here.program([*command, str(Path(__file__).with_name("ours.py")), *words]) as running:
         code = running.wait()
-    if code == 77:
-        pytest.skip("nothing can be mounted here")
     assert code == 1, running.text
     assert "cannot write the bag 'small/b': No space left on device" in running.text
     assert len(messages(here.folder / "copy")["/scan"]) > 10

@@ -11,6 +11,7 @@ from pathlib import Path
 import inside
 import pytest
 from published import LOOK, shows
+from skips import skip_without
 from terminal import HERE, Shell, surroundings
 
 from roslings.arena.isolation import choose_isolation
@@ -310,7 +311,8 @@ def behind_a_wall(home: Path, *words: str) -> str:
     """What `nodes/behind_a_wall.py` prints, in a network where only loopback exists."""
     isolation = choose_isolation()
     if isolation.wall == "domain":
-        pytest.skip("this machine allows no network of its own")
+        skip_without("namespaces")
+    assert isolation.wall == "namespace", isolation.because
     done = subprocess.run(
         isolation.command([sys.executable, str(BEHIND_A_WALL), *words]), cwd=home, text=True,
         env=surroundings(0, home), capture_output=True, timeout=120, check=False,

@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from skips import imported
 from terminal import SOURCE, Shell, ours
 
 from roslings.arena import QUICK_DISCOVERY
@@ -211,7 +212,7 @@ def test_the_doctor_answers(empty: Shell) -> None:
 
 def test_rqt_graph_saves_a_picture_where_there_is_no_screen(stage: Shell, tmp_path: Path) -> None:
     """It says where; a second picture does not replace the first."""
-    pytest.importorskip("matplotlib")
+    imported("matplotlib")
     environment = {k: v for k, v in stage.environment.items() if "DISPLAY" not in k}
     for name in ("rosgraph.png", "rosgraph_2.png"):
         done = subprocess.run(

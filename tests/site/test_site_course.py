@@ -11,11 +11,12 @@ from typing import Any
 import pytest
 from lesson_runs import kept_for_the_site, lessons, walked
 from site_rules import HEAVIEST_BYTES, Look, breaches, weight_bytes
+from skips import imported
 
 from roslings.course import root
 from roslings.lessons import read_lessons
 
-pytest.importorskip("axe_playwright_python")
+imported("axe_playwright_python")
 
 
 @pytest.mark.slow

@@ -8,13 +8,14 @@ from typing import Any
 
 import pytest
 from site_rules import Look, breaches, pages_of
+from skips import imported
 from two_days_site import Visit
 
 from roslings.course import root
 from roslings.lessons.document import read
 from roslings.lessons.path import Path as DayPath
 
-Axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe
+Axe = imported("axe_playwright_python.sync_playwright").Axe
 
 COVERS_THE_FIRST_LINE = """button => {
     const pre = button.previousElementSibling, style = getComputedStyle(pre);

@@ -5,11 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+from skips import imported
 from two_days_site import Visit
 
 from roslings.lessons.qos import RULES, broken_rules
 
-Axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe
+Axe = imported("axe_playwright_python.sync_playwright").Axe
 PAGE = "reference/qos.html"
 
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import shutil
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 from hardship import WITHOUT_RIGHTS, Run, python
+from skips import skip_without
 
 from roslings.course import Card, Lab, lab
 
@@ -58,11 +58,7 @@ def with_little_room(tmp_path: Path) -> Run:
     little.mkdir()
     inside = f'mount -t tmpfs -o size=64k little "{little}" && exec "$@"'
     command = ["unshare", "--user", "--map-root-user", "--mount", "sh", "-c", inside, "sh"]
-    if (
-        shutil.which("unshare") is None
-        or subprocess.run([*command, "true"], check=False).returncode
-    ):
-        pytest.skip("this machine refuses a mount of our own, so no disk can be made full")
+    skip_without("small disk")
 
     def run(source: str, *arguments: Path) -> str:
         return python([*command, sys.executable, "-c"], source, little, *arguments)

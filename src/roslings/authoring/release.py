@@ -22,8 +22,8 @@ from roslings.workspace.errors import from_here
 from roslings.workspace.sources import files
 
 TESTS = (
-    "conftest.py", "browser.py", "costs.py", "lessons_as_tests.py", "once.py", "seen_with.py",
-    "arena", "report",
+    "conftest.py", "browser.py", "costs.py", "lessons_as_tests.py", "machine.py", "once.py",
+    "seen_with.py", "skips.py", "arena", "report",
 )  # fmt: skip
 """Parts of tests/ that students get: they show that the installation works."""
 MAINTAINERS_ONLY = (".ci", ".github", "example-course")

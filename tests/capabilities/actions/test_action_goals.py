@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import pytest
+from skips import imported
 
 from roslings.arena.lease import leased_domain
 from roslings.capabilities.actions.goals import GoalGiver, GoalTaker, read_actions
@@ -13,7 +14,7 @@ from roslings.evidence import ExperimentSeen
 from roslings.probe import Probe
 from roslings.probe.content import UnknownType, message_class
 
-pytest.importorskip("test_msgs.action", reason="the only action type that has wheels")
+imported("test_msgs.action")  # the only action type that has wheels
 FIBONACCI = "test_msgs/action/Fibonacci"
 WITHIN_S = 20.0
 

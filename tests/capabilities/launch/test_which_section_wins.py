@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
+from skips import imported
 
 from roslings.ros2.launching.context import LaunchContext
 from roslings.ros2.launching.node import Node
@@ -70,7 +71,7 @@ def words_of(how: str, file: Path, value: bool, folder: Path) -> list[str]:
 
 def got(words: Sequence[str]) -> bool:
     """What a node of the limiter's name makes of them."""
-    rclpy = pytest.importorskip("rclpy")
+    rclpy = imported("rclpy")
     context = rclpy.context.Context()
     rclpy.init(args=["it", *words], context=context)
     try:

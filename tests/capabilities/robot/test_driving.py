@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from typing import cast
 
 import pytest
+from skips import imported
 
 from roslings.arena.lease import leased_domain
 from roslings.capabilities.actions import act as acting
@@ -18,7 +19,7 @@ from roslings.evidence import Endpoint, ExperimentSeen, Qos
 from roslings.experiment.scene import Scene
 from roslings.probe import Probe
 
-pytest.importorskip("rclpy")
+imported("rclpy")
 TWIST = "geometry_msgs/msg/Twist"
 WITHIN_S = 20.0
 
