@@ -10,6 +10,7 @@ import pytest
 from browser import browser
 from costs import add_costs_option, note_costs
 from once import shared_folder
+from subreaper import leave_nothing_behind
 
 __all__ = ["browser", "shared_folder"]
 
@@ -44,6 +45,7 @@ def pytest_configure(config: pytest.Config) -> None:
     os.environ["ROSLINGS_SOAK_S"] = "0"  # what is about half a minute of running says so itself
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
+    leave_nothing_behind(config)
     note_costs(config)
 
 

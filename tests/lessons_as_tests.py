@@ -27,6 +27,7 @@ from costs import add_costs_option, note_costs
 from nbval.kernel import RunningKernel
 from nbval.plugin import IPyNbCell, IPyNbFile, NbCellError
 from pydantic import BaseModel
+from subreaper import leave_nothing_behind
 
 from roslings.arena.lease import leased_domain
 from roslings.course import root
@@ -339,6 +340,7 @@ def pytest_configure(config: pytest.Config) -> None:
         config.option.nbval_cell_timeout = CELL_S
     if config.option.nbval_kernel_startup_timeout == NBVALS_START_S:
         config.option.nbval_kernel_startup_timeout = START_S
+    leave_nothing_behind(config)
     note_costs(config)
 
 

@@ -21,7 +21,7 @@ from roslings.workspace.sources import files
 
 TESTS = (
     "conftest.py", "browser.py", "costs.py", "lessons_as_tests.py", "once.py", "seen_with.py",
-    "arena", "report",
+    "subreaper.py", "arena", "report",
 )  # fmt: skip
 """Parts of tests/ that students get: they show that the installation works."""
 MAINTAINERS_ONLY = (".ci", ".github", "example-course")
