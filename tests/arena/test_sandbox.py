@@ -269,7 +269,7 @@ def test_it_has_so_many_files(sandbox: Sandbox) -> None:
 
 
 def test_no_group_is_left(sandbox: Sandbox) -> None:
-    """While the process runs there is one in each tree, with the process in it; then there is none."""
+    """While the process runs it is in one in each tree; then there is none."""
     if not sandbox.trees:
         pytest.skip("this machine lets us make no control group")
     command = [sys.executable, "-I", "-S", "-c", "import time; time.sleep(1000)"]

@@ -83,7 +83,8 @@ def test_in_real_time_a_reader_is_woken(board: Board) -> None:
         host.timeout = 30
         reader, bodies = LineReader(), list[str]()
         while len(bodies) < 20:
-            assert (came := host.read(1)), f"no more came than {bodies}"
+            came = host.read(1)
+            assert came, f"no more came than {bodies}"
             bodies += reader.feed(came)
     sequence = [int(body.split(",")[1]) for body in bodies if body.startswith("W")]
     assert sequence == list(range(sequence[0], sequence[0] + len(sequence)))

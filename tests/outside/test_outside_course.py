@@ -14,6 +14,7 @@ from pathlib import Path
 
 import pytest
 from once import once
+from until_told import checked
 
 from roslings.course import root
 
@@ -70,10 +71,10 @@ def test_its_task_says_what_its_card_says(installed: dict[str, str]) -> None:
 def test_its_lab_is_checked(installed: dict[str, str], tmp_path: Path) -> None:
     """100 for the solution; the evidence has the part, and the page its section."""
     page = tmp_path / "page.html"
-    words = ["check", "valve", "--solution", "--evidence", str(tmp_path / "kept")]
-    run(installed, "-m", "roslings", *words, "--html", str(page))
-    verdict = json.loads((tmp_path / "kept/verdict.json").read_bytes())
-    assert verdict["score"] == 100
+    kept = tmp_path / "kept"
+    words = ["--solution", "--evidence", kept, "--html", page]
+    found = checked("valve", *words, folder=tmp_path, env=installed, kept=kept)
+    assert found.verdict["score"] == 100, found.ran.stdout
     evidence = json.loads((tmp_path / "kept/evidence.json").read_bytes())
     part = evidence["experiments"]["leading"]["parts"]["lifecycle"]
     assert [step["state"] for step in part["steps"]] == ["inactive", "active", "inactive"]
