@@ -21,7 +21,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+import yaml
+
 ROOT = Path(__file__).resolve().parents[1]
+UNSTEADY = ROOT / "tests/unsteady.yaml"
 sys.path[:0] = [str(ROOT / "tests/rogues"), str(ROOT / "tests"), str(ROOT / "src")]
 SLOWEST = 20
 KEPT = re.compile(r"test_authoring_proofs\.py::test_what_is_kept_shows_what_it_must\[(.+)\]$")
@@ -169,9 +172,18 @@ def main(stages_file: Path, costs_file: Path, due_file: Path) -> int:
     for count in found:
         print("\n".join(count.lines()))
     print(f"Mutants measured live at this landing: {len(live)}")
+    print(told_of_unsteady(stages_file.with_name("unsteady")))
     wrong = [*broken(run, found), *unfounded(tests)]
     print(f"FAILED: {'; '.join(wrong)}" if wrong else proven(tests, found))
     return int(bool(wrong))
+
+
+def told_of_unsteady(file: Path) -> str:
+    """How many tests `again.py` has found so in this run, and which are known."""
+    now = set(file.read_text("utf-8").splitlines()) if file.exists() else set[str]()
+    known = {each["test"] for each in yaml.safe_load(UNSTEADY.read_text("utf-8"))}
+    names = f": {', '.join(sorted(now))}" if now else ""
+    return f"Unsteady tests: {len(now)} in this run, {len(now - known)} of them new{names}"
 
 
 def broken(run: Stages, found: Sequence[Count]) -> Iterator[str]:

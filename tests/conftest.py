@@ -10,6 +10,7 @@ from browser import browser
 from costs import add_costs_option, note_costs
 from once import shared_folder
 from skips import hold_to_reasons, skip_without
+from subreaper import leave_nothing_behind
 
 __all__ = ["browser", "shared_folder"]
 
@@ -41,6 +42,7 @@ def pytest_configure(config: pytest.Config) -> None:
     os.environ["ROSLINGS_SOAK_S"] = "0"  # what is about half a minute of running says so itself
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
+    leave_nothing_behind(config)
     note_costs(config)
     hold_to_reasons(config)
 

@@ -28,6 +28,7 @@ from nbval.kernel import RunningKernel
 from nbval.plugin import IPyNbCell, IPyNbFile, NbCellError
 from pydantic import BaseModel
 from skips import hold_to_reasons
+from subreaper import leave_nothing_behind
 
 from roslings.arena.lease import leased_domain
 from roslings.course import root
@@ -340,6 +341,7 @@ def pytest_configure(config: pytest.Config) -> None:
         config.option.nbval_cell_timeout = CELL_S
     if config.option.nbval_kernel_startup_timeout == NBVALS_START_S:
         config.option.nbval_kernel_startup_timeout = START_S
+    leave_nothing_behind(config)
     note_costs(config)
     hold_to_reasons(config)
 

@@ -88,13 +88,14 @@ def now() -> Measuring:
 
 
 def proofs(folder: Path, now: Measuring, core: str) -> Proofs:
-    """All packages kept, none stale, all of one age; the newest core that measured is `known`."""
-    kept = Folder(folder)
-    kept.note_state("known")
+    """All packages kept, none stale, all of one age: `known` measured them."""
     other = replace(now, labs=now.labs)
     other.__dict__["core"] = core
-    found = Proofs(LABS, kept, other)
-    found.__dict__["standings"] = [Standing(package, None, 0, "") for package in PACKAGES]
+    found = Proofs(LABS, Folder(folder), other)
+    line = KeptProof(
+        package="", content="", card="", experiments="", core="known", evidence="", checks={}
+    )
+    found.__dict__["standings"] = [Standing(package, line, 0, "") for package in PACKAGES]
     return found
 
 

@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from until_told import run_until_told
 
 from roslings import course
 from roslings.authoring.release import CannotRelease, is_for_students, leaks, release
@@ -102,9 +103,7 @@ def test_the_first_command_works_without_a_solution(edition: Path, tmp_path: Pat
     environment = {**os.environ, "PYTHONPATH": str(edition / "src"), "HOME": str(tmp_path)}
     environment.pop("ROSLINGS_COURSE", None)
     words = [sys.executable, "-m", "roslings", *first.split()[1:]]
-    done = subprocess.run(
-        words, cwd=edition, env=environment, capture_output=True, text=True, check=False
-    )
+    done = run_until_told(words, cwd=edition, env=environment)
     assert done.returncode == 0, done.stdout + done.stderr
     assert "100 of 100" in done.stdout
     words = [sys.executable, "-m", "roslings", "check", "topics", "--solution"]

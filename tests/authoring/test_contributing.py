@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import json
-import os
 import re
 import shutil
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
 import yaml
+from until_told import checked
 
 from roslings.course import Lab, lab, root
 
@@ -59,17 +56,7 @@ def verdict(changed: Lab, tmp_path: Path) -> Callable[..., dict[str, Any]]:
     """What `./roslings check topics PACKAGE` says by the changed lab; check to result."""
 
     def of(package: str) -> dict[str, Any]:
-        file = tmp_path / "verdict.json"
-        words = ["check", "topics", package, "--json", str(file)]
-        for _ in range(3):  # "this computer was too busy" asks for the same command again
-            ran = subprocess.run(
-                [sys.executable, "-m", "roslings", *words], cwd=tmp_path, env=os.environ,
-                capture_output=True, text=True, check=False,
-            )  # fmt: skip
-            assert file.is_file(), ran.stderr
-            said = json.loads(file.read_text("utf-8"))
-            if said["outcome"] != "inconclusive":
-                break
+        said = checked("topics", package, folder=tmp_path).verdict
         return {each["id"]: each for each in said["checks"]}
 
     return of

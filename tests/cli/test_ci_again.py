@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 from costs import without_group
+from test_unsteady import read
 
 from roslings.course import root
 
@@ -42,6 +43,10 @@ def test_what_passes_twice_alone_is_named_and_forgiven(tmp_path: Path) -> None:
     done = again(tmp_path, "tests/b.py::test_late[a b]")
     assert done.returncode == 0
     assert "UNSTEADY" in done.stdout and "tests/b.py::test_late[a b]" in done.stdout
+    (line,) = (each for each in done.stdout.splitlines() if each.startswith("- "))
+    (entry,) = read(line)
+    assert entry.test == "tests/b.py::test_late[a b]" and len(entry.reason) > 10
+    assert (tmp_path / "unsteady").read_text("utf-8") == "tests/b.py::test_late[a b]\n"
     assert (tmp_path / "stages").read_text() == "3 2 0 The machine\n40 70 0 The tests\n"
     asked = (tmp_path / "asked").read_text().splitlines()
     assert len(asked) == 2 and "test_old" not in asked[0] and "test_steady" not in asked[0]
@@ -60,6 +65,7 @@ def test_what_passes_twice_alone_is_named_and_forgiven(tmp_path: Path) -> None:
 def test_what_is_wrong_alone_stays_wrong(tmp_path: Path, names: tuple[str, ...]) -> None:
     """Also one that passes once, many at once, and a stage that broke without a failed test."""
     assert again(tmp_path, *names).returncode == 1
+    assert not (tmp_path / "unsteady").exists()
     assert "1 The tests" in (tmp_path / "stages").read_text()
 
 

@@ -196,3 +196,14 @@ def test_what_was_measured_live_counts_before_what_is_kept(tmp_path: Path) -> No
     _, words = summary(tmp_path, kept, "1 1 0 One\n", {package(MUTANTS[0]): "failed"})
     assert f"Mutants: {len(MUTANTS)} of {len(MUTANTS)} proven, 1 wrong" in words
     assert "Mutants measured live at this landing: 1" in words
+
+
+def test_unsteady_ones_are_counted_and_fail_nothing(tmp_path: Path) -> None:
+    """On a line of their own, before the last one."""
+    status, words = of_all(tmp_path)
+    assert (status, "Unsteady tests: 0 in this run, 0 of them new\n" in words) == (0, True)
+    (tmp_path / "unsteady").write_text("tests/b.py::test_late[a b]\n", "utf-8")
+    status, words = of_all(tmp_path)
+    assert status == 0 and words.splitlines()[-2] == (
+        "Unsteady tests: 1 in this run, 1 of them new: tests/b.py::test_late[a b]"
+    )

@@ -9,7 +9,10 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
+
+from until_told import OPEN, until_told
 
 from roslings.course import lab
 
@@ -43,6 +46,17 @@ def until_it_waits(process: subprocess.Popen[str]) -> list[str]:
     return said
 
 
+def after_save(process: subprocess.Popen[str], file: Path, text: str) -> list[str]:
+    """What it says after a save of the file."""
+    file.write_text(text, "utf-8")
+    return until_it_waits(process)
+
+
+def could_not_tell(said: list[str]) -> bool:
+    """Another save asks again."""
+    return any(OPEN in line for line in said)
+
+
 def line_with(word: str, said: list[str]) -> str:
     """The first line with this word."""
     return next((line for line in said if word in line), "\n".join(said))
@@ -55,14 +69,16 @@ def test_each_save_has_its_verdict(tmp_path: Path) -> None:
     talker = package / "chatter" / "talker.py"
     right = talker.read_text("utf-8")
     with watching(package, tmp_path) as process:
-        assert "100 of 100" in line_with("Score", until_it_waits(process))
+        said = until_it_waits(process)
+        if could_not_tell(said):
+            said = until_told(partial(after_save, process, talker, right), could_not_tell)
+        assert "100 of 100" in line_with("Score", said)
         for text, said_of_it in (
             (right.replace("Hello robotics", "Hallo robotics"), "not pass"),
             ("def broken(:\n", "not pass"),
             (right, "100 of 100"),
         ):
-            talker.write_text(text, "utf-8")
-            said = until_it_waits(process)
+            said = until_told(partial(after_save, process, talker, text), could_not_tell)
             assert line_with("Saved", said) == "Saved: chatter/talker.py"
             assert ("100 of 100" in line_with("Score", said)) is (said_of_it == "100 of 100"), said
     assert list((tmp_path / "tmp").iterdir()) == []

@@ -91,7 +91,7 @@ def test_the_lab_of_day_1_goes_as_its_lesson_tells(student: Student) -> None:
         student.closes(number)
     break_and_mend(student)
     doctor, _ = student.types()  # the check
-    doctor.shows(student.promised("100 of 100"))
+    doctor.tells(student.promised("100 of 100"))
     assert student.left == []
 
 

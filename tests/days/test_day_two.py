@@ -114,7 +114,7 @@ def test_the_lab_of_day_2_goes_as_its_lesson_tells(student: Student) -> None:
     student.terminal(1).is_free()
     student.types_again(2)[0].shows("Publishing: ")
     assert "Traceback" not in student.ends(2)
-    student.types()[0].shows(student.promised("100 of 100"))
+    student.types()[0].tells(student.promised("100 of 100"))
     assert student.left == []
 
 

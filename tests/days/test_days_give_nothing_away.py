@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import json
 import os
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 from given_away import module_of, package_of
 from lesson_runs import lessons
+from until_told import checked
 
 from roslings.course import Lab, all_labs, root
 from roslings.lessons.rules import Lesson
@@ -24,14 +22,10 @@ PAIRS = [
 @pytest.mark.parametrize(("lesson", "lab"), PAIRS, ids=[lab.name for _, lab in PAIRS])
 def test_pasting_all_of_it_does_not_pass(lesson: Lesson, lab: Lab, tmp_path: Path) -> None:
     """It builds and runs, and the lab still asks for more."""
-    package, verdict = package_of(lesson, lab, tmp_path), tmp_path / "verdict.json"
-    command = [sys.executable, "-m", "roslings", "check", lab.name, str(package)]
-    done = subprocess.run(
-        [*command, "--json", str(verdict)], capture_output=True, text=True, check=False,
-        env={**os.environ, "PYTHONPATH": str(root() / "src")},
-    )  # fmt: skip
-    assert done.returncode == 1, done.stdout + done.stderr
-    assert json.loads(verdict.read_text("utf-8"))["outcome"] == "fail"
+    package = package_of(lesson, lab, tmp_path)
+    env = {**os.environ, "PYTHONPATH": str(root() / "src")}
+    found = checked(lab.name, package, folder=tmp_path, env=env)
+    assert (found.status, found.verdict["outcome"]) == (1, "fail"), found.ran.stdout
 
 
 @pytest.mark.parametrize("lab", all_labs(), ids=lambda lab: lab.name)

@@ -200,7 +200,7 @@ def test_the_page_holds_what_it_promises(reader: Reader) -> None:
     reader.types().shows(r"there is no /alive, but /alve[^$]*Score +\d\d of 100")
     driver.is_free()
     reader.takes_the_edit_back()
-    reader.types().shows("100 of 100")
+    reader.types().tells("100 of 100")
     driver.is_free()
     reader.edits_the_file()
     own = reader.types()

@@ -8,13 +8,22 @@ import signal
 import subprocess
 import sys
 import threading
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 SOURCE = Path(__file__).parents[2] / "src"
 PATIENCE_S = 60.0
 """Only a test that fails waits so long."""
+
+
+def until(condition: Callable[[], bool], missing: Callable[[], str]) -> None:
+    """Ask again and again, until it holds; where it never does, the test says what is missing."""
+    late_s = time.monotonic() + PATIENCE_S
+    while not condition():
+        assert time.monotonic() < late_s, missing()
+        time.sleep(0.01)
 
 
 class Program:

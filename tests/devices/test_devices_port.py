@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from program import environment, run, running
+from program import environment, run, running, until
 from skips import imported
 
 from roslings.devices.board import Board, Drive, LineReader, Mega, Spoiler, framed
@@ -84,7 +84,9 @@ def test_in_real_time_a_reader_is_woken(board: Board) -> None:
         host.timeout = 30
         reader, bodies = LineReader(), list[str]()
         while len(bodies) < 20:
-            bodies += reader.feed(host.read(1))
+            came = host.read(1)
+            assert came, f"no more came than {bodies}"
+            bodies += reader.feed(came)
     sequence = [int(body.split(",")[1]) for body in bodies if body.startswith("W")]
     assert sequence == list(range(sequence[0], sequence[0] + len(sequence)))
     assert "board" not in [thread.name for thread in threading.enumerate()]
@@ -102,8 +104,11 @@ def test_a_board_lives_on_however_often_its_cable_is_pulled(board: Board) -> Non
             pulled_s = board.chip.truth.time_s
             alive = [thread for thread in threading.enumerate() if thread.name == "board"]
             assert len(alive) == 1
-            while board.chip.truth.time_s == pulled_s:
-                assert alive[0].is_alive()
+            until(
+                lambda: board.chip.truth.time_s > pulled_s or not alive[0].is_alive(),
+                lambda: f"its clock stands at {pulled_s} s",
+            )
+            assert alive[0].is_alive()
     finally:
         sys.setswitchinterval(before_s)
     assert board.trouble is None
@@ -263,11 +268,22 @@ def test_the_board_runs_as_a_command(tmp_path: Path) -> None:
         assert second.returncode == 2
         assert "runs already" in second.stderr
         with serial.Serial(str(port), 115200, timeout=30, exclusive=True) as host:
-            while "100" not in "".join(program.lines[2:]):
+
+            def is_obeyed() -> bool:
                 host.write(Drive(1, 100, 100).line())
-                assert host.read(20)
+                assert host.read(20), "the board sends nothing"
+                return "100" in "".join(program.lines[2:])
+
+            until(is_obeyed, lambda: f"no line tells of the power 100: {program.lines}")
         assert program.interrupt() == 0
     assert not port.exists()
+
+
+def test_what_never_comes_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A board that shows nothing fails the test with what it showed; it does not hang it."""
+    monkeypatch.setattr("program.PATIENCE_S", 0.0)
+    with pytest.raises(AssertionError, match="no line tells of it"):
+        until(lambda: False, lambda: "no line tells of it")
 
 
 def test_a_port_that_cannot_be_made_is_told(tmp_path: Path) -> None:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from recorded_evidence import recorded, view
+from until_told import until_told
 from watching import HERE, RATE, TOPIC, watched
 
 from roslings.capabilities.topics.demands import have_rate
@@ -47,7 +48,6 @@ FILLS_THE_MACHINE = "large_messages"
 """Beside other work 20 MB a second are late by the machine's fault, and nothing can be told."""
 
 CLOCKS: tuple[Clock, ...] = ("auto", "wall")
-MOST_TRIES = 3
 
 
 def answer(runs: Sequence[ExperimentSeen]) -> str:
@@ -69,19 +69,15 @@ def _error(seen: ExperimentSeen) -> Fault | Inconclusive | None:
 
 def settled(script: Path, clock: Clock, expected: str) -> str:
     """The answer; a busy computer may keep it back a while, but neither change nor hide it."""
-    for _ in range(MOST_TRIES):
-        told = answer(watched(script, clock))
-        if told == expected or told != "inconclusive":
-            break
-    return told
+    return until_told(
+        lambda: answer(watched(script, clock)),
+        lambda told: told == "inconclusive" != expected,
+    )
 
 
 def simulated(script: Path, hz: float = RATE.hz) -> ExperimentSeen:
     """A run in simulated time alone, which was believed; a busy computer may need another try."""
-    for _ in range(MOST_TRIES):
-        runs = watched(script, hz=hz)
-        if len(runs) == 1:
-            break
+    runs = until_told(lambda: watched(script, hz=hz), lambda runs: len(runs) > 1)
     assert [(seen.clock, seen.not_believed) for seen in runs] == [("sim", None)]
     return runs[0]
 

@@ -6,10 +6,12 @@ has used ROS before, as tests have, does not live.
 
 from __future__ import annotations
 
-import subprocess
 import sys
 from pathlib import Path
 
+from until_told import run_until_told
+
+from roslings.errors import OK
 from roslings.evidence import Evidence
 
 
@@ -17,5 +19,6 @@ def evidence_of_solution(lab: str, folder: Path) -> Evidence:
     """All that was seen of the solution; `folder` is for what is kept of it."""
     kept = folder / "kept"
     words = ["check", lab, "--solution", "--seed", "1", "--evidence", str(kept)]
-    subprocess.run([sys.executable, "-m", "roslings", *words], capture_output=True, check=True)
+    ran = run_until_told([sys.executable, "-m", "roslings", *words], kept=kept)
+    assert ran.returncode == OK, ran.stdout + ran.stderr
     return Evidence.model_validate_json((kept / "evidence.json").read_bytes())

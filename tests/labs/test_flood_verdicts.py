@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import json
 import re
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
+from until_told import checked
 
 from roslings.course import lab
 
@@ -47,17 +45,8 @@ def test_it_is_a_failed_check_and_not_a_verdict_that_nobody_knows(
     assert text.count(find) == 1
     loop = LOOP.format(stream=stream)
     (package / file).write_text(text.replace(find, replace.format(loop=loop)), "utf-8")
-    checks = verdict_on(name, package)["checks"]
-    floods = [check for check in checks if check["fault"] == "PrintsWithoutEnd"]
+    found = checked(name, package, folder=tmp_path)
+    floods = [check for check in found.verdict["checks"] if check["fault"] == "PrintsWithoutEnd"]
     assert [check["outcome"] for check in floods] == ["fail"]
     assert re.search(r"it wrote [1-9][\d,]+ lines", floods[0]["measured"])
-    assert not [check["id"] for check in checks if check["outcome"] == "inconclusive"]
-
-
-def verdict_on(name: str, package: Path) -> dict[str, list[dict[str, str]]]:
-    """What `check` writes of it."""
-    file = package.parent / "verdict.json"
-    words = ["check", name, str(package), "--json", str(file)]
-    subprocess.run([sys.executable, "-m", "roslings", *words], capture_output=True, check=False)
-    found: dict[str, list[dict[str, str]]] = json.loads(file.read_text("utf-8"))
-    return found
+    assert found.outcomes("inconclusive") == []

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from half_done import HalfDone, states
-from test_verdicts import check
+from until_told import checked
 
 from roslings.course import Lab, all_labs
 
@@ -32,6 +32,6 @@ def test_every_state_is_another_one(lab: Lab, tmp_path: Path) -> None:
 def test_a_half_done_package_fails(state: HalfDone, tmp_path: Path) -> None:
     """What is missing is a fault of the package, not of the computer."""
     package = state.make(tmp_path / "src" / state.lab.card.package)
-    status, verdict = check(state.lab, package, tmp_path)
-    assert (status, verdict["outcome"]) == (1, "fail")
-    assert [each["id"] for each in verdict["checks"] if each["outcome"] == "inconclusive"] == []
+    found = checked(state.lab.name, package, folder=tmp_path)
+    assert (found.status, found.verdict["outcome"]) == (1, "fail")
+    assert found.outcomes("inconclusive") == []

@@ -12,26 +12,23 @@ from __future__ import annotations
 import json
 import os
 import random
-import subprocess
-import sys
 import time
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, replace
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 import pytest
 from commit import newest_commit
 from nothing import Nothing
 from once import once
 from skips import skip_without
+from until_told import checked
 
 from roslings.authoring.prove import Package, Proof, Wrong, gradings_fit
 from roslings.course import Lab, Mutant, all_labs
 
-MOST_TRIES = 3
 UNTIL_S = float(os.environ.get("ROSLINGS_MUTANTS_UNTIL", "inf"))
 """After this moment of time.time() no package is begun, and the tests of those left are skipped."""
 TIMES_ALONE, MOST_UNSTEADY = 2, 12
@@ -45,38 +42,19 @@ each_lab = pytest.mark.parametrize("lab", LABS.values(), ids=LABS)
 # --- by the command that a student types -------------------------------------------------------
 
 
-def check(lab: Lab, package: Path, folder: Path) -> tuple[int, dict[str, Any]]:
-    """The status and the verdict; asked again while the answer is that it could not be told.
-
-    That is what a student is told to do then; a wrong answer is never asked for twice.
-    """
-    file = folder / "verdict.json"
-    words = ["check", lab.name, str(package), "--json", str(file)]
-    for _ in range(MOST_TRIES):
-        ran = subprocess.run(
-            [sys.executable, "-m", "roslings", *words],
-            capture_output=True, text=True, check=False, cwd=folder,
-        )  # fmt: skip
-        assert file.is_file(), ran.stderr
-        verdict = json.loads(file.read_text("utf-8"))
-        if verdict["outcome"] != "inconclusive":
-            break
-    return ran.returncode, verdict
-
-
 @each_lab
 def test_the_solution_gets_the_full_score(lab: Lab, tmp_path: Path) -> None:
     """Nothing in the card asks for more than the solution does."""
-    status, verdict = check(lab, lab.solution, tmp_path)
-    assert [each for each in verdict["checks"] if each["outcome"] != "pass"] == []
-    assert (status, verdict["score"]) == (0, 100)
+    found = checked(lab.name, lab.solution, folder=tmp_path)
+    assert [each for each in found.verdict["checks"] if each["outcome"] != "pass"] == []
+    assert (found.status, found.verdict["score"]) == (0, 100)
 
 
 @each_lab
 def test_the_starter_does_not_pass(lab: Lab, tmp_path: Path) -> None:
     """Who has done nothing has not done the lab."""
-    status, verdict = check(lab, lab.starter, tmp_path)
-    assert (status, verdict["outcome"]) == (1, "fail")
+    found = checked(lab.name, lab.starter, folder=tmp_path)
+    assert (found.status, found.verdict["outcome"]) == (1, "fail")
 
 
 # --- the mutants, all at once ------------------------------------------------------------------

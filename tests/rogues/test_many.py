@@ -8,14 +8,12 @@ The same number gives the same submissions.
 
 from __future__ import annotations
 
-import json
 import os
 import random
 import shutil
 import signal
 import sqlite3
 import subprocess
-import sys
 import time
 from collections import Counter
 from collections.abc import Callable
@@ -40,6 +38,7 @@ from stage import (
     quiet,
     stage,
 )
+from until_told import checked
 
 from roslings.course import Mutant
 
@@ -217,11 +216,6 @@ def failed(seen: Seen) -> set[str]:
 
 def check(package: Path, made: Stage) -> tuple[float, set[str]]:
     """Score and failed checks of the command that students type."""
-    file = made.folder / "verdict.json"
-    subprocess.run(
-        [sys.executable, "-m", "roslings", "check", LAB.name, str(package), "--json", str(file)],
-        env=made.environment(), cwd=made.folder, capture_output=True, check=False,
-    )  # fmt: skip
-    verdict = json.loads(file.read_text("utf-8"))
-    file.unlink()
-    return verdict["score"], {c["id"] for c in verdict["checks"] if c["outcome"] == "fail"}
+    (made.folder / "verdict.json").unlink(missing_ok=True)
+    found = checked(LAB.name, package, folder=made.folder, env=made.environment())
+    return found.verdict["score"], set(found.outcomes("fail"))

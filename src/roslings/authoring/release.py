@@ -23,7 +23,7 @@ from roslings.workspace.sources import files
 
 TESTS = (
     "conftest.py", "browser.py", "costs.py", "lessons_as_tests.py", "machine.py", "once.py",
-    "seen_with.py", "skips.py", "arena", "report",
+    "seen_with.py", "skips.py", "subreaper.py", "arena", "report",
 )  # fmt: skip
 """Parts of tests/ that students get: they show that the installation works."""
 MAINTAINERS_ONLY = (".ci", ".github", "example-course")

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import os
 import subprocess
 import sys
 from collections.abc import Sequence
+from typing import NoReturn
 
 from roslings import course
 
@@ -22,7 +24,7 @@ def site(options: argparse.Namespace) -> int:
 
 def test(options: argparse.Namespace) -> int:
     """Run the tests of roslings; what follows `test` goes to pytest."""
-    return run_pytest([word for word in options.rest if word != "--"])
+    run_pytest([word for word in options.rest if word != "--"])
 
 
 UNUSED = ("rerunfailures", "repeat", "anyio", "colcon_core_warnings_stderr", "pytest_cov")
@@ -31,11 +33,13 @@ OF_LESSONS = "nbval"
 """The plugin that runs lessons. It loads for seconds, in each process of a run."""
 
 
-def run_pytest(rest: Sequence[str]) -> int:
-    """Run pytest in the course's folder, on both cores."""
+def run_pytest(rest: Sequence[str]) -> NoReturn:
+    """Become pytest in the course's folder, on both cores: who ends this process ends the tests."""
     unused = [f"-pno:{name}" for name in plugins_without_use(rest)]
     command = [sys.executable, "-m", "pytest", *unused, *rest]
-    return subprocess.run(command, cwd=course.root(), check=False).returncode
+    sys.stdout.flush()
+    os.chdir(course.root())
+    os.execv(sys.executable, command)
 
 
 def plugins_without_use(rest: Sequence[str]) -> list[str]:
