@@ -272,7 +272,7 @@ def test_it_has_so_many_files(sandbox: Sandbox) -> None:
 def test_no_group_is_left(sandbox: Sandbox) -> None:
     """While the process runs it is in one in each tree; then there is none."""
     if not sandbox.trees:
-        pytest.skip("this machine lets us make no control group")
+        skip_without("control group for memory")
     command = [sys.executable, "-I", "-S", "-c", "import time; time.sleep(1000)"]
     launch = Launch(command, {"PATH": os.defpath}, Path("/"), namespaces=True, sandbox=sandbox)
     with Process("it", launch) as process:

@@ -14,7 +14,7 @@ import pytest
 
 from roslings.authoring.proofs.digests import Measuring, measuring
 from roslings.authoring.proofs.due import AT_EACH_LANDING, PART, Proofs, Standing
-from roslings.authoring.proofs.kept import LARGEST_BYTES, MOST_BYTES, Folder, kept_here
+from roslings.authoring.proofs.kept import LARGEST_BYTES, MOST_BYTES, Folder, KeptProof, kept_here
 from roslings.authoring.prove import Package, Solution, Starter, packages_of
 from roslings.course import all_labs, lab, root
 
@@ -116,12 +116,15 @@ def test_the_rules_draw_as_often_as_the_page_says(tmp_path: Path, now: Measuring
 def test_so_many_recorded_changes_measure_all(tmp_path: Path, now: Measuring) -> None:
     """Each takes the oldest, and what it measured is the newest then."""
     left = {package.name for package in PACKAGES}
-    found = proofs(tmp_path, now, "core")
-    for _ in range(PART):
+    found = proofs(tmp_path, now, "")
+    for core in map(str, range(PART)):
+        found.measuring.__dict__["core"] = core
         drawn = {each.package.name for each in found._for_the_core()}
         left -= drawn
         found.__dict__["standings"] = [
-            replace(each, age=0 if each.package.name in drawn else each.age + 1)
+            replace(each, age=0, line=each.line.model_copy(update={"core": core}))
+            if each.line and each.package.name in drawn
+            else replace(each, age=each.age + 1)
             for each in found.standings
         ]
     assert left == set()

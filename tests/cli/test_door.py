@@ -6,12 +6,12 @@ import argparse
 import json
 import os
 import re
-import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from until_told import run_until_told
 
 from roslings import cli, course
 from roslings.bootstrap.paths import MAY_BE_A_WORD, PATH_VARIABLES, absolute_variables
@@ -129,10 +129,7 @@ def test_hidden_checks_are_found_from_another_folder(tmp_path: Path) -> None:
     (tmp_path / "graders").mkdir()
     (tmp_path / "graders/secret.py").write_text(HIDDEN)
     words = ["check", "example", "--solution", "--hidden", "graders/secret.py", "--json", "v.json"]
-    done = subprocess.run(
-        [sys.executable, "-m", "roslings", *words], cwd=tmp_path, capture_output=True, text=True,
-        check=False,
-    )  # fmt: skip
+    done = run_until_told([sys.executable, "-m", "roslings", *words], cwd=tmp_path)
     assert done.returncode == 0, done.stdout + done.stderr
     checks = json.loads((tmp_path / "v.json").read_bytes())["checks"]
     assert [check["outcome"] for check in checks if check["id"] == "secret"] == ["pass"]
