@@ -18,7 +18,6 @@ from roslings.authoring.proofs.judging import judge_kept
 from roslings.authoring.proofs.kept import (
     Folder,
     KeptProof,
-    Said,
     content_of,
     kept_here,
     name_in,
@@ -428,7 +427,7 @@ def test_evidence_of_another_mutant_is_found(sabotaged: Folder) -> None:
         ({"evidence": "0" * 64}, "not the one that was judged"),
         ({"core": "0" * 64}, "no line of measuring.jsonl"),
         ({"content": "0" * 64}, "another package"),
-        ({"checks": {"runs": Said(outcome="pass", points=100.0)}}, "another verdict"),
+        ({"checks": {"runs": "pass 100"}}, "another verdict"),
     ],
 )
 def test_a_line_that_does_not_fit_its_files_is_found(

@@ -10,7 +10,7 @@ from roslings.authoring.proofs.kept import (
     LARGEST_BYTES,
     Folder,
     KeptProof,
-    Said,
+    Words,
     digest_of_evidence,
     name_in,
     words_of,
@@ -58,7 +58,7 @@ def judged_again(package: Package, line: KeptProof, folder: Folder) -> Proof:
     return Proof(package.about, told, package=package.name)
 
 
-def words_now(package: Package, line: KeptProof, folder: Folder) -> dict[str, Said] | None:
+def words_now(package: Package, line: KeptProof, folder: Folder) -> Words | None:
     """What is judged today in kept evidence; None where that is not what it must be."""
     try:
         verdict = judge(package.lab, evidence_of(package.lab, line, folder))

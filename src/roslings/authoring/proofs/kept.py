@@ -19,7 +19,7 @@ from roslings.authoring.prove import Package
 from roslings.batch.grading import THOROUGHLY, packed
 from roslings.course import Lab, root
 from roslings.evidence import Evidence
-from roslings.verdict import CheckOutcome, Verdict
+from roslings.verdict import Verdict
 from roslings.workspace.normal import digest_of, digest_of_files
 from roslings.workspace.sources import files
 
@@ -33,17 +33,8 @@ MOST_BYTES = 10_000_000
 Line = TypeVar("Line", bound=BaseModel)
 
 
-class Said(BaseModel):
-    """What was judged of one check."""
-
-    model_config = ConfigDict(frozen=True)
-
-    outcome: CheckOutcome
-    points: float
-    fault: str | None = None
-
-
-Words = Mapping[str, Said]
+Words = dict[str, str]
+"""Check to its outcome, its points and its fault: `fail 0 TooSlow`."""
 
 
 class KeptProof(BaseModel):
@@ -61,7 +52,7 @@ class KeptProof(BaseModel):
     """Digests of what it was measured by."""
     evidence: str
     """Digest of the packed evidence."""
-    checks: dict[str, Said]
+    checks: Words
 
 
 class State(BaseModel):
@@ -72,10 +63,10 @@ class State(BaseModel):
     core: str
 
 
-def words_of(verdict: Verdict) -> dict[str, Said]:
+def words_of(verdict: Verdict) -> Words:
     """What a line keeps of a verdict."""
     return {
-        each.id: Said(outcome=each.outcome, points=each.points, fault=each.fault)
+        each.id: " ".join(filter(None, [each.outcome, f"{each.points:g}", each.fault]))
         for each in verdict.checks
     }
 
