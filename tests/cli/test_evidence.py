@@ -103,11 +103,15 @@ def mutant(*edits: Edit) -> Mutant:
 
 @pytest.fixture(scope="module")
 def wrong(tmp_path_factory: pytest.TempPathFactory) -> Kept:
-    """A talker at 1 Hz, with 100 kB in each message and a line that looks like HTML."""
+    """A talker at 1 Hz, with 100 kB in each message and a line that looks like HTML.
+
+    It writes no message: so much of it would be a flood, and end the talker.
+    """
     cwd = tmp_path_factory.mktemp("wrong")
     replaced = {
         "create_timer(0.5,": "create_timer(1.0,",
         "f'Hello robotics {self.count}'": "'x' * 100_000 + f'Hello robotics {self.count}'",
+        "self.get_logger().info(": "self.get_logger().debug(",
         "super().__init__('talker')": "super().__init__('talker')\n        print('<script>')",
     }
     edits = [Edit(file="chatter/talker.py", find=a, replace=b) for a, b in replaced.items()]

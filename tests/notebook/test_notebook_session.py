@@ -59,7 +59,7 @@ def test_a_node_belongs_to_the_session_that_starts_it(cells: Kernel) -> None:
     ran = cells.run("""
 with session() as first, session() as second:
     ours, theirs = first.start(Talker), second.start(Talker)
-    print(ours.context is first.context, theirs.context is second.context)
+    print(f"{ours.context is first.context} {theirs.context is second.context}")
 """)
     assert "True True" in ran.text, ran
 
