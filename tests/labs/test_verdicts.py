@@ -20,12 +20,12 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from commit import newest_commit
 from nothing import Nothing
 from once import once
 from skips import skip_without
 from until_told import checked
 
+from roslings.authoring.proofs.command import newest_commit
 from roslings.authoring.prove import Package, Proof, Wrong, gradings_fit
 from roslings.course import Lab, Mutant, all_labs
 

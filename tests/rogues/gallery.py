@@ -8,7 +8,6 @@ import shutil
 import time
 from collections.abc import Iterable, Sequence
 
-from commit import newest_commit
 from parcels import Parcel
 from pydantic import BaseModel
 from rogue import LAB, Attempt, Truth
@@ -29,6 +28,7 @@ from stage import (
 )
 
 from roslings.arena.lease import leased_domain
+from roslings.authoring.proofs.command import newest_commit
 from roslings.batch.result import Result
 from roslings.judge.sheet import dependants
 from roslings.verdict import CheckResult
