@@ -30,7 +30,7 @@ from roslings.evidence import Evidence
 from roslings.experiment.run_folder import run_folder
 from roslings.judge import judge
 
-AT_A_TIME = 40
+AT_A_TIME = 16
 BOOK = "book"
 
 
