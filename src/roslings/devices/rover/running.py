@@ -36,6 +36,7 @@ def run(
     One that `listens` shows what others say; with `tf` it also publishes /tf, where the type of
     that topic is installed. Raises NoWindow, CannotSave, NoTerminal.
     """
+    picture = picture and _as_typed(picture)
     if picture:
         _require_place_for(picture)
     rover = RoverNode(Rover(seed=seed), listens=listens, tf=tf)
@@ -59,6 +60,11 @@ def _go_on(
         if time.monotonic() >= due_s:
             display.show(node)
             due_s = time.monotonic() + display.every_s
+
+
+def _as_typed(path: Path) -> Path:
+    """What was given relative to this folder is told so again."""
+    return path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path
 
 
 def _require_place_for(picture: Path) -> None:
