@@ -49,12 +49,17 @@ def test_a_file_that_python_cannot_read_is_not_run(tmp_path: Path) -> None:
 def test_a_program_that_prints_without_end_is_told_its_lines(
     tmp_path: Path, before: str, after: str, stream: str
 ) -> None:
-    """At once, and never that nobody can tell."""
+    """At once, and never that nobody can tell.
+
+    On a busy computer it has printed too little to be called endless; it never spins then, too.
+    """
     loop = f"while True: print('tick', file=__import__('sys').{stream})"
     file = changed(tmp_path, "first_node", before, after.format(loop=loop), of="solution")
     verdict = check(drill("first_node"), file)
-    assert verdict.first and verdict.first.fault == "PrintsWithoutEnd"
-    assert re.search(r"it wrote [\d,]+ lines", verdict.headline)
+    assert verdict.outcome == "fail" and verdict.first
+    assert verdict.first.fault in ("PrintsWithoutEnd", "NeverSpins")
+    told = re.search(r"it wrote [\d,]+ lines", verdict.headline)
+    assert bool(told) == (verdict.first.fault == "PrintsWithoutEnd")
 
 
 def test_a_wrong_answer_is_told_without_the_right_one(tmp_path: Path) -> None:
@@ -126,4 +131,4 @@ def test_a_drill_may_bring_a_check_of_its_own(tmp_path: Path) -> None:
     one = Drill("no_spin", "02-nodes", 1, folder)
     verdict = check(one, one.solution)
     assert verdict.first and (verdict.first.id, verdict.first.fault) == ("tower", "Unmet")
-    assert "it is no tower" in (verdict.first.expected or "")
+    assert "it is no tower" in (verdict.first.measured or "")

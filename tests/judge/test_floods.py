@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
-import lzma
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 
-from roslings.authoring.generated.kills import read_kills
+from roslings.authoring.proofs.kept import kept_here
+from roslings.batch.grading import unpacked
 from roslings.course import all_labs, lab
 from roslings.drills.judging import judged
 from roslings.drills.steps import Step
-from roslings.evidence import Evidence, LogLine, ProcessSeen, read_json
+from roslings.evidence import Evidence, LogLine, ProcessSeen
 from roslings.judge import NothingToJudge, judge
 from roslings.judge.faults import Inconclusive
 from roslings.judge.views import ExperimentView
 from roslings.verdict import CheckResult
 
-TESTS = Path(__file__).parents[1]
 LABS = [each.name for each in all_labs() if each.name != "example"]
 LINES, MEGABYTES = 412_345, 2.5
 NS = 10**9
@@ -53,12 +51,8 @@ def programs() -> Iterator[tuple[str, str, Evidence]]:
 
 
 def good(name: str) -> Evidence:
-    """Of the solution where it is kept; else of the package that fails at the last check."""
-    if (kept := TESTS / "evidence/schema1" / name / "solution.json.xz").exists():
-        return read_json(lzma.decompress(kept.read_bytes()))
-    order = [*lab(name).card.points]
-    kills = read_kills(TESTS / "authoring/kills" / name)
-    return max(kills, key=lambda each: order.index(each[0].check))[1]
+    """Of the solution, as it is kept."""
+    return unpacked(kept_here().evidence(lab(name), "solution").read_bytes())
 
 
 def told(checks: tuple[CheckResult, ...]) -> list[CheckResult]:

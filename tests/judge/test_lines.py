@@ -104,6 +104,7 @@ LINES_OF_A_PROCESS = {
     "judge/lines.py": "what it wrote",
     "judge/views.py": "the lines of its end",
     "judge/unobserved.py": "how often it writes: a rate",
+    "judge/floods.py": "the last lines of what has no end",
     "drills/answers.py": "predictions are of what a terminal shows",
 }
 """Who reads the terminal or /rosout itself, and why."""

@@ -20,7 +20,7 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from dataclasses import is_dataclass
-from inspect import getmembers, isclass
+from inspect import getmembers, isabstract, isclass
 from types import ModuleType
 from typing import Any, get_args
 
@@ -198,12 +198,12 @@ def _held_by(annotation: Any) -> Iterator[type[Contract]]:
 
 
 def _faults_of(known: Capability[Any]) -> Iterator[type[Fault]]:
-    """The faults of its room that stand for themselves: no other of them is made of them."""
+    """The faults of its room that can be raised: an abstract one is what others have in common."""
     for name in _modules_of(known):
         if ".faults" in name:
             for _, fault in getmembers(importlib.import_module(name), isclass):
-                if issubclass(fault, Fault) and fault.__module__ == name:
-                    yield fault
+                if fault.__module__ == name and issubclass(fault, Fault):
+                    yield from () if isabstract(fault) else (fault,)
 
 
 def _modules_of(known: Capability[Any]) -> Iterator[str]:

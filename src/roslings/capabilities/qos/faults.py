@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -11,7 +12,7 @@ from roslings.judge.faults import CALLS, EndpointKind, Fault
 
 
 @dataclass(eq=False)
-class OtherPromise(Fault):
+class OtherPromise(Fault, ABC):
     """What a publisher offers, or a subscription asks for, is not the card's."""
 
     source: ClassVar[str] = "rclpy.qos"
@@ -26,9 +27,9 @@ class OtherPromise(Fault):
         return "offers" if self.kind == "publisher" else "asks for"
 
     @property
+    @abstractmethod
     def advice(self) -> str:
         """The word of QoSProfile, as Python for rclpy."""
-        raise NotImplementedError
 
     @property
     def hint(self) -> str:
