@@ -166,6 +166,7 @@ def stale_labs(before: Measuring, after: Measuring) -> set[str]:
     return {name for name, lab in LABS.items() if before.experiments(lab) != after.experiments(lab)}
 
 
+@pytest.mark.slow
 def test_a_comment_makes_nothing_stale(copy: Path, now: Measuring) -> None:
     """Nor does a docstring, or a blank line."""
     for module in now.shared:
@@ -176,6 +177,7 @@ def test_a_comment_makes_nothing_stale(copy: Path, now: Measuring) -> None:
     assert after.core == now.core and not stale_labs(now, after)
 
 
+@pytest.mark.slow
 def test_a_module_that_moves_makes_nothing_stale(copy: Path, now: Measuring) -> None:
     """Under another name in another room, with its imports brought up to date."""
     (copy / "roslings/exits.py").rename(copy / "roslings/judge/endings.py")
@@ -189,6 +191,7 @@ def test_a_module_that_moves_makes_nothing_stale(copy: Path, now: Measuring) -> 
     assert now.modules.digest("roslings.exits") == after.modules.digest("roslings.judge.endings")
 
 
+@pytest.mark.slow
 def test_another_thing_of_the_same_name_is_another(copy: Path, now: Measuring) -> None:
     """`same` from elsewhere: no word of the module but its import is another."""
     before = now.modules.digest("roslings.experiment.simulated")
@@ -198,6 +201,7 @@ def test_another_thing_of_the_same_name_is_another(copy: Path, now: Measuring) -
     assert measured_by(copy).modules.digest("roslings.experiment.simulated") != before
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "module",
     [
@@ -215,6 +219,7 @@ def test_a_change_of_what_all_share_is_one_of_the_core(
     assert measured_by(copy).core != now.core
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("module", "labs"),
     [
@@ -237,6 +242,7 @@ def test_what_one_lab_is_measured_with_makes_that_lab_stale(
     assert stale_labs(now, after) == labs and after.core == now.core
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "module", ["roslings.judge.demands", "roslings.capabilities.topics.demands"]
 )
@@ -397,7 +403,8 @@ def wrong_ones(folder: Folder) -> dict[str, str]:
     return {each.about: each.problem for each in found}
 
 
-ONE, OTHER = "mutant rate_2_hz", "mutant text_misspelt"
+ONE, OTHER = [name for name in kept_here().lines(LABS["nodes"]) if name.startswith("mutant ")][:2]
+"""Two of those that are kept."""
 
 
 def spoil(folder: Folder, name: str, **changes: object) -> None:
