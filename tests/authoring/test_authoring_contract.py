@@ -156,6 +156,12 @@ def course(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
+def as_author(*words: str, cwd: Path) -> subprocess.CompletedProcess[str]:
+    """What an author of a lab types, to its end."""
+    command = [sys.executable, "-m", *words]
+    return subprocess.run(command, capture_output=True, text=True, check=False, cwd=cwd)
+
+
 @pytest.mark.slow
 def test_a_word_that_nothing_judges_is_told_with_its_line(course: Path) -> None:
     """A lab of one's own: one word more on the card, and no check that looks at it."""
@@ -165,8 +171,8 @@ def test_a_word_that_nothing_judges_is_told_with_its_line(course: Path) -> None:
     file.write_text(yaml.safe_dump(tree, sort_keys=False), "utf-8")
     line = next(n for n, x in enumerate(file.read_text().splitlines(), 1) if "I am alive" in x)
     words = len(words_of(file))
-    command = [sys.executable, "-m", "roslings", "prove", "example", "--contract"]
-    done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=course)
+    as_author("roslings.course.task", "example", cwd=course).check_returncode()
+    done = as_author("roslings", "prove", "example", "--contract", cwd=course)
     assert done.returncode == 1, done.stderr
     wrong = [line for line in done.stdout.splitlines() if line.startswith("WRONG")]
     assert wrong == [f"WRONG  example: card.yaml:{line}: nodes.beacon.log is judged"]

@@ -149,3 +149,8 @@ class DrillCard(Contract):
         told = self.says or self.tells or self.gives or self.takes
         asked = (told, self.beside, self.exits is not None, talks)
         return speaks and self.program == "python" and not any(asked)
+
+    @property
+    def waits_for_answers(self) -> bool:
+        """It asks others for something, and cannot go on where no answer comes."""
+        return bool(self.takes) or any(node.calls for node in self.nodes)

@@ -277,11 +277,15 @@ def _never_prints(text: str) -> Callable[[ExperimentView], None]:
 
 
 def _no_traceback(card: DrillCard) -> Callable[[ExperimentView], None]:
-    """Of a program that ends: that it does not, or ends with an error, is told before all else."""
+    """Of a program that ends: that it does not, or ends with an error, is told before all else.
+
+    One that waits for an answer runs on since it did not ask: what it did not ask is told.
+    """
 
     def demand(view: ExperimentView) -> None:
         broke = any(line.startswith("Traceback") for line in _lines(view))
-        if broke or not view.seen.processes[PROGRAM].ended_by_itself:
+        runs_on = not view.seen.processes[PROGRAM].ended_by_itself
+        if broke or (runs_on and not card.waits_for_answers):
             _require_exit(card, view)
 
     return demand

@@ -267,10 +267,8 @@ def _heard(scene: Scene, tell: Tell) -> int:
 
 def _await_output(card: DrillCard, scene: Scene, process: Process) -> None:
     """Wait for what must be printed, and for the end of a program that ends by itself."""
-    asks = card.takes or any(node.calls for node in card.nodes)
-    if card.exits is not None and (
-        scene.seen.part(ServicesSeen).served or scene.seen.part(ActionsSeen).orders or not asks
-    ):
+    answered = scene.seen.part(ServicesSeen).served or scene.seen.part(ActionsSeen).orders
+    if card.exits is not None and (answered or not card.waits_for_answers):
         scene.until_own(lambda: not process.alive, ENDS_WITHIN_S)
         process.wait_ended(0.0 if process.alive else ENDS_WITHIN_S)
     elif card.prints:
