@@ -7,8 +7,8 @@ test (`tests/costs.py`), DUE one for each package that was due (`prove --due --t
 proven where it was measured live, or where its kept evidence was judged. The last line says what is
 proven and no more: what was skipped is not, and it says for want of what (`tests/machine.py`).
 Ends with 1 where a stage failed, where nothing asked for a mutant or a rogue that lies in this
-clone, where fewer than `FEWEST` of a kind were graded, where all was skipped, or where something
-was skipped for no known reason.
+clone, where something was due and not measured, where fewer than `FEWEST` of a kind were graded,
+where all was skipped, or where something was skipped for no known reason.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ import sys
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 import yaml
@@ -30,6 +31,7 @@ SLOWEST = 20
 KEPT = re.compile(r"test_authoring_proofs\.py::test_what_is_kept_shows_what_it_must\[(.+)\]$")
 ROGUE = re.compile(r"test_rogues\.py::test_a_(?:wild_)?rogue_is_contained\[(.+)\]$")
 USERS = ("ordinary", "root")
+VERDICTS = ("passed", "failed")
 MUTANTS, ROGUES = "mutants", "rogues"
 FEWEST = {MUTANTS: 120, ROGUES: 30}
 """A run that graded fewer of them has shown too little, whatever kept it from more."""
@@ -104,17 +106,52 @@ def kept_mutants(tests: Sequence[Test]) -> dict[str, str]:
     }
 
 
-def live_mutants(file: Path) -> dict[str, str]:
-    """LAB-MUTANT of each that was due, to what came of it."""
+@dataclass(frozen=True)
+class WasDue:
+    """What came of the packages that were due."""
+
+    outcomes: dict[str, str]
+    """A package's name to passed, failed, unclear (it could not be told) or unmeasured."""
+
+    def number(self, word: str) -> int:
+        """How many came to this."""
+        return sum(found == word for found in self.outcomes.values())
+
+    @property
+    def mutants(self) -> dict[str, str]:
+        """LAB-MUTANT of each, to passed, failed or skipped."""
+        return {
+            name.replace(": mutant ", "-"): outcome if outcome in VERDICTS else "skipped"
+            for name, outcome in self.outcomes.items()
+            if ": mutant " in name
+        }
+
+    @property
+    def measured(self) -> dict[str, str]:
+        """The mutants of which a verdict was told."""
+        return {name: word for name, word in self.mutants.items() if word in VERDICTS}
+
+    def wrong(self) -> Iterator[str]:
+        """What is due is never let through unmeasured."""
+        if left := self.number("unmeasured"):
+            yield (
+                f"no time was left for {left} of {len(self.outcomes)} packages that were due;"
+                " at home, ./roslings prove --record --due measures and keeps them"
+            )
+
+    def unclear(self) -> Iterator[str]:
+        """What could not be told proves nothing."""
+        if left := self.number("unclear"):
+            yield f"{left} of {len(self.outcomes)} packages that were due could not be told"
+
+
+def was_due(file: Path) -> WasDue:
+    """As `prove --due --told` wrote it."""
     lines = file.read_text("utf-8").splitlines() if file.exists() else []
-    found = {each["package"]: each["outcome"] for each in map(json.loads, lines)}
-    return {
-        name.replace(": mutant ", "-"): outcome
-        for name, outcome in found.items()
-        if ": mutant " in name
-    }
+    return WasDue({each["package"]: each["outcome"] for each in map(json.loads, lines)})
 
 
+@cache
 def rogues(user: str) -> frozenset[str]:
     """Each place of each file, and each parcel; as root those for which that makes a difference."""
     from parcels import PARCELS
@@ -130,10 +167,11 @@ def outcomes(tests: Sequence[Test], name: re.Pattern[str]) -> dict[str, str]:
     return {found[1]: each.outcome for each in tests if (found := name.search(each.test))}
 
 
-def counts(tests: Sequence[Test], live: dict[str, str]) -> Iterator[Count]:
-    """Of mutants, and of rogues by user."""
+def counts(tests: Sequence[Test], due: WasDue) -> Iterator[Count]:
+    """Of mutants, and of rogues by user. What could not be told leaves what is kept as it is."""
     there = mutants()
-    found = {name: word for name, word in (kept_mutants(tests) | live).items() if name in there}
+    known = due.mutants | kept_mutants(tests) | due.measured
+    found = {name: word for name, word in known.items() if name in there}
     yield Count(MUTANTS, there, found, "Mutants")
     of_users = outcomes(tests, ROGUE)
     for user in USERS:
@@ -167,14 +205,14 @@ def main(stages_file: Path, costs_file: Path, due_file: Path) -> int:
         print(f"{wall_s:9.0f} {cpu_s:7.0f}  {name}{'' if status == 0 else '  FAILED'}")
     print(f"{sum(r[0] for r in run):9.0f} {sum(r[1] for r in run):7.0f}  all")
     print("== What was graded ==")
-    live = live_mutants(due_file)
-    found = list(counts(tests, live))
+    due = was_due(due_file)
+    found = list(counts(tests, due))
     for count in found:
         print("\n".join(count.lines()))
-    print(f"Mutants measured live at this landing: {len(live)}")
+    print(f"Mutants measured live at this landing: {len(due.measured)}")
     print(told_of_unsteady(stages_file.with_name("unsteady")))
-    wrong = [*broken(run, found), *unfounded(tests)]
-    print(f"FAILED: {'; '.join(wrong)}" if wrong else proven(tests, found))
+    wrong = [*broken(run, found), *due.wrong(), *unfounded(tests)]
+    print(f"FAILED: {'; '.join(wrong)}" if wrong else proven(tests, found, due))
     return int(bool(wrong))
 
 
@@ -207,12 +245,12 @@ def unfounded(tests: Sequence[Test]) -> Iterator[str]:
         yield f"{unnamed} tests were skipped for no reason that tests/machine.py names"
 
 
-def proven(tests: Sequence[Test], found: Sequence[Count]) -> str:
+def proven(tests: Sequence[Test], found: Sequence[Count], due: WasDue) -> str:
     """The last line of a run that passed: it says no more than was proven."""
     skipped = [each for each in tests if each.outcome == "skipped"]
     out_of_time = sum(_kind(each) == "time" for each in skipped)
     of_machine = [each for each in skipped if _kind(each) == "machine"]
-    parts = []
+    parts = [*due.unclear()]
     if any(count.unproven for count in found):
         parts += [", ".join(f"{c.unproven} of {len(c.there)} {_named(c)}" for c in found)]
     if out_of_time:

@@ -6,20 +6,17 @@ import getpass
 import re
 import socket
 import sys
-from pathlib import Path
 
 import pytest
+from kills_of_old import LABS, read_kills
 
 from roslings.authoring.anonymous import for_judging, replacements, without_machine
-from roslings.authoring.generated.kills import read_kills
 from roslings.capabilities.camera.record import CameraSeen, PictureKept
 from roslings.course import lab, root
 from roslings.evidence import Evidence, LogLine, evidence_json, read_json
 from roslings.judge import judge
 from roslings.verdict import CheckResult
 
-KILLS = Path(__file__).parent / "kills"
-LABS = sorted(folder.name for folder in KILLS.iterdir())
 GRADING = "/var/tmp/roslings-1000-a_b1c2d3"
 SAID = {
     f'File "{GRADING}/room/build/chatter/talker.py", line 3': (
@@ -44,7 +41,7 @@ SAID = {
 
 def some_evidence(name: str = "topics") -> Evidence:
     """Of a wrong package of a lab."""
-    return next(read_kills(KILLS / name))[1]
+    return next(read_kills(name))[1]
 
 
 @pytest.mark.parametrize("said", SAID)
@@ -61,7 +58,7 @@ def test_words_of_the_machine_are_replaced(said: str) -> None:
 def test_real_evidence_tells_nothing_of_its_machine(name: str) -> None:
     """No folder of a grading, of this course, of a person or of Python; no kernel."""
     own = "|".join(map(re.escape, (str(root()), f"/home/{getpass.getuser()}", sys.base_prefix)))
-    for kill, evidence in read_kills(KILLS / name):
+    for kill, evidence in read_kills(name):
         text = evidence_json(without_machine(evidence)).decode()
         assert not re.search(rf"roslings-\d+-|devices/tmp|(?:{own})/", text), kill.package
         assert not re.search(r"Linux \d", text), kill.package
@@ -70,7 +67,7 @@ def test_real_evidence_tells_nothing_of_its_machine(name: str) -> None:
 @pytest.mark.parametrize("name", LABS)
 def test_what_is_kept_is_judged_in_the_same_words(name: str) -> None:
     """But for the names of folders in what is quoted."""
-    for kill, evidence in read_kills(KILLS / name):
+    for kill, evidence in read_kills(name):
         kept = for_judging(without_machine(evidence))
         before, now = (judge(lab(name), each).checks for each in (evidence, kept))
         assert [facts(check) for check in now] == [facts(check) for check in before], kill.package

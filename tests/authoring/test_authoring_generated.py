@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import shutil
 from collections import Counter
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -15,12 +16,16 @@ from roslings.authoring.generated import choice, life
 from roslings.authoring.generated import run as running
 from roslings.authoring.generated.choice import Generated, chosen, generated
 from roslings.authoring.generated.explained import FILE, explained
-from roslings.authoring.generated.kills import read_kills
+from roslings.authoring.generated.kills import kill_of
 from roslings.authoring.generated.operators import OPERATORS
 from roslings.authoring.generated.packages import Fate, Wrong, fate_of, judged_by
 from roslings.authoring.generated.run import AlreadyProving, Keeping, prove_generated
 from roslings.authoring.generated.source import read_source
 from roslings.authoring.generated.table import HEAD, Outcome, told
+from roslings.authoring.proofs.digests import measuring
+from roslings.authoring.proofs.kept import Folder, name_in
+from roslings.authoring.proofs.kills import KnownKill, kills_in, write_kills
+from roslings.authoring.proofs.record import Recorder
 from roslings.authoring.release import is_for_students
 from roslings.batch import grading
 from roslings.batch.alone import alone_in
@@ -31,13 +36,9 @@ from roslings.batch.submissions import digest_of
 from roslings.course import Lab, lab
 from roslings.course.files import BadCourseFile
 from roslings.course.labs import example_root
-from roslings.evidence import Evidence
-from roslings.judge import judge
 from roslings.verdict import CheckOutcome, CheckResult, Environment, Timings, Verdict, outcome_of
 
 EXAMPLE = lab("example")
-KILLS = Path(__file__).parent / "kills"
-KEPT = sorted(folder for folder in KILLS.iterdir() if folder.is_dir())
 
 
 # --- the operators -----------------------------------------------------------------------------
@@ -463,8 +464,8 @@ def test_a_run_goes_on_where_it_was_ended(course: Lab, tmp_path: Path) -> None:
     looking = Keeping(keeping.folder, so_far=True)
     now = list(prove_generated([course], partial(_note, []), 1, looking))
     assert now[0].line.startswith("open   0 of 3 packages are graded")
-    ((kill, evidence),) = read_kills(tmp_path / "kills" / "example")
-    assert failing(course, evidence) >= {kill.check}
+    (kill,) = kills_in(tmp_path / "kills", course)
+    assert kill.applies(course)
     with gradebook(keeping.folder, running.BOOK) as book:
         assert {each.attempt for each in book.latest().values()} == {1}
 
@@ -500,21 +501,33 @@ def _saw(size: int, order: Order) -> None:
 # --- known kills -------------------------------------------------------------------------------
 
 
-def failing(own: Lab, evidence: Evidence) -> set[str]:
-    """The checks that fail by today's card and grader."""
-    return {each.id for each in judge(own, evidence).checks if each.outcome == "fail"}
+def all_changes() -> Iterator[Generated]:
+    """Some of labs with one file and with many, by all operators."""
+    for own in (lab("topics"), lab("actions"), EXAMPLE):
+        yield from generated(own)[:40]
 
 
-@pytest.mark.parametrize("folder", KEPT, ids=lambda folder: folder.name)
-def test_what_was_caught_is_caught(folder: Path) -> None:
-    """The saved evidence of known kills, judged by today's grader: the same check fails.
+def test_a_kill_is_made_of_the_solution_again(tmp_path: Path) -> None:
+    """The edit that is kept of a change makes the same file, of lines that stand once."""
+    for number, change in enumerate(all_changes()):
+        kill = kill_of(change, "some")
+        assert kill.applies(change.lab), change.name
+        made = KnownKill(change.lab, kill).make(tmp_path / str(number))
+        file = made / change.lab.card.package / change.file
+        assert file.read_text("utf-8") == change.after, change.name
 
-    Made by: ./roslings prove LAB --generated --keep-kills tests/authoring/kills
-    """
-    own = lab(folder.name)
-    assert len(list(folder.glob("*.evidence"))) == len(list(read_kills(folder)))
-    missed = {
-        kill.package: kill.check
-        for kill, evidence in read_kills(folder) if kill.check not in failing(own, evidence)
-    }  # fmt: skip
-    assert missed == {}
+
+def test_a_kill_whose_line_is_gone_is_left_out_and_told(course: Lab, tmp_path: Path) -> None:
+    """It is no package any more; the command that names others is told."""
+    folder = Folder(tmp_path / "proofs")
+    kills = [kill_of(each, "text") for each in generated(course)]
+    write_kills(folder.path, course, kills)
+    names = [kill.name for kill in kills]
+    assert [name_in(course, each)[5:] for each in folder.packages(course)[-3:]] == names
+    file = course.solution / kills[0].edit.file
+    file.write_text(file.read_text("utf-8").replace(kills[0].edit.find, ""), "utf-8")
+    assert names[0] not in str(folder.packages(course))
+    (told,) = Recorder(folder, measuring()).forget_dead_kills([course])
+    assert "of its known kills fit the solution no longer, and go" in told.line
+    assert f"prove {course.name} --generated --keep-kills" in told.line
+    assert names[0] not in {kill.name for kill in kills_in(folder.path, course)}

@@ -15,13 +15,13 @@ import pytest
 from roslings.authoring.proofs.digests import Measuring, measuring
 from roslings.authoring.proofs.due import AT_EACH_LANDING, PART, Proofs, Standing
 from roslings.authoring.proofs.kept import LARGEST_BYTES, MOST_BYTES, Folder, KeptProof, kept_here
-from roslings.authoring.prove import Package, Solution, Starter, packages_of
+from roslings.authoring.prove import Package, Solution, Starter
 from roslings.course import all_labs, lab, root
 
 PAGE = (root() / "site/pages/teachers/kept-proofs.md").read_text("utf-8")
 WORDS = " ".join(PAGE.split())
 LABS = all_labs()
-PACKAGES = [package for each in LABS for package in packages_of(each)]
+PACKAGES = [package for each in LABS for package in kept_here().packages(each)]
 MUTANTS = [package for package in PACKAGES if not isinstance(package, Solution | Starter)]
 ALWAYS = len(PACKAGES) - len(MUTANTS)
 FIFTH = math.ceil(len(PACKAGES) / PART)
@@ -146,5 +146,5 @@ def test_kept_judges_one_lab(tmp_path: Path) -> None:
     assert done.returncode == 0, done.stdout + done.stderr
     lines = kept_here().lines(lab("nodes"))
     assert len(re.findall(r"^ok     nodes: ", done.stdout, re.M)) == len(lines)
-    never = len(packages_of(lab("nodes"))) - len(lines)
+    never = len(kept_here().packages(lab("nodes"))) - len(lines)
     assert (f"nodes: {never} to be measured anew: it was never" in done.stdout) == bool(never)

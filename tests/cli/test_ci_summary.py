@@ -5,7 +5,12 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from contextlib import redirect_stdout
+from functools import cache
+from importlib.util import module_from_spec, spec_from_file_location
+from io import StringIO
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 
@@ -44,16 +49,34 @@ def summary(
         for number, (name, outcome) in enumerate(outcomes.items())
     )
     (folder / "costs").write_text("".join(f"{json.dumps(cost)}\n" for cost in costs), "utf-8")
-    words = [sys.executable, str(SUMMARY), *(str(folder / name) for name in FILES)]
-    done = subprocess.run(words, capture_output=True, text=True, check=False)
-    assert "Traceback" not in done.stderr, done.stderr
-    return done.returncode, done.stdout
+    with redirect_stdout(StringIO()) as said:
+        status = loaded().main(*(folder / name for name in FILES))
+    return status, said.getvalue()
+
+
+@cache
+def loaded() -> ModuleType:
+    """`.ci/summary.py`, which is no module of the engine."""
+    spec = spec_from_file_location("summary", SUMMARY)
+    assert spec and spec.loader
+    module = sys.modules["summary"] = module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
 
 
 def came_of(outcome: str) -> dict[str, str]:
     """As `tests/costs.py` writes it; `skipped` alone is for want of time."""
     word, _, lack = outcome.partition(": ")
     return {"outcome": word, "lack": lack or ("time for slow tests" if word == "skipped" else "")}
+
+
+def test_it_is_a_program_as_well(tmp_path: Path) -> None:
+    """As `.ci/run` starts it: its status is that of the run."""
+    status, words = summary(tmp_path, {}, "1.0 1.0 0 One\n")
+    files = [str(tmp_path / name) for name in FILES]
+    command = [sys.executable, str(SUMMARY), *files]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout) == (status, words), done.stderr
 
 
 def test_what_was_not_graded_is_named(tmp_path: Path) -> None:
@@ -77,6 +100,7 @@ def package(mutant: str) -> str:
     return f"{lab}: mutant {mutant.removeprefix(f'{lab}-')}"
 
 
+@cache
 def all_of_them(folder: Path) -> dict[str, list[str]]:
     """The tests of all mutants and of all rogues: what a run with no test misses."""
     _, words = summary(folder, {}, "1.0 1.0 0 One\n")
@@ -100,8 +124,9 @@ def of_all(folder: Path, **skipped: int) -> tuple[int, str]:
     """The end of a run in which so many of each kind were skipped, and all others passed."""
     outcomes: dict[str, str] = {}
     for kind, tests in all_of_them(folder).items():
+        left_out = "unclear" if kind == MUTANT else "skipped"
         outcomes |= dict.fromkeys(tests, "passed")
-        outcomes |= dict.fromkeys(tests[: skipped.get(kind, 0)], "skipped")
+        outcomes |= dict.fromkeys(tests[: skipped.get(kind, 0)], left_out)
     return summary(folder, outcomes, "1.0 1.0 0 One\n")
 
 
@@ -204,6 +229,28 @@ def test_what_was_measured_live_counts_before_what_is_kept(tmp_path: Path) -> No
     _, words = summary(tmp_path, kept, "1 1 0 One\n", {package(one): "failed"})
     assert f"Mutants: {len(KEPT_ONES)} of {len(MUTANTS)} proven, 1 wrong" in words
     assert "Mutants measured live at this landing: 1" in words
+
+
+def test_what_was_due_and_not_measured_fails_the_run(tmp_path: Path) -> None:
+    """Whatever kind of package it is; how to measure it stands in the last line."""
+    due = {"topics: solution": "passed", "topics: kill sign-talker.py:3-0": "unmeasured"}
+    outcomes = {name: "passed" for names in all_of_them(tmp_path).values() for name in names}
+    status, words = summary(tmp_path, outcomes, "1 1 0 One\n", due)
+    total = len(MUTANTS) + len(due)
+    wanted = f"FAILED: no time was left for 1 of {total} packages that were due;"
+    assert status == 1 and last(words).startswith(wanted)
+    assert last(words).endswith("./roslings prove --record --due measures and keeps them")
+
+
+def test_what_could_not_be_told_leaves_its_proof_as_old_as_it_was(tmp_path: Path) -> None:
+    """Its kept evidence still counts; the last line has the number all the same."""
+    outcomes = {name: "passed" for names in all_of_them(tmp_path).values() for name in names}
+    outcomes |= {f"{KEPT}[{lab.name}]": "passed" for lab in all_labs()}
+    outcomes[package(min(KEPT_ONES))] = "unclear"
+    status, words = summary(tmp_path, outcomes, "1 1 0 One\n")
+    assert f"Mutants: {len(MUTANTS)} of {len(MUTANTS)} proven, 0 wrong" in words
+    wanted = f"1 of {len(MUTANTS)} packages that were due could not be told"
+    assert (status, last(words)) == (0, f"Passed, but NOT PROVEN: {wanted}.")
 
 
 def test_unsteady_ones_are_counted_and_fail_nothing(tmp_path: Path) -> None:

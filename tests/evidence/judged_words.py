@@ -3,7 +3,7 @@
     .venv/bin/python tests/evidence/judged_words.py       writes `words.json.xz` of each lab anew
 
 `schema1/LAB/` holds evidence of the lab's solution, as `check --evidence` wrote it; more evidence,
-of wrong packages, lies in tests/authoring/kills. Write the words anew only where a text or a rule
+of wrong packages, lies in tests/evidence/kills. Write the words anew only where a text or a rule
 of judging is meant to change, and look at what changed.
 """
 
@@ -15,14 +15,14 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from roslings.authoring.generated.kills import read_kills
+from kills_of_old import read_kills
+
 from roslings.course import lab
 from roslings.evidence import Evidence, read_json
 from roslings.judge import judge
 from roslings.verdict import CheckResult
 
 HERE = Path(__file__).parent
-KILLS = HERE.parent / "authoring" / "kills"
 LABS = tuple(sorted(folder.name for folder in (HERE / "schema1").iterdir()))
 TOLD = {"id", "outcome", "points", "expected", "measured", "why", "hint", "fault", "log"}
 """What judging says of a check. Titles and the three hints are the course's texts."""
@@ -52,7 +52,7 @@ def evidence_of(name: str) -> Iterator[tuple[str, Evidence]]:
     packed = HERE / "schema1" / name / "solution.json.xz"
     if packed.is_file():
         yield "solution", read_json(lzma.decompress(packed.read_bytes()))
-    for kill, evidence in read_kills(KILLS / name):
+    for kill, evidence in read_kills(name):
         yield kill.package, evidence
 
 

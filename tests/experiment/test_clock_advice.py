@@ -10,10 +10,10 @@ from pathlib import Path
 from typing import Literal
 
 import pytest
+from kills_of_old import LABS, read_kills
 from recorded_evidence import recorded
 from watching import HERE, watched
 
-from roslings.authoring.generated.kills import read_kills
 from roslings.course import all_labs
 from roslings.evidence import (
     Endpoint,
@@ -31,7 +31,6 @@ from roslings.evidence import (
 from roslings.experiment.clock_advice import advice_on_clocks, note_who_ignores_the_clock
 
 TESTS = Path(__file__).parents[1]
-KILLS = sorted(each for each in (TESTS / "authoring/kills").iterdir() if each.is_dir())
 SOLUTIONS = sorted((TESTS / "evidence/schema1").glob("*/solution.json.xz"))
 NS = 10**9
 TOPIC = "/chatter"
@@ -180,9 +179,9 @@ def of_every_lab() -> Iterator[tuple[str, Evidence]]:
     """The recorded evidence of every lab: its solution's, or packages with one thing wrong."""
     for file in SOLUTIONS:
         yield file.parent.name, read_json(lzma.decompress(file.read_bytes()))
-    for folder in KILLS:
-        for kill, evidence in read_kills(folder):
-            yield f"{folder.name} {kill.diff}", evidence
+    for name in LABS:
+        for kill, evidence in read_kills(name):
+            yield f"{name} {kill.diff}", evidence
 
 
 def test_no_lab_hears_a_remark_that_its_code_does_not_deserve() -> None:

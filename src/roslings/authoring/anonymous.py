@@ -9,11 +9,13 @@ it. Each is replaced by one word everywhere, so that what belongs together still
 
 from __future__ import annotations
 
+import json
 import re
 import socket
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 from roslings import course
 from roslings.evidence import Evidence, evidence_json, read_json
@@ -33,9 +35,16 @@ def without_machine(evidence: Evidence) -> Evidence:
     return anywhere
 
 
+TIMES = frozenset({"source_ns", "arrival_ns", "sent_ns", "at_ns"})
+"""When something was said, heard, or was somewhere. What an experiment began or a stamp says is
+compared with equal ones, and stays as it is."""
+FINEST_NS = 10_000
+"""No card asks for less than a millisecond. Finer digits are noise, and a third of all bytes."""
+
+
 def for_judging(evidence: Evidence) -> Evidence:
-    """The same evidence without what only a page shows."""
-    kept = evidence.model_copy(deep=True)
+    """The same evidence without what only a page shows, and with times to 10 microseconds."""
+    kept = read_json(json.dumps(coarse(json.loads(evidence_json(evidence)))).encode())
     kept.timeline = []
     for part in [part for seen in kept.runs for part in seen.parts.values()]:
         for name in part.FOR_READERS:
@@ -43,6 +52,15 @@ def for_judging(evidence: Evidence) -> Evidence:
                 part, name, type(part).model_fields[name].get_default(call_default_factory=True)
             )
     return kept
+
+
+def coarse(said: Any, name: str = "") -> Any:
+    """The same, with times rounded down: which of two came first stays as it was."""
+    if isinstance(said, dict):
+        return {key: coarse(each, key) for key, each in said.items()}
+    if isinstance(said, list):
+        return [coarse(each, name) for each in said]
+    return said // FINEST_NS * FINEST_NS if name in TIMES and isinstance(said, int) else said
 
 
 def replacements() -> Iterator[Replacement]:

@@ -120,7 +120,7 @@ class Solution:
         """Where it loses points."""
         if result.score is None or result.score == 100:
             return ""
-        return f"{result.score:g} of 100; {_failing(result)}"
+        return f"{result.score:g} of 100; {failing(result)}"
 
 
 @dataclass(frozen=True)
@@ -186,7 +186,7 @@ class Wrong:
         skipped = {check.id for check in checks if check.outcome == "skip"}
         must_skip = dependants(self.lab, set(self.mutant.fails)) | set(self.mutant.skips)
         if set(failed) != set(self.mutant.fails):
-            return _failing(result)
+            return failing(result)
         if skipped - explained(self.lab, failed) != must_skip - explained(self.lab, failed):
             return f"skipped: {_all(sorted(skipped))}; must be: {_all(sorted(must_skip))}"
         wanted = self.mutant.faults
@@ -306,7 +306,8 @@ def proof_of(package: Package, result: Result) -> Proof:
     return Proof(package.about, problem, package=package.name)
 
 
-def _failing(result: Result) -> str:
+def failing(result: Result) -> str:
+    """Which checks fail or are skipped, in one line."""
     failed, skipped = _told(result, "fail"), _told(result, "skip")
     if not failed and skipped:
         return f"no check fails, and these are skipped: {skipped}"

@@ -141,8 +141,8 @@ def prove_options(word: argparse.ArgumentParser) -> None:
         help="with --generated: grade nothing, and tell what is known",
     )  # fmt: skip
     word.add_argument(
-        "--keep-kills", metavar="DIR", type=Path,
-        help="with --generated: put evidence of a few that were caught into DIR/LAB",
+        "--keep-kills", action="store_true",
+        help="with --generated: name a few that were caught, for prove --record",
     )  # fmt: skip
     word.add_argument(
         "--rewritten", action="store_true",

@@ -155,7 +155,7 @@ def _proofs_of(name: str, options: argparse.Namespace) -> Callable[..., Iterable
     if name == "generated":
         from roslings.authoring.generated.run import proofs_for
 
-        return proofs_for(options.keep, options.keep_kills, options.so_far)
+        return proofs_for(options.keep, options.so_far, options.keep_kills)
     if name == "rewritten":
         from roslings.authoring.rewritten import prove_rewritten
 

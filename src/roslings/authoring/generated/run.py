@@ -14,6 +14,7 @@ from roslings.authoring.generated.kills import keep_kills
 from roslings.authoring.generated.life import LIFE
 from roslings.authoring.generated.packages import Fate, Wrong, fate_of
 from roslings.authoring.generated.table import Line, Outcome, told
+from roslings.authoring.proofs.kept import kept_here
 from roslings.authoring.prove import Proof, graded, mixed
 from roslings.batch.alone import alone_in
 from roslings.batch.errors import BatchError
@@ -40,7 +41,7 @@ class Keeping:
 
     folder: Path
     kills: Path | None = None
-    """Where evidence for some kills is put, for the tests."""
+    """The folder of kept proofs, where some kills are named."""
     so_far: bool = False
     """Nothing is graded: what is known is told."""
 
@@ -51,9 +52,10 @@ def usual_place() -> Path:
 
 
 def proofs_for(
-    keep: Path | None, kills: Path | None, so_far: bool
+    keep: Path | None, so_far: bool, keep_kills: bool
 ) -> Callable[[Sequence[Lab], Watcher, int | None], Iterator[Proof | Line]]:
     """Proves labs as the command's options say."""
+    kills = kept_here().path if keep_kills else None
     return partial(prove_generated, keeping=Keeping(keep or usual_place(), kills, so_far))
 
 
@@ -116,8 +118,11 @@ def _kept_kills(
     with gradebook(kept, BOOK) as book:
         for lab in labs:
             killed = [
-                (each.name, each.changed, result) for each, result in results.items()
+                (each, result) for each, result in results.items()
                 if each.lab == lab and fate_of(result) is Fate.KILLED
             ]  # fmt: skip
             count = keep_kills(lab, killed, book, folder)
-            yield Line(f"{lab.name}: the evidence of {count} kills is in {folder / lab.name}")
+            yield Line(
+                f"{lab.name}: {count} kills are named. ./roslings prove --record {lab.name}"
+                " measures them."
+            )

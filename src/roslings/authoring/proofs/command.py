@@ -8,7 +8,6 @@ import time
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass
 from itertools import chain
 from multiprocessing import get_context
 from pathlib import Path
@@ -20,7 +19,7 @@ from roslings.authoring.proofs.digests import measuring
 from roslings.authoring.proofs.due import Due, Proofs, Standing
 from roslings.authoring.proofs.judging import judge_kept
 from roslings.authoring.proofs.kept import kept_here
-from roslings.authoring.proofs.record import Measured, Recorder, measured
+from roslings.authoring.proofs.record import Measured, Recorder, Tally, measured
 from roslings.authoring.prove import HasLine, Package, Proof
 from roslings.batch.scheduler import Watcher
 from roslings.course import Lab, all_labs, root
@@ -28,18 +27,6 @@ from roslings.course import lab as lab_named
 
 UNTIL = "ROSLINGS_MUTANTS_UNTIL"
 """Seconds since 1970: `.ci/run` says how long it has."""
-
-
-@dataclass(frozen=True)
-class Tally:
-    """Something counted."""
-
-    text: str
-
-    @property
-    def line(self) -> str:
-        """It in words."""
-        return self.text
 
 
 def labs_or_all(names: Sequence[str]) -> list[Lab]:
@@ -79,6 +66,7 @@ def recorded(
     """Measure what is stale, or all that is due, and write it down."""
     proofs, before = _proofs(labs), kept_here().bytes
     recorder = Recorder(proofs.folder, proofs.measuring)
+    yield from recorder.forget_dead_kills(labs)
     recorder.judge_anew(labs)
     wanted = _due(proofs) if due else [each.package for each in proofs.stale()]
     yield from recorder.keep(measured(wanted, watcher, jobs))
@@ -91,8 +79,8 @@ class Answer(BaseModel):
 
     package: str
     why: str
-    outcome: Literal["passed", "failed", "skipped"]
-    """`skipped` where no time was left for it, or where it could not be told."""
+    outcome: Literal["passed", "failed", "unclear", "unmeasured"]
+    """`unclear` where it could not be told; `unmeasured` where no time was left for it."""
 
 
 def due(
@@ -100,6 +88,7 @@ def due(
 ) -> Iterator[HasLine]:
     """Measure all that is due, as the gate does, and write no proof.
 
+    What no time was left for is wrong: what is due is never let through unmeasured.
     `file` gets a line of JSON for each package, as `Answer` has it.
     """
     asked = _proofs(labs).due(newest_commit())
@@ -108,23 +97,27 @@ def due(
     }
     proofs = {each.package.name: _proof_of(each.package, found) for each in asked}
     if file:
-        answers = [_answer(each, proofs[each.package.name]) for each in asked]
+        answers = [_answer(each, found.get(each.package.name)) for each in asked]
         file.write_text("".join(f"{each.model_dump_json()}\n" for each in answers), "utf-8")
     yield from proofs.values()
     yield from _told_due(asked, found)
 
 
-def _answer(each: Due, proof: Proof) -> Answer:
-    wrong: Literal["skipped", "failed"] = "skipped" if proof.is_open else "failed"
+def _answer(each: Due, found: Measured | None) -> Answer:
     name = each.package.name
-    return Answer(package=name, why=each.why, outcome="passed" if proof.holds else wrong)
+    if found is None:
+        return Answer(package=name, why=each.why, outcome="unmeasured")
+    if found.proof.holds:
+        return Answer(package=name, why=each.why, outcome="passed")
+    unclear = found.proof.is_open
+    return Answer(package=name, why=each.why, outcome="unclear" if unclear else "failed")
 
 
 def _proof_of(package: Package, found: dict[str, Measured]) -> Proof:
     if package.name in found:
         return found[package.name].proof
-    problem = "no time was left to measure it. ./roslings prove --record --due does"
-    return Proof(package.about, problem, is_open=True, package=package.name)
+    problem = "it is due, and no time was left to measure it. ./roslings prove --record --due does"
+    return Proof(package.about, problem, package=package.name)
 
 
 def _told_due(asked: Sequence[Due], found: dict[str, Measured]) -> Iterator[Tally]:

@@ -19,7 +19,7 @@ from functools import cached_property
 
 from roslings.authoring.proofs.digests import Measuring, card_digest
 from roslings.authoring.proofs.kept import Folder, KeptProof, content_of, name_in
-from roslings.authoring.prove import Package, Solution, Starter, packages_of
+from roslings.authoring.prove import Package, Solution, Starter
 from roslings.course import Lab
 
 PART = 5
@@ -69,7 +69,7 @@ class Proofs:
         experiments = self.measuring.experiments(lab)
         return [
             self._standing(package, lines.get(name_in(lab, package)), card, experiments)
-            for package in packages_of(lab)
+            for package in self.folder.packages(lab)
         ]
 
     def _standing(

@@ -15,7 +15,7 @@ from roslings.authoring.proofs.kept import (
     name_in,
     words_of,
 )
-from roslings.authoring.prove import Package, Proof, packages_of, proof_of
+from roslings.authoring.prove import Package, Proof, proof_of
 from roslings.batch.grading import unpacked
 from roslings.batch.result import Result
 from roslings.course import Lab
@@ -26,7 +26,7 @@ from roslings.verdict import Verdict
 
 def judge_kept(lab: Lab, folder: Folder) -> Iterator[Proof]:
     """All that is kept of a lab: each line with its file, judged by what now judges."""
-    lines, packages = folder.lines(lab), packages_of(lab)
+    lines, packages = folder.lines(lab), folder.packages(lab)
     named = {name_in(lab, package): package for package in packages}
     for name in sorted(lines.keys() - named.keys()):
         yield Proof(f"{lab.name}: {name}", f"a line of it is kept, and it is gone. {MEND}")

@@ -6,6 +6,7 @@ believed only as far as it fits its files: whoever changes one of them changes t
 
 from __future__ import annotations
 
+import re
 import shutil
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -15,6 +16,7 @@ from typing import TypeVar
 
 from pydantic import BaseModel, ConfigDict, TypeAdapter
 
+from roslings.authoring.proofs.kills import kept_packages
 from roslings.authoring.prove import Package
 from roslings.batch.grading import THOROUGHLY, packed
 from roslings.course import Lab, root
@@ -43,7 +45,7 @@ class KeptProof(BaseModel):
     model_config = ConfigDict(frozen=True)
 
     package: str
-    """`solution`, `starter` or `mutant NAME`."""
+    """`solution`, `starter`, `mutant NAME` or `kill NAME`."""
     content: str
     """Digest of its files; the evidence carries the same one."""
     card: str
@@ -97,6 +99,10 @@ class Folder:
 
     path: Path
 
+    def packages(self, lab: Lab) -> list[Package]:
+        """All of a lab that has a line here: what proves the lab, and its known kills."""
+        return kept_packages(lab, self.path)
+
     def lines(self, lab: Lab) -> dict[str, KeptProof]:
         """Package's name to its line."""
         found = _read(self.path / f"{lab.name}.jsonl", KeptProof)
@@ -109,7 +115,7 @@ class Folder:
 
     def evidence(self, lab: Lab, package: str) -> Path:
         """The file with a package's evidence."""
-        return self.path / lab.name / f"{package.replace(' ', '-')}{ENDING}"
+        return self.path / lab.name / f"{re.sub('[ :]', '-', package)}{ENDING}"
 
     def files(self, lab: Lab) -> set[Path]:
         """All evidence that lies there for a lab."""

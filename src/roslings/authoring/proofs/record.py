@@ -21,7 +21,8 @@ from roslings.authoring.proofs.kept import (
     pack,
     words_of,
 )
-from roslings.authoring.prove import Package, Proof, graded, mixed, packages_of, proof_of
+from roslings.authoring.proofs.kills import kills_in, write_kills
+from roslings.authoring.prove import Package, Proof, graded, mixed, proof_of
 from roslings.batch.gradebook import gradebook
 from roslings.batch.grading import unpacked
 from roslings.batch.scheduler import Watcher, always
@@ -31,6 +32,20 @@ from roslings.experiment.run_folder import run_folder
 from roslings.judge import judge
 
 AT_A_TIME = 16
+
+
+@dataclass(frozen=True)
+class Tally:
+    """Something counted."""
+
+    text: str
+
+    @property
+    def line(self) -> str:
+        """It in words."""
+        return self.text
+
+
 BOOK = "book"
 
 
@@ -118,14 +133,26 @@ class Recorder:
 
     def write(self, lab: Lab, lines: Mapping[str, KeptProof]) -> None:
         """The lines of a lab, in the order of its packages; what is gone from the lab goes."""
-        self.folder.write(lab, lines, [name_in(lab, each) for each in packages_of(lab)])
+        self.folder.write(lab, lines, [name_in(lab, each) for each in self.folder.packages(lab)])
 
     def judge_anew(self, labs: Iterable[Lab]) -> None:
         """Write what is judged today into lines whose evidence shows what it must."""
         for lab in labs:
             lines = self.folder.lines(lab)
-            packages = {name_in(lab, each): each for each in packages_of(lab)}
+            packages = {name_in(lab, each): each for each in self.folder.packages(lab)}
             for name in lines.keys() & packages.keys():
                 if now := words_now(packages[name], lines[name], self.folder):
                     lines[name] = lines[name].model_copy(update={"checks": now})
             self.write(lab, lines)
+
+    def forget_dead_kills(self, labs: Iterable[Lab]) -> Iterator[Tally]:
+        """A kill is none once the solution has its line no longer."""
+        for lab in labs:
+            known = kills_in(self.folder.path, lab)
+            alive = [each for each in known if each.applies(lab)]
+            if dead := len(known) - len(alive):
+                write_kills(self.folder.path, lab, alive)
+                yield Tally(
+                    f"{lab.name}: {dead} of its known kills fit the solution no longer, and go."
+                    f" ./roslings prove {lab.name} --generated --keep-kills names others."
+                )
