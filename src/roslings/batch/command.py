@@ -18,7 +18,7 @@ from roslings.batch.gradebook import Gradebook, gradebook
 from roslings.batch.grades import LateRule
 from roslings.batch.messages import soak_line, standing_line, summary_lines
 from roslings.batch.moodle_worksheet import read_worksheet
-from roslings.batch.roster import insist_on_owners
+from roslings.batch.roster import insist_on_owners, read_roster
 from roslings.batch.scheduler import GradingRequest, Scheduler, Standing
 from roslings.batch.submissions import Submission
 from roslings.batch.worker_pool import Limits
@@ -81,7 +81,8 @@ def grade(choices: Choices) -> Report:
     """
     lab = course.lab(choices.lab, choices.hidden)
     _ = lab.card, lab.hints  # a mistake in the course is told before anything is run
-    with submissions_at(choices.submissions) as submissions:
+    students = read_roster(choices.roster) if choices.roster else ()
+    with submissions_at(choices.submissions, students) as submissions:
         return _graded(choices, lab, submissions)
 
 

@@ -10,7 +10,7 @@ from roslings import course
 from roslings.batch.errors import BadGradebook, BatchError
 from roslings.batch.export import hand_out, keep, settings_of
 from roslings.batch.gradebook import Gradebook, gradebook, lab_of
-from roslings.batch.grades import Grade, class_of
+from roslings.batch.grades import SAY_WHOSE, Grade, class_of
 from roslings.batch.grading import rates_of, unpacked
 from roslings.batch.messages import summary_lines
 from roslings.batch.result import Result
@@ -59,6 +59,9 @@ def _meant(book: Gradebook, who: str) -> str:
         raise BatchError(
             f"{who!r} may be one of several: {several}.", "Give the submission's name."
         )
+    if found[0].may_have_sent:
+        several = ", ".join(found[0].may_have_sent)
+        raise BatchError(f"It is unclear which is of {found[0].name}: {several}.", SAY_WHOSE)
     if not found[0].result:
         step = "A score by hand stands beside a measured one: grade something of theirs first."
         raise BatchError(f"{found[0].name} handed in nothing.", step)
