@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import json
 import pickle
 import shutil
@@ -193,7 +194,7 @@ def test_forged_evidence_is_shown_to_nobody(out: Path, forge: Forge) -> None:
     regrade_all(out, "topics", None)
     page = (out / "students" / folder_name("anna") / "report.html").read_text("utf-8")
     other = (out / "students" / folder_name("ben") / "report.html").read_text("utf-8")
-    assert "5 of 100" in page
+    assert f"{scores(out)['anna']:g} of 100" in page
     assert FOOT in other and FOOT not in page
 
 
@@ -342,7 +343,8 @@ def test_a_score_by_hand_needs_no_key(out: Path, forge: Forge) -> None:
     forge(out)
     told = override(out, "anna", 70, "showed it", "me")
     assert BAD_KEYS[forge][0] in told[1]
-    assert "anna,70" in (out / "grades.csv").read_text().replace(",,,anna,fail,5,,,70", "anna,70")
+    with (out / "grades.csv").open(encoding="utf-8", newline="") as file:
+        assert {row["name"]: row["final"] for row in csv.DictReader(file)}["anna"] == "70"
 
 
 @pytest.mark.parametrize("mode", [0o644, 0o640, 0o604, 0o660])
