@@ -20,6 +20,7 @@ from roslings.batch.command import Choices, grade
 from roslings.batch.dask_pool import NoCluster, UnfitWorkers
 from roslings.batch.gradebook import gradebook
 from roslings.batch.result import Result
+from roslings.batch.signed_gradebook import take_key
 from roslings.course import lab
 
 imported("distributed")
@@ -143,7 +144,7 @@ def test_a_worker_that_dies_loses_nothing(tmp_path: Path) -> None:
     with cluster(more, {}) as (address, (first, _)):
         command = [
             sys.executable, "-m", "roslings", "grade", "topics", str(tmp_path / "in"), "--out",
-            str(tmp_path / "out"), "--trust", "--dask", address,
+            str(tmp_path / "out"), "--trust", "--evidence", "--dask", address,
         ]  # fmt: skip
         with subprocess.Popen(command, stderr=subprocess.DEVNULL) as grading:
             until(lambda: any((tmp_path / "tmp").glob("roslings-*/room")) or bool(grading.poll()))
@@ -151,6 +152,8 @@ def test_a_worker_that_dies_loses_nothing(tmp_path: Path) -> None:
             assert grading.wait(LONG_S) == 0
         with gradebook(tmp_path / "out", "topics") as book:
             words = {name: result.word for name, result in book.latest().items()}
+            assert (take_key(book, tmp_path / "out"), book.forged()) == ([], {})
+            assert book.evidence(book.latest()["anna"])  # signed where it arrived
     assert words == {"anna": "pass", "ben": "fail", "cleo": "refused"}
 
 

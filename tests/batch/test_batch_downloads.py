@@ -278,9 +278,7 @@ def test_a_platforms_name_finds_its_student(
 def test_two_of_one_name_without_numbers_are_unclear() -> None:
     """A person decides."""
     twins = [Student("Anna Berg", "a1"), Student("Anna Berg", "a2")]
-    assert match(twins, [f"Anna Berg_5{FILES}"]).unclear == {
-        f"Anna Berg_5{FILES}": ["Anna Berg", "Anna Berg"]
-    }
+    assert match(twins, [f"Anna Berg_5{FILES}"]).unclear == {f"Anna Berg_5{FILES}": twins}
 
 
 def test_other_names_are_no_platforms() -> None:

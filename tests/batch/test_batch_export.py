@@ -95,8 +95,8 @@ def test_a_submission_finds_its_student(submission: str, whose: Student | None) 
 def test_one_that_may_be_of_two_is_nobodys() -> None:
     """A person decides."""
     found = match([ANNA, LI], ["s1001_and_s1002"])
-    assert found.unclear == {"s1001_and_s1002": ["Anna Berg", "Li, Wei"]}
-    assert found.missing == [ANNA, LI]
+    assert found.unclear == {"s1001_and_s1002": [ANNA, LI]}
+    assert found.doubts(ANNA) == found.doubts(LI) == ["s1001_and_s1002"]
 
 
 @pytest.mark.parametrize(

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
+import argparse
 from pathlib import Path
 
 import pytest
 
-from roslings.cli import main
 from roslings.course import lab
 from roslings.course.files import BadCourseFile
 from roslings.evidence import BuildSeen, Evidence, MachineSeen
 from roslings.judge import judge
-from roslings.report.evidence_file import evidence_bytes
+from roslings.platforms import write_shapes
 from roslings.shapes import SHAPES
 from roslings.workspace.inspect import inspect_package
 
@@ -81,13 +81,11 @@ def test_a_hidden_file_that_cannot_be_used_is_told(
         _ = lab("topics", file).card
 
 
-def test_regrade_writes_the_other_shapes_too(tmp_path: Path) -> None:
-    """With hidden checks where the shape can hide them, from evidence in a file."""
+def test_the_other_shapes_hide_them_where_they_can(tmp_path: Path) -> None:
+    """What a platform cannot hide from students is left out."""
     (tmp_path / "hidden_topics.py").write_text(HIDDEN)
-    (tmp_path / "evidence.json").write_bytes(evidence_bytes(evidence()))
     places = {name: tmp_path / f"it.{name}" for name in SHAPES}
-    words = ["regrade", "topics", str(tmp_path), "--hidden", str(tmp_path / "hidden_topics.py")]
-    options = [word for name, path in places.items() for word in (f"--{name}", str(path))]
-    assert main([*words, *options]) == 1
+    verdict = judge(lab("topics", tmp_path / "hidden_topics.py"), evidence())
+    write_shapes(verdict, argparse.Namespace(**places))
     told = {name: b"has_picture" in path.read_bytes() for name, path in places.items()}
     assert told == {name: name == "gradescope" for name in SHAPES}

@@ -25,6 +25,7 @@ from roslings.arena import base_environment, kernel
 from roslings.batch.gradebook import gradebook
 from roslings.batch.grading import unpacked
 from roslings.batch.result import Result
+from roslings.batch.signed_gradebook import take_key
 from roslings.course import root
 from roslings.evidence import Evidence
 
@@ -162,6 +163,7 @@ class Stage:
     def evidence(self, result: Result) -> Evidence | None:
         """What a result was judged from."""
         with gradebook(self.out, LAB.name) as book:
+            take_key(book, self.out)
             content = book.evidence(result)
         return unpacked(content) if content else None
 

@@ -8,7 +8,7 @@ from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
-from roslings.batch.grades import Class, Grade
+from roslings.batch.grades import SAY_WHOSE, Class, Grade
 from roslings.batch.result import Result
 from roslings.batch.similar import Pair, alike, equal_groups
 from roslings.batch.student_pages import folder_name
@@ -30,8 +30,8 @@ td.words { min-width: 11rem; overflow-wrap: break-word; }
 th:first-child, td:first-child { position: sticky; left: 0; background: var(--ground); }
 .outcome.pass { color: var(--good); }
 .outcome.fail { color: var(--bad); }
-.outcome.inconclusive, .outcome.refused { color: var(--open); }
-.counts .refused { color: var(--open); }
+.outcome.inconclusive, .outcome.refused, .outcome.unclear { color: var(--open); }
+.counts .refused, .counts .unclear { color: var(--open); }
 .axis-ends { display: flex; justify-content: space-between; font-size: .85rem; }
 svg.part { width: 8rem; height: .7rem; vertical-align: middle; }
 svg.part rect { fill: var(--link); }
@@ -210,14 +210,15 @@ def _percent(pair: Pair) -> str:
 def _loose_ends(found: Class) -> Iterator[Markup]:
     items = [
         *(tag("li", f"{name} is of nobody in the class list") for name in found.unknown),
-        *(tag("li", f"{name} may be of {' or '.join(names)}")
-          for name, names in found.unclear.items()),
+        *(tag("li", f"{grade.submission}: {grade.doubt}") for grade in found.unclear),
         *(tag("li", f"{name} handed in several: {', '.join(names)}; the newest that was"
               " graded counts")
           for name, names in found.twice.items()),
     ]  # fmt: skip
+    step = [tag("p", prose(SAY_WHOSE))] if found.unclear else []
     if items:
-        yield tag("section", tag("h2", "What does not fit the class list"), tag("ul", *items))
+        heading = tag("h2", "What does not fit the class list")
+        yield tag("section", heading, tag("ul", *items), *step)
 
 
 def _missing(grades: Sequence[Grade]) -> Iterator[Markup]:
@@ -252,6 +253,8 @@ def _remark(grade: Grade) -> str:
         measured = "none" if grade.measured is None else f"{grade.measured:g}"
         who = f"{grade.override.by}: {grade.override.reason}"
         return f"score given by a person (measured: {measured}). {who}"
+    if grade.doubt:
+        return grade.doubt
     late = f"{grade.late_days} days late, costs {grade.late_points:g}. " if grade.late_days else ""
     return late + (one_line(grade.result.reason) if grade.result else "")
 

@@ -18,8 +18,9 @@ from roslings.batch.gradebook import Gradebook, gradebook
 from roslings.batch.grades import LateRule
 from roslings.batch.messages import soak_line, standing_line, summary_lines
 from roslings.batch.moodle_worksheet import read_worksheet
-from roslings.batch.roster import insist_on_owners
+from roslings.batch.roster import insist_on_owners, read_roster
 from roslings.batch.scheduler import GradingRequest, Scheduler, Standing
+from roslings.batch.signed_gradebook import take_key
 from roslings.batch.submissions import Submission
 from roslings.batch.worker_pool import Limits
 from roslings.course import Lab
@@ -81,7 +82,8 @@ def grade(choices: Choices) -> Report:
     """
     lab = course.lab(choices.lab, choices.hidden)
     _ = lab.card, lab.hints  # a mistake in the course is told before anything is run
-    with submissions_at(choices.submissions) as submissions:
+    students = read_roster(choices.roster) if choices.roster else ()
+    with submissions_at(choices.submissions, students) as submissions:
         return _graded(choices, lab, submissions)
 
 
@@ -91,16 +93,28 @@ def _graded(choices: Choices, lab: Lab, submissions: list[Submission]) -> Report
         choices = _at_once(choices, insist_on_wall(lab, choices.submissions, choices.out))
     _make(choices)
     with alone_in(choices.out, AlreadyGrading), gradebook(choices.out, lab.name) as book:
+        told = take_key(book, choices.out)
         keep(book, settings)
-        _grade_all(choices, submissions, book, soak_seconds(lab.card, choices.soak_s))
         names = [each.name for each in submissions]
+        told += _anew(set(names) & book.forged().keys())
+        _grade_all(choices, submissions, book, soak_seconds(lab.card, choices.soak_s))
         latest = book.latest()
         unclear = sum(latest[name].word == "inconclusive" for name in names)
         lines = [
-            *summary_lines(book, names), soak_line(latest.values()),
+            *told, *summary_lines(book, names), soak_line(latest.values()),
             *hand_out(book, lab, choices.out),
         ]  # fmt: skip
         return Report(lines, unclear)
+
+
+def _anew(names: set[str]) -> list[str]:
+    """Verdicts that do not count, for their evidence is not what was measured."""
+    if not names:
+        return []
+    return [
+        "Measured anew, for the evidence in the gradebook was not what was measured:\n"
+        f"  {', '.join(sorted(names))}"
+    ]
 
 
 def _at_once(choices: Choices, wall: Isolation) -> Choices:

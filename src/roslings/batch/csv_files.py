@@ -7,7 +7,7 @@ import io
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from roslings.batch.grades import Grade
+from roslings.batch.grades import SAY_WHOSE, Grade
 from roslings.batch.moodle_worksheet import Mark, Worksheet
 from roslings.batch.roster import IDENTIFIER
 from roslings.course import Lab
@@ -82,6 +82,8 @@ def _reason(grade: Grade) -> str:
     """Why the final score is not the measured one, or why there is none."""
     if grade.override:
         return f"{grade.override.by}: {grade.override.reason}"
+    if grade.doubt:
+        return f"{grade.doubt} {SAY_WHOSE}"
     return one_line(grade.result.reason) if grade.result else ""
 
 

@@ -6,13 +6,14 @@ import posixpath
 import re
 import zipfile
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
 from roslings.batch.archives import SUFFIXES, Budget, is_clutter, unpack, zip_names
 from roslings.batch.errors import BatchError, HostileArchive, Refused
 from roslings.batch.platform_names import platform_name
+from roslings.batch.roster import Student
 from roslings.batch.submissions import Submission, find_submissions, name_of
 from roslings.experiment.run_folder import run_folder
 from roslings.workspace.errors import from_here
@@ -25,32 +26,43 @@ UNPACK_IT = "Unpack it yourself, and give the folder that comes out."
 
 
 @contextmanager
-def submissions_at(path: Path) -> Iterator[list[Submission]]:
+def submissions_at(path: Path, students: Sequence[Student] = ()) -> Iterator[list[Submission]]:
     """What was handed in at `path`; the download of a class is unpacked for as long as the block.
 
     Raises BatchError.
     """
-    download = _download_at(path)
+    download = _download_at(path, students)
     if download is None:
-        yield find_submissions(_inner(path))
+        yield find_submissions(_inner(path, students))
         return
     with run_folder() as room:
-        yield find_submissions(_inner(_unpacked(download, room / "downloaded")))
+        yield find_submissions(_inner(_unpacked(download, room / "downloaded"), students))
 
 
-def _download_at(path: Path) -> Path | None:
+def _download_at(path: Path, students: Sequence[Student]) -> Path | None:
     """The download of a class: `path`, or the only thing in that folder; None where it is none."""
     inside = _entries(path) if path.is_dir() else [path]
-    if len(inside) == 1 and inside[0].is_file() and is_download(inside[0]):
-        return inside[0]
-    return None
+    if len(inside) != 1 or not inside[0].is_file() or _is_of_one(inside[0], students):
+        return None
+    return inside[0] if is_download(inside[0]) else None
 
 
-def _inner(folder: Path) -> Path:
+def _is_of_one(path: Path, students: Sequence[Student]) -> bool:
+    """One student's, who may put files into it that are called like others' hand-ins.
+
+    It has a platform's name, or the whole name of somebody in the class list; or it is a clone.
+    """
+    name = name_of(path)
+    told = platform_name(path.name) or platform_name(name)
+    is_clone = (path / ".git").exists()
+    return told is not None or is_clone or any(student.is_called(name) for student in students)
+
+
+def _inner(folder: Path, students: Sequence[Student]) -> Path:
     """A folder that holds nothing but the folder with the platform's names is that one."""
     inside = _entries(folder) if folder.is_dir() else []
-    if len(inside) == 1 and inside[0].is_dir() and not platform_name(inside[0].name):
-        deeper = _inner(inside[0])
+    if len(inside) == 1 and inside[0].is_dir() and not _is_of_one(inside[0], students):
+        deeper = _inner(inside[0], students)
         if deeper != inside[0] or _is_of_a_class([entry.name for entry in _entries(deeper)]):
             return deeper
     return folder

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from datetime import datetime
 from pathlib import Path
 
@@ -11,7 +12,8 @@ from roslings.batch.class_page import write_class_page
 from roslings.batch.csv_files import write_all
 from roslings.batch.fingerprints import fingerprint
 from roslings.batch.gradebook import Gradebook
-from roslings.batch.grades import Class, LateRule, class_of
+from roslings.batch.grades import SAY_WHOSE, Class, LateRule, class_of
+from roslings.batch.messages import COLUMNS
 from roslings.batch.moodle_worksheet import read_worksheet
 from roslings.batch.roster import read_roster
 from roslings.batch.student_pages import write_pages
@@ -72,7 +74,8 @@ def _remarks(found: Class, settings: Settings) -> list[str]:
     if found.unknown:
         lines.append(_few("Of nobody in the class list", found.unknown))
     if found.unclear:
-        lines.append(_few("Of more than one in the class list", list(found.unclear)))
+        lines.append(_few("Unclear whose", [grade.submission for grade in found.unclear]))
+        lines.append(_wrapped(f"  {SAY_WHOSE}"))
     if found.twice:
         lines.append(
             _few("Handed in several, the newest that was graded counts", list(found.twice))
@@ -88,4 +91,10 @@ def _remarks(found: Class, settings: Settings) -> list[str]:
 
 def _few(label: str, names: list[str], most: int = 8) -> str:
     more = f" and {len(names) - most} more" if len(names) > most else ""
-    return f"{label} ({len(names)}): {', '.join(names[:most])}{more}"
+    return _wrapped(f"{label} ({len(names)}): {', '.join(names[:most])}{more}")
+
+
+def _wrapped(text: str) -> str:
+    return textwrap.fill(
+        text, COLUMNS, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False
+    )

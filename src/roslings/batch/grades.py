@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from datetime import datetime
 
 from pydantic import BaseModel
@@ -12,9 +12,14 @@ from pydantic import BaseModel
 from roslings.batch.gradebook import Gradebook, Override
 from roslings.batch.newest import Natural, natural
 from roslings.batch.result import Result
-from roslings.batch.roster import Matched, Student, match
+from roslings.batch.roster import SUBMISSION, Matched, Student, match
 
 DAY_S = 86_400.0
+UNCLEAR = "unclear"
+SAY_WHOSE = (
+    "See on the platform who sent it. Write its name into the class list, in the line of that"
+    f" student, column `{SUBMISSION}`, and type the same command again."
+)
 
 
 class LateRule(BaseModel):
@@ -45,6 +50,10 @@ class Grade:
     late_days: int | None = None
     """None where the time of handing in is not known."""
     late_points: float = 0.0
+    may_have_sent: tuple[str, ...] = ()
+    """Submissions that may be of this student, where none is for sure."""
+    may_be_of: tuple[str, ...] = ()
+    """Students who may have sent this submission, where nobody can say who did."""
 
     @property
     def name(self) -> str:
@@ -58,8 +67,19 @@ class Grade:
 
     @property
     def outcome(self) -> str:
-        """pass, fail, refused, inconclusive or missing."""
+        """pass, fail, refused, inconclusive, missing, or unclear: whose it is."""
+        if self.may_have_sent or self.may_be_of:
+            return UNCLEAR
         return self.result.word if self.result else "missing"
+
+    @property
+    def doubt(self) -> str:
+        """Why it is unclear whose it is; empty where it is not."""
+        if self.may_have_sent:
+            return f"May have sent {' or '.join(self.may_have_sent)}."
+        if len(self.may_be_of) == 1:
+            return f"May be of {self.may_be_of[0]}, or of somebody called so."
+        return f"May be of {' or '.join(self.may_be_of)}." if self.may_be_of else ""
 
     @property
     def measured(self) -> float | None:
@@ -71,7 +91,7 @@ class Grade:
         """0 to 100; a person's score stands as it is. None where there is nothing to count."""
         if self.override:
             return self.override.score
-        if self.measured is None:
+        if self.measured is None or self.outcome == UNCLEAR:
             return None
         return max(0.0, round(self.measured - self.late_points, 1))
 
@@ -82,14 +102,18 @@ class Class:
 
     grades: list[Grade]
     unknown: list[str] = field(default_factory=list)
-    unclear: dict[str, list[str]] = field(default_factory=dict)
     twice: dict[str, list[str]] = field(default_factory=dict)
     """Students with several submissions, of which the newest that was graded counts."""
 
     @property
     def missing(self) -> list[Grade]:
         """Who handed in nothing."""
-        return [grade for grade in self.grades if grade.result is None]
+        return [grade for grade in self.grades if grade.outcome == "missing"]
+
+    @property
+    def unclear(self) -> list[Grade]:
+        """Submissions of which nobody can say whose they are."""
+        return [grade for grade in self.grades if grade.may_be_of]
 
 
 def class_of(
@@ -105,7 +129,7 @@ def class_of(
         return Class([join.grade(None, name) for name in latest])
     found = match(students, latest)
     twice = {student.name: names for student, names in found.of_student.items() if len(names) > 1}
-    return Class(list(join.grades(found)), found.unknown, found.unclear, twice)
+    return Class(list(join.grades(found)), found.unknown, twice)
 
 
 @dataclass(frozen=True)
@@ -117,9 +141,15 @@ class _Join:
 
     def grades(self, found: Matched) -> Iterable[Grade]:
         for student, names in found.of_student.items():
-            yield self.grade(student, self._newest(names)) if names else Grade(student, None)
-        for name in (*found.unknown, *found.unclear):
+            if names:
+                yield self.grade(student, self._newest(names))
+            else:
+                yield Grade(student, None, may_have_sent=tuple(found.doubts(student)))
+        for name in found.unknown:
             yield self.grade(None, name)
+        for name, owners in found.unclear.items():
+            may_be_of = tuple(_told_apart(owners))
+            yield replace(self.grade(None, name), may_be_of=may_be_of)
 
     def grade(self, student: Student | None, name: str) -> Grade:
         submitted = self.times.get(name)
@@ -138,3 +168,10 @@ class _Join:
     def _stamp(self, name: str) -> float:
         submitted = self.times.get(name)
         return submitted.timestamp() if submitted else 0.0
+
+
+def _told_apart(students: Sequence[Student]) -> Iterable[str]:
+    """Their names; with the id where two have one name."""
+    for student in students:
+        twins = sum(each.name == student.name for each in students)
+        yield f"{student.name} ({student.id})" if twins > 1 and student.id else student.name

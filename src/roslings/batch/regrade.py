@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import getpass
 from collections import Counter
+from dataclasses import dataclass
 from pathlib import Path
 
 from roslings import course
 from roslings.batch.errors import BadGradebook, BatchError
 from roslings.batch.export import hand_out, keep, settings_of
 from roslings.batch.gradebook import Gradebook, gradebook, lab_of
-from roslings.batch.grades import Grade, class_of
+from roslings.batch.grades import SAY_WHOSE, Grade, class_of
 from roslings.batch.grading import rates_of, unpacked
 from roslings.batch.messages import summary_lines
 from roslings.batch.result import Result
 from roslings.batch.roster import read_roster
+from roslings.batch.signed_gradebook import forged_lines, take_key
+from roslings.batch.signing import BadKey
 from roslings.batch.version import version_of
 from roslings.course import Lab
 from roslings.judge import judge
@@ -36,7 +39,15 @@ def override(folder: Path, submission: str, score: float, reason: str, by: str |
         submission = _meant(book, submission)
         book.override(submission, score, reason, by or _who())
         told = f"{submission} has {score:g} of 100 now; the measured score is kept beside it."
-        return [told, *hand_out(book, lab, folder)]
+        return [told, *_about_key(book, folder), *hand_out(book, lab, folder)]
+
+
+def _about_key(book: Gradebook, folder: Path) -> list[str]:
+    """A score by hand needs no evidence: what is wrong with the key is only told."""
+    try:
+        return take_key(book, folder)
+    except BadKey as bad:
+        return [str(bad)]
 
 
 def _lab_in(folder: Path) -> str:
@@ -59,6 +70,9 @@ def _meant(book: Gradebook, who: str) -> str:
         raise BatchError(
             f"{who!r} may be one of several: {several}.", "Give the submission's name."
         )
+    if found[0].may_have_sent:
+        several = ", ".join(found[0].may_have_sent)
+        raise BatchError(f"It is unclear which is of {found[0].name}: {several}.", SAY_WHOSE)
     if not found[0].result:
         step = "A score by hand stands beside a measured one: grade something of theirs first."
         raise BatchError(f"{found[0].name} handed in nothing.", step)
@@ -85,23 +99,38 @@ def _who() -> str:
         return "unknown"
 
 
-def regrade_all(folder: Path, lab_name: str, hidden: Path | None) -> list[str]:
+@dataclass(frozen=True)
+class Regraded:
+    """What the command says, and what it could not judge."""
+
+    lines: list[str]
+    forged: dict[str, str]
+    """Submissions whose evidence is not what was measured, and why."""
+
+
+def regrade_all(folder: Path, lab_name: str, hidden: Path | None) -> Regraded:
     """Judge all kept evidence again, running nothing; earlier verdicts are kept.
 
-    Without `hidden`, the hidden checks of the grading are used. Raises BadGradebook.
+    Without `hidden`, the hidden checks of the grading are used. Evidence that was not measured here
+    is not judged. Raises BadGradebook and BadKey.
     """
     with gradebook(folder, course.lab(lab_name).name) as book:
+        about_key = take_key(book, folder)
         settings = settings_of(book)
         if hidden:
             settings = settings.model_copy(update={"hidden": hidden.absolute()})
             keep(book, settings)
         lab = course.lab(lab_name, settings.hidden)
-        told = Counter(_again(book, result, lab) for result in book.latest().values())
+        forged = book.forged()
+        told = Counter(_again(book, result, lab) for name, result in book.latest().items()
+                       if name not in forged)  # fmt: skip
         changed, same, without = (told[word] for word in ("changed", "same", "without"))
-        lines = [f"{changed + same} judged again, {changed} scores changed."]
+        lines = [*about_key, f"{changed + same} judged again, {changed} scores changed."]
         if without:
             lines.append(f"{without} have no evidence: grade those again to judge them anew.")
-        return [*lines, *summary_lines(book, list(book.latest())), *hand_out(book, lab, folder)]
+        lines += forged_lines(forged, lab.name, folder)
+        lines += summary_lines(book, list(book.latest()))
+        return Regraded([*lines, *hand_out(book, lab, folder)], forged)
 
 
 def _again(book: Gradebook, result: Result, lab: Lab) -> str:
@@ -118,5 +147,5 @@ def _again(book: Gradebook, result: Result, lab: Lab) -> str:
     attempt = book.attempts(result.submission, result.digest) + 1
     words = {"verdict": verdict, "lab_version": version, "attempt": attempt,
              "rates": rates_of(evidence, lab)}  # fmt: skip
-    book.write(result.model_copy(update=words))
+    book.judged_again(result.model_copy(update=words), content)
     return "same" if verdict.score == result.score else "changed"

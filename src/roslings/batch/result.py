@@ -7,6 +7,7 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict
 
+from roslings.batch.platform_names import NOBODY, platform_name
 from roslings.verdict import Verdict
 
 State = Literal["graded", "refused", "broken"]
@@ -41,8 +42,15 @@ class Order(BaseModel):
 
     @property
     def handed_in_as(self) -> str:
-        """What who handed it in called it; nobody hands in a lab's own packages."""
-        return "" if self.builds_as_kin else self.submission
+        """Who handed it in, by the platform's part of its name; else what it is called.
+
+        What a student calls a file names whom the student likes. Nobody hands in a lab's own
+        packages.
+        """
+        if self.builds_as_kin:
+            return ""
+        told = platform_name(self.submission)
+        return told.person if told and told.person != NOBODY else self.submission
 
     @property
     def answer(self) -> Path:

@@ -5,12 +5,12 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from roslings.batch.errors import BadTable, BatchError
-from roslings.batch.platform_names import platform_name
+from roslings.batch.platform_names import PlatformName, told_by_platform
 from roslings.batch.tables import Row, read_table
 from roslings.report.safe_text import harmless
 from roslings.workspace.errors import from_here
@@ -25,6 +25,8 @@ IDENTIFIER = "identifier"
 """Moodle's `Participant 123`, or what GitHub Classroom's teacher calls a student by."""
 CANVAS_ALONE = {"sis user id", "sis login id"}
 """Columns that only its class lists have: there `id` is the number in a file's name."""
+SUBMISSION = "submission"
+"""Its column names the submission that is this student's, by the instructor's word."""
 SHORTEST_KEY = 3
 HOW = (
     "A submission finds its student by its name: it is, or has in it between low lines or spaces,\n"
@@ -92,6 +94,10 @@ class Student:
         )
         return {number.strip() for number in (*of_moodle, *of_canvas)} - {""}
 
+    def logins_of_github(self) -> set[str]:
+        """As GitHub compares them: `anna-berg` is somebody else than `annaberg`."""
+        return {self.cells.get(column, "").strip().casefold() for column in GITHUB} - {""}
+
     def is_called(self, who: str) -> bool:
         """Whether a person may mean this student by that."""
         return squashed(who) in {squashed(self.name), *self.keys()}
@@ -146,76 +152,155 @@ class Matched:
     """The class list joined to the submissions."""
 
     of_student: dict[Student, list[str]]
-    """Each student to their submissions; none where nothing was handed in."""
+    """Each student to their submissions; none where nothing of theirs is sure."""
     unknown: list[str]
     """Submissions of nobody in the list."""
-    unclear: dict[str, list[str]]
-    """Submissions that may be of several students, with their names."""
+    unclear: dict[str, list[Student]]
+    """Submissions of which nobody can say whose they are, with the students who may have sent them:
+    one student, where somebody else may be called so."""
 
-    @property
-    def missing(self) -> list[Student]:
-        """Who handed in nothing."""
-        return [student for student, names in self.of_student.items() if not names]
+    def doubts(self, student: Student) -> list[str]:
+        """Submissions that may be of this student."""
+        return [name for name, owners in self.unclear.items() if student in owners]
 
 
 def match(students: Sequence[Student], submissions: Iterable[str]) -> Matched:
     """Find out which submission is whose; never by a guess."""
-    found = Matched({student: [] for student in students}, [], {})
     names = list(submissions)
-    matching = _Matching(students, shared_starts(names))
-    for name in names:
-        owners = matching.owners(name)
-        if len(owners) == 1:
-            found.of_student[owners[0]].append(name)
-        elif owners:
-            found.unclear[name] = [owner.name for owner in owners]
-        else:
+    claims = _Matching(students, names).claims()
+    found = Matched({student: [] for student in students}, [], {})
+    for name, claim in claims.items():
+        if not claim.owners:
             found.unknown.append(name)
+        elif len(claim.owners) > 1 or claim.is_doubtful:
+            found.unclear[name] = claim.owners
+        else:
+            found.of_student[claim.owners[0]].append(name)
+    for student, own in found.of_student.items():
+        for name in _of_others(own, claims):
+            own.remove(name)
+            found.unclear[name] = [student]
     return found
+
+
+def _of_others(names: Sequence[str], claims: Mapping[str, _Claim]) -> list[str]:
+    """Of one student's submissions those that somebody else may have sent.
+
+    All of one sender are the student's own. Of several senders only one that is known counts.
+    """
+    surest = max((claims[name].surety for name in names), default=0)
+    senders = {claims[name].sender for name in names if claims[name].surety == surest}
+    if len(senders) > 1:
+        return list(names)
+    return [name for name in names if claims[name].sender not in senders]
+
+
+IN_THE_LIST, BY_ACCOUNT, BY_NAME = 2, 1, 0
+"""How sure it is: by the instructor's word, by what no two have, by what two may have."""
+
+
+@dataclass(frozen=True)
+class _Claim:
+    """Whose a submission may be, and who says so."""
+
+    owners: list[Student]
+    sender: str = ""
+    """One word for each account that sends; empty where no platform tells it."""
+    surety: int = BY_NAME
+    is_doubtful: bool = False
+    """The class list knows its students by their accounts, and this account is not theirs."""
 
 
 class _Matching:
     """The ways to find a student by a name, the surest first."""
 
-    def __init__(self, students: Sequence[Student], starts: set[str]) -> None:
-        self._students, self._starts = students, starts
+    def __init__(self, students: Sequence[Student], names: Sequence[str]) -> None:
+        self._students, self._names = students, names
+        self._starts = shared_starts(names)
+        self._told = told_by_platform(names)
         self._keys = {
-            spelling: {student: student.keys(spelling) for student in students}
+            spelling: [(student, student.keys(spelling)) for student in students]
             for spelling in SPELLINGS
         }
 
-    def owners(self, name: str) -> list[Student]:
-        """Who may have handed in what is called so."""
-        ways = (self._of_platform, self._by_parts)
-        found = (way(name, spelling) for spelling in SPELLINGS for way in ways)
-        return next((owners for owners in found if owners), [])
+    def claims(self) -> dict[str, _Claim]:
+        """Each submission, and who may have handed it in."""
+        found = {name: self._claim(name) for name in self._names}
+        known = {found[name].sender for name in found if found[name].surety == BY_ACCOUNT}
+        has_logins = any(sender.startswith(CLONE) for sender in known)
+        has_numbers = any(not sender.startswith(CLONE) for sender in known)
+        return {name: self._doubted(each, has_numbers, has_logins) for name, each in found.items()}
 
-    def _of_platform(self, name: str, spelling: Spelling) -> list[Student]:
-        """As the platform says: the name, and the number where two have one name."""
-        told = platform_name(name)
-        if told is None:
-            return []
-        of_group = {rest for _, rest in _cuts(told.person)}  # `Group A-Anna Berg`
-        named = self._named_by({told.person}, spelling) or self._named_by(of_group, spelling)
+    def _doubted(self, claim: _Claim, has_numbers: bool, has_logins: bool) -> _Claim:
+        """A name is not enough where the list has another account of that student."""
+        if claim.surety != BY_NAME or not claim.sender:
+            return claim
+        if claim.sender.startswith(CLONE):
+            is_doubtful = has_logins and all(each.logins_of_github() for each in claim.owners)
+        else:
+            is_doubtful = has_numbers and all(each.numbers() for each in claim.owners)
+        return replace(claim, is_doubtful=claim.is_doubtful or is_doubtful)
+
+    def _claim(self, name: str) -> _Claim:
+        listed = [each for each in self._students if each.cells.get(SUBMISSION) == name]
+        if listed:
+            return _Claim(listed, f"listed {name}", IN_THE_LIST)
+        if told := self._told.get(name):
+            return self._of_platform(told)
+        return self._of_clone(name) or _Claim(self._by_name(name))
+
+    def _of_platform(self, told: PlatformName) -> _Claim:
+        """As the platform says; what the student called the file says nothing.
+
+        The number decides where two have one name. Where name and number are of two students, one
+        of them may have taken the other's name: a person decides.
+        """
+        sender = f"{told.platform} {told.number}"
         numbered = [student for student in self._students if told.number in student.numbers()]
-        return [each for each in named if each in numbered] or named or numbered
+        named = self._by_person(told.person)
+        if both := [each for each in named if each in numbered]:
+            return _Claim(both, sender, BY_ACCOUNT)
+        if named and numbered:
+            return _Claim([*named, *numbered], sender, is_doubtful=True)
+        if numbered:
+            return _Claim(numbered, sender, BY_ACCOUNT)
+        return _Claim(named or self._named_by({told.number}, squashed), sender)
 
-    def _by_parts(self, name: str, spelling: Spelling) -> list[Student]:
-        return (
-            self._named_by({name}, spelling)
-            or self._named_by(_parts(name), spelling)
-            or self._by_tails(name, spelling)
-        )
+    def _by_person(self, person: str) -> list[Student]:
+        """By the name in the platform's own part, and its words."""
+        of_group = {rest for _, rest in _cuts(person)}  # `Group A-Anna Berg`
+        ways = ({person}, of_group, _parts(person))
+        return self._first(lambda spelling: (self._named_by(way, spelling) for way in ways))
 
-    def _by_tails(self, name: str, spelling: Spelling) -> list[Student]:
+    def _of_clone(self, name: str) -> _Claim | None:
         """What stands after the start that most names share: `lab-topics-` of a clone."""
-        tails = (tail for start, tail in _cuts(name) if start in self._starts)
-        found = (self._named_by({tail}, spelling) for tail in tails)
+        tails = [tail for start, tail in _cuts(name) if start in self._starts]
+        sender = f"{CLONE}{name.casefold()}"
+        for tail in tails:
+            if own := [each for each in self._students
+                       if tail.casefold() in each.logins_of_github()]:  # fmt: skip
+                return _Claim(own, sender, BY_ACCOUNT)
+        if self._by_name(name):
+            return None
+        named = self._first(lambda spelling: (self._named_by({tail}, spelling) for tail in tails))
+        return _Claim(named, sender) if named else None
+
+    def _by_name(self, name: str) -> list[Student]:
+        ways = ({name}, _parts(name))
+        return self._first(lambda spelling: (self._named_by(way, spelling) for way in ways))
+
+    def _first(self, ways: Callable[[Spelling], Iterable[list[Student]]]) -> list[Student]:
+        """Whom the first way finds, in the first spelling that finds anybody."""
+        found = (owners for spelling in SPELLINGS for owners in ways(spelling))
         return next((owners for owners in found if owners), [])
 
     def _named_by(self, parts: set[str], spelling: Spelling) -> list[Student]:
         spelled = {spelling(part) for part in parts}
-        return [student for student, own in self._keys[spelling].items() if own & spelled]
+        return [student for student, own in self._keys[spelling] if own & spelled]
+
+
+CLONE = "clone "
+"""The sender of a repository: GitHub gives each account one of its own."""
 
 
 def _parts(name: str) -> set[str]:

@@ -129,13 +129,20 @@ class Scheduler:
         self._standing = Standing(0, 0, 0, 0, None)
 
     def run(self, submissions: Iterable[Submission], workers: Workers | None = None) -> None:
-        """Grade what the gradebook has not; what stays unclear is tried once more, alone."""
+        """Grade what the gradebook has not; what stays unclear is tried once more, alone.
+
+        A verdict whose evidence is not what was measured here is none: it is graded anew.
+        """
         known = {each.name: (each, digest_of(each.path)) for each in submissions}
         latest = self._book.latest()
-        done = {name for name, (_, digest) in known.items() if _is_done(latest.get(name), digest)}
+        forged = self._book.forged()
+        done = {
+            name for name, (_, digest) in known.items()
+            if _is_done(latest.get(name), digest) and name not in forged
+        }  # fmt: skip
         unclear = {
             name for name, (_, digest) in known.items()
-            if name not in done and _was_tried(latest.get(name), digest)
+            if name not in {*done, *forged} and _was_tried(latest.get(name), digest)
         }  # fmt: skip
         fresh = [name for name in known if name not in done | unclear]
         self._standing = Standing(len(known), len(done), 0, len(unclear), None)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from roslings import course
 from roslings.commands.showing import show
-from roslings.errors import INCONCLUSIVE, OK
+from roslings.errors import INCONCLUSIVE, OK, RoslingsError
 
 if TYPE_CHECKING:
     from roslings.batch.grades import LateRule
@@ -23,14 +23,44 @@ def regrade(options: argparse.Namespace) -> int:
     from roslings.saving import Graded
 
     if lab_of(options.evidence):
-        print("\n".join(regrade_all(options.evidence, options.lab, options.hidden)))
-        return OK
+        told = regrade_all(options.evidence, options.lab, options.hidden)
+        print("\n".join(told.lines))
+        return INCONCLUSIVE if told.forged else OK
+    insist_on_no_platform(options)
     lab = course.lab(options.lab, options.hidden)
     evidence = read_evidence(options.evidence, lab.name)
     verdict = judge(lab, evidence)
     if options.html:
         Graded(lab, verdict, evidence).write_page(options.html)
+    print(WHOSE_WORD, file=sys.stderr)
     return show(verdict, options)
+
+
+WHOSE_WORD = (
+    "This evidence is not signed. The verdict is the word of who saved it, and who\n"
+    "can have changed it. For a grade, have the package itself graded:\n"
+    "  ./roslings grade LAB SUBMISSIONS --out DIR"
+)
+
+
+class WordOfSomebody(RoslingsError):
+    """A platform's file is asked for, and the evidence is not signed."""
+
+    def __init__(self, option: str) -> None:
+        super().__init__(
+            "this evidence is not signed: who saved it can have changed it.\n"
+            "So no platform's file is made of it; --json and --html work. Instead, grade the\n"
+            "package itself:\n"
+            f"  ./roslings check LAB PATH --{option} FILE"
+        )
+
+
+def insist_on_no_platform(options: argparse.Namespace) -> None:
+    """What is not signed counts nowhere. Raises WordOfSomebody."""
+    from roslings.platforms import shapes_asked
+
+    for option in shapes_asked(options):
+        raise WordOfSomebody(option)
 
 
 def grade_all(options: argparse.Namespace) -> int:
