@@ -1,7 +1,7 @@
 """Which kills are kept: `./roslings prove LAB --generated --keep-kills`.
 
 For each check that catches something, those with the smallest evidence. They become packages
-that are proven like mutants: `./roslings prove --record LAB` measures them (`authoring/proofs/kills.py`).
+that are proven like mutants: `./roslings prove --record LAB` measures them.
 """
 
 from __future__ import annotations
