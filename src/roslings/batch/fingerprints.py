@@ -15,8 +15,9 @@ import hashlib
 import io
 import keyword
 import tokenize
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 
 from roslings.workspace.sources import files
@@ -39,13 +40,17 @@ class Fingerprint:
     marks: frozenset[int]
 
 
-def fingerprint(package: Path) -> Fingerprint:
-    """The fingerprint of the Python files of a package, setup.py and tests left out."""
-    code = [path for name, path in sorted(files(package).items()) if _counts(name)]
-    texts = [path.read_bytes() for path in code if path.stat().st_size <= LARGEST_FILE_BYTES]
+def fingerprint(package: Path, note: Callable[[str], object] = str) -> Fingerprint:
+    """The fingerprint of the Python files of a package, setup.py and tests left out.
+
+    `note` is told the name of each file before it is read.
+    """
     exact, marks = hashlib.sha256(), set[int]()
-    for text in texts:
-        tokens = list(_tokens(text))[:MOST_TOKENS]
+    for name, path in sorted(files(package).items()):
+        if not _counts(name) or path.stat().st_size > LARGEST_FILE_BYTES:
+            continue
+        note(name)
+        tokens = list(islice(_tokens(path.read_bytes()), MOST_TOKENS))
         exact.update("\0".join(token.string for token in tokens).encode("utf-8", "replace"))
         marks |= set(winnowed([_kind(token) for token in tokens]))
     return Fingerprint(exact.hexdigest()[:32], frozenset(marks))
