@@ -17,9 +17,10 @@ from PIL import Image
 
 from roslings.course import Card, PictureContract
 from roslings.course.written_yaml import load
+from roslings.evidence import PackageSeen
 from roslings.workspace import errors
 from roslings.workspace.bounded import Bookmark, ReaderEnded, ReadingBounds, read_in_child
-from roslings.workspace.inspect import inspect_package
+from roslings.workspace.inspect import inspect_package, read_package
 from roslings.workspace.packages import LARGEST_BYTES, find_package
 from roslings.workspace.pictures import LARGEST_PIXELS, look_at
 
@@ -167,6 +168,14 @@ def test_code_that_fills_the_memory_is_refused(package: Path, card: Card) -> Non
         inspect_package(package, card)
     assert "chatter/table.py (980.0 kB)" in told.value.problem
     assert "more than 256 MB of memory" in told.value.problem
+
+
+def test_the_bound_is_what_holds_it(package: Path, card: Card) -> None:
+    """The same package is read where there is memory enough: nothing else was in its way."""
+    (package / "chatter/table.py").write_text("x = [" + "a," * 490_000 + "]")
+    plenty = ReadingBounds(memory_bytes=4_000_000_000)
+    told = read_in_child(lambda mark: read_package(package, card, mark).model_dump_json(), plenty)
+    assert PackageSeen.model_validate_json(told).syntax_errors == []
 
 
 @pytest.mark.parametrize("text", ["x = a" + ".b" * 900, "x = " + "1+" * 900 + "1"])

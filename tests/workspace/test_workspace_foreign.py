@@ -109,7 +109,7 @@ def test_a_build_full_of_holes_is_used_and_not_kept(
     source = tmp_path / "chatter"
     shutil.copytree(TOPICS.solution, source)
     (source / "setup.py").write_text(HOLES + (source / "setup.py").read_text())
-    taken = []
+    taken: list[int] = []
     for allowance in (Allowance(most_bytes=500 * MB), PLENTY):
         monkeypatch.setattr(building, "copy_foreign", lambda folder, to, it=allowance: copy_foreign(
             folder, to, Allowance(it.most_bytes, it.reserve_bytes)))  # fmt: skip

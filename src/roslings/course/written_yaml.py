@@ -26,4 +26,8 @@ class PlainLoader(yaml.SafeLoader):
 
 def load(text: str | bytes) -> Any:
     """What the text says. Raises yaml.YAMLError, ValueError, RecursionError."""
-    return yaml.load(text, Loader=PlainLoader)
+    try:
+        return yaml.load(text, Loader=PlainLoader)
+    except (AttributeError, LookupError, TypeError) as error:  # `!!bool x`, `!!int ''`
+        problem = "a value is not of the kind that its tag says"
+        raise yaml.constructor.ConstructorError(None, None, problem) from error

@@ -119,10 +119,10 @@ def is_memory_full() -> bool:
     most, _ = resource.getrlimit(resource.RLIMIT_AS)
     if most == resource.RLIM_INFINITY or not MEMORY_OF_PROCESS.is_file():
         return False
-    return _peak_bytes() > most - LAST_BYTES
+    return peak_bytes() > most - LAST_BYTES
 
 
-def _peak_bytes() -> int:
+def peak_bytes() -> int:
     """Of the address space: proc(5)."""
     lines = MEMORY_OF_PROCESS.with_name("status").read_text("utf-8", "replace").splitlines()
     return next((int(line.split()[1]) * 1024 for line in lines if line.startswith("VmPeak")), 0)

@@ -19,13 +19,14 @@ def said_in(settings: Path) -> dict[str, str | None] | None:
     """Type and name, None where it has none; no answer where it cannot be read."""
     with reading(settings):
         try:
-            said = json.loads(read_in_child(lambda bookmark: _read(settings, bookmark)))
+            said = json.loads(read_in_child(lambda bookmark: said_in_child(settings, bookmark)))
         except ReaderEnded:
             return None
     return said if isinstance(said, dict) else None
 
 
-def _read(settings: Path, bookmark: Bookmark) -> str:
+def said_in_child(settings: Path, bookmark: Bookmark) -> str:
+    """The same, as JSON."""
     bookmark.put(settings.name)
     try:
         said = load(settings.read_bytes()) or {}

@@ -188,11 +188,12 @@ def _disagreements(wanted: str, named: str, setup: code.Setup, found: dict[str, 
     if setup.name not in (None, named):
         problems.append(f"setup.py says the name is {setup.name}; package.xml says {named}")
     if "setup.cfg" in found:
-        problems += _setup_cfg_problems(found["setup.cfg"], wanted)
+        problems += setup_cfg_problems(found["setup.cfg"], wanted)
     return problems
 
 
-def _setup_cfg_problems(path: Path, package: str) -> list[str]:
+def setup_cfg_problems(path: Path, package: str) -> list[str]:
+    """Why `ros2 run` would find nothing, in words; one line at most."""
     try:
         folders = code.script_folders(path)
     except (configparser.Error, UnicodeDecodeError) as error:
