@@ -9,9 +9,11 @@ from pathlib import Path
 
 import pytest
 
+from roslings.batch.fingerprints import LARGEST_FILE_BYTES, fingerprint
 from roslings.batch.grading import grade
 from roslings.batch.result import Order
 from roslings.course import lab
+from roslings.workspace.bounded import Bookmark, ReadingBounds, read_in_child
 
 TOPICS = lab("topics")
 FIGURE = "figures/day3_rqt_graph.png"
@@ -46,3 +48,17 @@ def test_it_is_refused_once(name: str, tmp_path: Path) -> None:
     assert result.reason.startswith("submission/chatter")
     assert file in result.reason and bound in result.reason
     assert result.next_step and str(tmp_path) not in result.reason + result.next_step
+
+
+@pytest.mark.parametrize("word", ["'", "f'", "\\", "0x", "1e", "(", "a "])
+def test_a_line_without_end_has_a_fingerprint(word: str, tmp_path: Path) -> None:
+    """In three seconds of a processor; Python 3.11 would need the square of the line."""
+    package = tmp_path / "chatter"
+    shutil.copytree(TOPICS.solution, package)
+    text = word * (LARGEST_FILE_BYTES // len(word))
+    (package / "chatter/more.py").write_text(text)
+
+    def read(_: Bookmark) -> str:
+        return fingerprint(package).whole
+
+    assert read_in_child(read, ReadingBounds(cpu_s=3))

@@ -17,7 +17,7 @@ import keyword
 import tokenize
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import islice
+from itertools import islice, takewhile
 from pathlib import Path
 
 from roslings.workspace.sources import files
@@ -25,6 +25,7 @@ from roslings.workspace.sources import files
 K, W = 12, 8
 LARGEST_FILE_BYTES = 500_000
 MOST_TOKENS = 100_000
+LONGEST_LINE = 2_000
 KINDS = {tokenize.NAME: "n", tokenize.NUMBER: "0", tokenize.STRING: "s"}
 UNSEEN = {
     tokenize.COMMENT, tokenize.NL, tokenize.ENCODING, tokenize.ENDMARKER, tokenize.NEWLINE,
@@ -63,11 +64,16 @@ def _counts(name: str) -> bool:
 def _tokens(text: bytes) -> Iterator[tokenize.TokenInfo]:
     """The tokens up to the first place that is no Python."""
     try:
-        for token in tokenize.tokenize(io.BytesIO(text).readline):
+        for token in tokenize.tokenize(_short_lines(text).__next__):
             if token.type not in UNSEEN:
                 yield token
     except (SyntaxError, ValueError, tokenize.TokenError):
         return
+
+
+def _short_lines(text: bytes) -> Iterator[bytes]:
+    """Up to the first line that nobody writes: Python's own reader takes the square of it."""
+    return takewhile(lambda line: len(line) <= LONGEST_LINE, io.BytesIO(text))
 
 
 def _kind(token: tokenize.TokenInfo) -> str:
