@@ -1,6 +1,6 @@
 """What the worst file costs that we read of a package: fuzzed for so many seconds; asserts nothing.
 
-    .venv/bin/python tests/bench/readers.py 600
+    .venv/bin/python tests/bench/readers.py SECONDS
 
 Hypothesis makes files of up to the size that each reader takes, of words that its grammar knows and
 of honest files that are cut and mended, and goes on with those that took the most time. Each is
