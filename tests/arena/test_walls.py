@@ -50,7 +50,7 @@ def test_a_kernel_that_refuses_namespaces_is_noticed(
         skip_without("limit one level down")
     wall, because = ran.stdout.splitlines()
     assert wall == "domain"
-    assert because
+    assert because == f"user.max_{kind}_namespaces is 0"  # no word of a disk that is full
 
 
 def test_the_wall_can_be_chosen(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -114,7 +114,7 @@ def test_every_python_writes_the_same(tmp_path: Path) -> None:
         "import normal\nfrom pathlib import Path\n"
         f"folders = {str(SRC / 'roslings/experiment')!r}, {str(root() / 'labs')!r}\n"
         "files = [file for folder in folders for file in Path(folder).rglob('*.py')]\n"
-        "print(normal.digest_of_files({str(file): file for file in files}))\n"
+        "print(normal.digest_of_files([(str(file), file) for file in files]))\n"
     )
     others = (python for minor in range(10, 15) for python in other_pythons(f"python3.{minor}"))
     pythons = [sys.executable, *filter(_runs, others)]

@@ -338,3 +338,22 @@ def test_winnowing_keeps_a_mark_of_every_long_shared_run() -> None:
     other = set(winnowed([*"qrstuvwxyz", *run]))
     assert one & other
     assert not set(winnowed(run[:11]))
+
+
+def test_a_student_reads_no_path_of_the_machine_that_grades(tmp_path: Path) -> None:
+    """What broke off is told the instructor; in no file for students stands where it was."""
+    place = "/home/teacher/rooms/1f"
+    reason = f"The disk is full. This could not be written:\n{place}\nNothing was changed."
+    (tmp_path / "class.csv").write_text("name\nanna")
+    with gradebook(tmp_path, "topics") as book:
+        keep(book, Settings(roster=tmp_path / "class.csv"))
+        step = f"Look at this one yourself: ./roslings check {place}"
+        book.write(Result(submission="anna", digest="d", attempt=1, state="broken", reason=reason,
+                          next_step=step))  # fmt: skip
+        hand_out(book, TOPICS, tmp_path)
+    assert place in (tmp_path / "grades.csv").read_text("utf-8")
+    theirs = [path for path in (tmp_path / "students").rglob("*") if path.is_file()]
+    for path in (*theirs, tmp_path / "moodle.csv", tmp_path / "canvas.csv"):
+        assert place not in path.read_text("utf-8"), path.name
+    page = (tmp_path / "students/anna/report.html").read_text("utf-8")
+    assert "It is not your fault" in page and "Your instructor sees why" in page

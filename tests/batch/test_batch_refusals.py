@@ -130,8 +130,16 @@ TOLD: dict[type[WorkspaceError], tuple[WorkspaceError, ...]] = {
     errors.NamedOtherwise: (errors.NamedOtherwise("chatter", [("chater", HERE / "chater")]),),
     errors.NoSetupPy: (errors.NoSetupPy(HERE, has_cmake=True),),
     errors.TooManyFolders: (errors.TooManyFolders(HERE, 5_000),),
-    errors.LinkLeadsOutside: (errors.LinkLeadsOutside(HERE / "a", HERE / "b"),),
+    errors.LinkLeadsOutside: (errors.LinkLeadsOutside(HERE / "a", "../b"),),
     errors.TooLarge: (errors.TooLarge(HERE, HERE / "big", "300.0 MB", "200.0 MB"),),
+    errors.FileTooLarge: (
+        errors.FileTooLarge(HERE / "package.xml", "400,000 bytes", "64,000 bytes"),
+    ),
+    errors.TooMuchToRead: (
+        errors.TooMuchToRead(HERE / "a.py", "1.0 MB", "it takes more than 256 MB of memory"),
+    ),
+    errors.PictureTooLarge: (errors.PictureTooLarge(HERE / "a.png", 7000, 7000, 20_000_000),),
+    errors.PictureTooSlow: (errors.PictureTooSlow(HERE / "a.png", 49_000_000, 5.0),),
     errors.AlreadyThere: (errors.AlreadyThere("It is there.", "Give another name."),),
 }
 REASONS = [(each.problem, each.next_step) for some in TOLD.values() for each in some]

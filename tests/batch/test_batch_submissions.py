@@ -198,6 +198,18 @@ def test_a_link_out_of_the_package_is_refused(tmp_path: Path) -> None:
         package_in(tmp_path / "ben", "chatter", tmp_path)
 
 
+def test_a_link_tells_its_own_words_and_not_where_it_leads_here(tmp_path: Path) -> None:
+    """Else a student learns how the machine that grades is laid out, link by link."""
+    room = tmp_path / "room"
+    room.mkdir()
+    folder_of(tmp_path / "ben")
+    (tmp_path / "ben/chatter/secret").symlink_to("../../anna")
+    (tmp_path / "anna").mkdir()
+    with pytest.raises(Refused, match=r"a link to\n\.\./\.\./anna, which leads") as refusal:
+        package_in(tmp_path / "ben", "chatter", room)
+    assert str(tmp_path) not in str(refusal.value)
+
+
 # --- which submissions there are ---------------------------------------------------------------
 
 

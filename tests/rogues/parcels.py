@@ -1,4 +1,4 @@
-"""Archives that attack who unpacks them, each around a whole package; and two that hold no one."""
+"""Archives that attack who unpacks and reads them, each around a whole package; and two others."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import stat
 import struct
 import tarfile
 import zipfile
+import zlib
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -101,6 +102,38 @@ def raw_name(path: Path) -> None:
     path.write_bytes(path.read_bytes().replace(stand_in.encode(), name))
 
 
+def file_of(name: str, content: bytes) -> Make:
+    """The solution with another file in the place of one of its own, or besides."""
+
+    def make(path: Path) -> None:
+        with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+            for file in sorted(LAB.solution.rglob("*")):
+                own = file.relative_to(LAB.solution).as_posix()
+                if file.is_file() and own != name:
+                    archive.write(file, f"{ALL}/{own}")
+            archive.writestr(f"{ALL}/{name}", content)
+
+    return make
+
+
+def picture_of(width: int, height: int) -> bytes:
+    """A PNG that says so; its pixels are missing."""
+    parts = [(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)), (b"IDAT", b""),
+             (b"IEND", b"")]  # fmt: skip
+    return b"\x89PNG\r\n\x1a\n" + b"".join(
+        struct.pack(">I", len(content)) + kind + content
+        + struct.pack(">I", zlib.crc32(kind + content))
+        for kind, content in parts
+    )  # fmt: skip
+
+
+def growing_yaml() -> bytes:
+    """Each line means nine times what the line above it means: 600 bytes, and 5 GB in words."""
+    lines = ["a0: &a0 [x]"]
+    lines += [f"a{n}: &a{n} [{', '.join([f'*a{n - 1}'] * 9)}]" for n in range(1, 10)]
+    return "\n".join([*lines, "type: *a9", "name: *a9"]).encode()
+
+
 def two_packages(path: Path) -> None:
     """Which one is meant nobody knows."""
     package_in_zip(path, "a/chatter").close()
@@ -145,5 +178,15 @@ PARCELS = (
     Parcel("tar_no_utf8", ".tar.gz", tar_with(entry("chatter/\udcff"), b"1"), "no UTF-8"),
     Parcel("two_packages", ".zip", two_packages, "several packages"),
     Parcel("no_package", ".zip", no_package, "no ROS package"),
+    Parcel("file_of_comments", ".zip", file_of("package.xml", b"<!--" * 100_000),
+           r"package\.xml is too large to be read:\s+it has 400,000 bytes\. The limit is 64,000"),
+    Parcel("file_of_lines", ".zip", file_of("setup.cfg", b"[a]\n" + b"y\n" * 30_000),
+           r"setup\.cfg is too large to be read:\s+it has 30,001 lines\. The limit is 2,000"),
+    Parcel("file_that_grows", ".zip", file_of("colcon.pkg", growing_yaml()),
+           r"colcon\.pkg, and it says type '\(list\)' and name '\(list\)'"),
+    Parcel("file_of_numbers", ".zip", file_of("chatter/a.py", b"x = [" + b"1," * 490_000 + b"]"),
+           r"a\.py \(980\.0 kB\) cannot be read:\s+it takes more than 256 MB of memory"),
+    Parcel("file_of_pixels", ".zip", file_of("figures/day3_rqt_graph.png", picture_of(7000, 7000)),
+           r"it has 7000 x 7000 pixels, 49\.0 million\. The limit is 20 million"),
     Parcel("links_in_a_folder", "", link_in_folder, "outside the package|A link in it"),
 )  # fmt: skip

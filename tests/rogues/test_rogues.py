@@ -27,12 +27,14 @@ import pytest
 from gallery import Entry, Gallery, Seen, hang, hang_in_turns, next_to, turns, untrue
 from once import once
 from parcels import PARCELS, Parcel
-from rogue import Attempt, attempts
+from rogue import LAB, Attempt, attempts
 from skips import needs, skip_without
 from stage import SANDBOX, TIME, UNTIL_S
 
 from roslings.batch.errors import Refused
 from roslings.batch.unpack import package_in
+from roslings.workspace.errors import WorkspaceError
+from roslings.workspace.inspect import inspect_package
 
 ENTRIES: dict[str, Entry] = {each.name: each for each in (*attempts(), *PARCELS)}
 HARMLESS = ("exits_0_from_atexit-run", "fake_std_msgs", "reads-build", "zip_link")
@@ -62,12 +64,12 @@ def test_a_rogue_is_a_package(entry: Attempt, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("parcel", PARCELS, ids=lambda parcel: parcel.name)
 def test_a_hostile_parcel_is_refused(parcel: Parcel, tmp_path: Path) -> None:
-    """With its reason; what it writes stays in the folder for it."""
+    """With its reason, when it is unpacked or read; what it writes stays in the folder for it."""
     handed_in, room = tmp_path / f"it{parcel.ending}", tmp_path / "room"
     room.mkdir()
     parcel.make(handed_in)
-    with pytest.raises(Refused, match=parcel.refused):
-        package_in(handed_in, "chatter", room)
+    with pytest.raises((Refused, WorkspaceError), match=parcel.refused):
+        inspect_package(package_in(handed_in, "chatter", room), LAB.card)
     assert {path.name for path in tmp_path.iterdir()} == {handed_in.name, "room"}
     assert {path.name for path in room.iterdir()} <= {"unpacked"}
 

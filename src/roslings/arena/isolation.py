@@ -19,7 +19,7 @@ from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 
-from roslings.arena import cgroup, kernel
+from roslings.arena import cgroup, kernel, ways
 from roslings.arena.bounds import MB, kernel_counts_by_namespace
 from roslings.arena.environment import HERE, Wall
 from roslings.arena.sandbox import Sandbox
@@ -40,7 +40,6 @@ BARE = (sys.executable, "-I", "-S")
 ROOM_BYTES = 512 * MB
 """For one package's build and installation."""
 TRIED_WITHIN_S = 60
-USERS_FORBIDDEN = Path("/proc/sys/kernel/apparmor_restrict_unprivileged_userns")
 
 
 def guardian_command(channel: int) -> list[str]:
@@ -132,23 +131,14 @@ def _best() -> Isolation:
         return Isolation("namespace", lack=Lack("bubblewrap is not installed", step))
     best = Isolation("namespace", sandbox=Sandbox(Path(program), cgroup.trees()))
     if refusal := _refusal_of_sandbox(best):
-        return Isolation("namespace", lack=Lack(f"bubblewrap cannot work: {refusal}", OTHER_USER))
+        lack = Lack(f"bubblewrap cannot work: {refusal}", ways.to_a_sandbox(ways.facts()))
+        return Isolation("namespace", lack=lack)
     return Isolation("namespace", sandbox=best.sandbox, lack=_lack_of_bounds(best.sandbox))
 
 
-OTHER_USER = "Run the command as an ordinary user, or on a machine that is not a container."
-
-
 def _lack_of_namespaces(refusal: str) -> Lack:
-    """The mend is known on Ubuntu 24.04: AppArmor forbids them to ordinary users."""
-    try:
-        forbidden = USERS_FORBIDDEN.read_text("ascii").strip() == "1"
-    except OSError:
-        forbidden = False
-    step = (
-        f"Allow them: sudo sysctl -w kernel.{USERS_FORBIDDEN.name}=0" if forbidden else OTHER_USER
-    )
-    return Lack(f"this system allows no namespaces of one's own ({refusal})", step)
+    reason = f"this system allows no namespaces of one's own ({refusal})"
+    return Lack(reason, ways.to_namespaces(ways.facts()))
 
 
 def _lack_of_bounds(sandbox: Sandbox | None) -> Lack | None:
@@ -156,7 +146,7 @@ def _lack_of_bounds(sandbox: Sandbox | None) -> Lack | None:
     controlled = {name for tree in (sandbox.trees if sandbox else ()) for name in tree.controllers}
     if "pids" in controlled or (os.getuid() != 0 and kernel_counts_by_namespace()):
         return None
-    return Lack("nothing here bounds the number of processes", OTHER_USER)
+    return Lack("nothing here bounds the number of processes", ways.to_bounds(ways.facts()))
 
 
 def _refusal() -> str:
@@ -186,4 +176,4 @@ def _tried(command: Sequence[str]) -> str:
     if tried.returncode == 0:
         return ""
     words = tried.stderr.strip().splitlines()
-    return words[-1] if words else "the kernel refused"
+    return ways.in_words(words[-1], ways.facts()) if words else "the kernel refused"

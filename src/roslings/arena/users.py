@@ -254,11 +254,19 @@ def _lack_within(place: Path) -> Lack | None:
 
 
 def _closed(path: Path) -> Lack:
+    """A home is never to be opened: whatever else lies there is nobody's matter."""
+    opens = "" if _is_a_home(path) else f",\nor open it: chmod o+rX {path}"
     return Lack(
         f"another user cannot read {path}, and Python or ROS lies there",
-        "Put roslings and its Python where every user can read them, for example below /opt,\n"
-        f"or open it: chmod o+rX {path}",
+        "Put roslings and its Python where every user can read them, for example below /opt"
+        f"{opens or '.'}",
     )
+
+
+def _is_a_home(path: Path) -> bool:
+    """Somebody's, or a folder in which such lie."""
+    homes = [Path(each.pw_dir) for each in pwd.getpwall()]
+    return any(path == home or path in home.parents for home in (*homes, Path.home()))
 
 
 def _writable(path: Path) -> Lack:

@@ -126,7 +126,7 @@ def _comment(grade: Grade) -> str:
     if grade.override or not grade.result:
         return _reason(grade)
     if not grade.result.verdict:
-        return f"{_reason(grade)} {one_line(grade.result.next_step)}".strip()
+        return " ".join(one_line(text) for text in grade.result.told_to_student if text)
     failed = [check.title for check in grade.result.verdict.failed()]
     return f"To mend: {'; '.join(failed)}" if failed else ""
 

@@ -17,7 +17,7 @@ from roslings.batch.roster import Student
 from roslings.batch.submissions import Submission, find_submissions, name_of
 from roslings.experiment.run_folder import run_folder
 from roslings.workspace.errors import from_here
-from roslings.workspace.packages import LARGEST_XML_BYTES, NAME
+from roslings.workspace.packages import LARGEST_BYTES, NAME
 from roslings.workspace.sources import Limits
 
 WHOLE_CLASS = Limits(bytes=20_000_000_000, files=500_000)
@@ -136,5 +136,6 @@ def _has_a_package_twice(file: Path, names: dict[str, zipfile.ZipInfo]) -> bool:
 
 def _package_in(archive: zipfile.ZipFile, sheet: zipfile.ZipInfo) -> str:
     with archive.open(sheet) as content:
-        found = re.search(NAME, content.read(LARGEST_XML_BYTES).decode("utf-8", "replace"))
+        start = content.read(LARGEST_BYTES["package.xml"])
+        found = re.search(NAME, start.decode("utf-8", "replace"))
     return found[1] if found else ""

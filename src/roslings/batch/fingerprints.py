@@ -15,8 +15,9 @@ import hashlib
 import io
 import keyword
 import tokenize
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import islice, takewhile
 from pathlib import Path
 
 from roslings.workspace.sources import files
@@ -24,6 +25,7 @@ from roslings.workspace.sources import files
 K, W = 12, 8
 LARGEST_FILE_BYTES = 500_000
 MOST_TOKENS = 100_000
+LONGEST_LINE = 2_000
 KINDS = {tokenize.NAME: "n", tokenize.NUMBER: "0", tokenize.STRING: "s"}
 UNSEEN = {
     tokenize.COMMENT, tokenize.NL, tokenize.ENCODING, tokenize.ENDMARKER, tokenize.NEWLINE,
@@ -39,13 +41,17 @@ class Fingerprint:
     marks: frozenset[int]
 
 
-def fingerprint(package: Path) -> Fingerprint:
-    """The fingerprint of the Python files of a package, setup.py and tests left out."""
-    code = [path for name, path in sorted(files(package).items()) if _counts(name)]
-    texts = [path.read_bytes() for path in code if path.stat().st_size <= LARGEST_FILE_BYTES]
+def fingerprint(package: Path, note: Callable[[str], object] = str) -> Fingerprint:
+    """The fingerprint of the Python files of a package, setup.py and tests left out.
+
+    `note` is told the name of each file before it is read.
+    """
     exact, marks = hashlib.sha256(), set[int]()
-    for text in texts:
-        tokens = list(_tokens(text))[:MOST_TOKENS]
+    for name, path in sorted(files(package).items()):
+        if not _counts(name) or path.stat().st_size > LARGEST_FILE_BYTES:
+            continue
+        note(name)
+        tokens = list(islice(_tokens(path.read_bytes()), MOST_TOKENS))
         exact.update("\0".join(token.string for token in tokens).encode("utf-8", "replace"))
         marks |= set(winnowed([_kind(token) for token in tokens]))
     return Fingerprint(exact.hexdigest()[:32], frozenset(marks))
@@ -58,11 +64,16 @@ def _counts(name: str) -> bool:
 def _tokens(text: bytes) -> Iterator[tokenize.TokenInfo]:
     """The tokens up to the first place that is no Python."""
     try:
-        for token in tokenize.tokenize(io.BytesIO(text).readline):
+        for token in tokenize.tokenize(_short_lines(text).__next__):
             if token.type not in UNSEEN:
                 yield token
     except (SyntaxError, ValueError, tokenize.TokenError):
         return
+
+
+def _short_lines(text: bytes) -> Iterator[bytes]:
+    """Up to the first line that nobody writes: Python's own reader takes the square of it."""
+    return takewhile(lambda line: len(line) <= LONGEST_LINE, io.BytesIO(text))
 
 
 def _kind(token: tokenize.TokenInfo) -> str:

@@ -6,20 +6,21 @@ import lzma
 import signal
 import time
 import zlib
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from types import FrameType
+
+from pydantic import BaseModel
 
 from roslings import course
 from roslings.arena import NoFreeDomain, NoFreeUser
 from roslings.batch.errors import Refused
 from roslings.batch.fingerprints import Fingerprint, fingerprint
 from roslings.batch.result import Order, Result, broken
-from roslings.batch.unpack import package_in
+from roslings.batch.unpack import in_its_own_words, package_in
 from roslings.batch.version import version_of
 from roslings.course import Lab
-from roslings.evidence import Evidence, read_json, thin_json
+from roslings.evidence import Evidence, PackageSeen, read_json, thin_json
 from roslings.experiment import Choices, MeasuringFailed, measure
 from roslings.experiment.soaking import SOAKING
 from roslings.judge.loaded import judge_for
@@ -27,8 +28,9 @@ from roslings.report.html.intervals import watched
 from roslings.report.whole_file import write_whole
 from roslings.saving import asked_rates
 from roslings.verdict import Verdict
-from roslings.workspace.errors import MachineTrouble
-from roslings.workspace.inspect import inspect_package
+from roslings.workspace.bounded import Bookmark
+from roslings.workspace.errors import MachineTrouble, WorkspaceError
+from roslings.workspace.inspect import read_bounded, read_package
 
 NO_FINGERPRINT = Fingerprint("", frozenset())
 
@@ -109,7 +111,8 @@ def _measured(order: Order, lab: Lab) -> Measured:
     """The way of `check`: read, measure, judge."""
     began_ns = time.monotonic_ns()
     package = package_in(order.path, lab.card.package, order.room)
-    files = inspect_package(package, lab.card)
+    read = _read(package, lab, order)
+    files = read.seen
     files.handed_in_as = order.handed_in_as
     choices = Choices(
         order.seed, order.clock, hidden=order.hidden, builds=order.builds,
@@ -124,19 +127,40 @@ def _measured(order: Order, lab: Lab) -> Measured:
     with judge_for(lab, order.strangers) as judge:
         evidence = measure(lab.name, package, files, choices, note)
         verdict = judge(evidence, began_ns)
-    return Measured(verdict, evidence, _fingerprint(package))
+    return Measured(verdict, evidence, Fingerprint(read.whole, frozenset(read.marks)))
 
 
-def _fingerprint(package: Path) -> Fingerprint:
-    """A package that cannot be tokenised is graded all the same."""
-    return _or_none(lambda: fingerprint(package)) or NO_FINGERPRINT
+class Read(BaseModel):
+    """What stands in a package's files; `whole` and `marks` are of its fingerprint."""
+
+    seen: PackageSeen
+    whole: str
+    marks: list[int]
 
 
-def _or_none(make: Callable[[], Fingerprint]) -> Fingerprint | None:
+def _read(package: Path, lab: Lab, order: Order) -> Read:
+    """All that is read of it, by one child. Raises Refused, and what has to do with the disk."""
+
+    def read(bookmark: Bookmark) -> str:
+        seen = read_package(package, lab.card, bookmark)
+        print_of_it = _fingerprint(package, bookmark)
+        found = Read(seen=seen, whole=print_of_it.whole, marks=sorted(print_of_it.marks))
+        return found.model_dump_json()
+
     try:
-        return make()
+        return Read.model_validate_json(read_bounded(package, read))
+    except MachineTrouble:
+        raise
+    except WorkspaceError as error:
+        raise in_its_own_words(error, (order.path, order.room)) from error
+
+
+def _fingerprint(package: Path, bookmark: Bookmark) -> Fingerprint:
+    """A package that cannot be tokenised is graded all the same."""
+    try:
+        return fingerprint(package, bookmark.put)
     except (OSError, RecursionError):
-        return None
+        return NO_FINGERPRINT
 
 
 def rates_of(evidence: Evidence, lab: Lab) -> dict[str, float]:

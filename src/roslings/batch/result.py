@@ -73,6 +73,10 @@ class Order(BaseModel):
         return self.room / "errors"
 
 
+NOT_YET = "There is no grade yet: the machine that grades could not tell. It is not your fault."
+WHO_KNOWS = "Your instructor sees why."
+
+
 class Result(BaseModel):
     """What came of one grading."""
 
@@ -107,6 +111,14 @@ class Result(BaseModel):
     def score(self) -> float | None:
         """0 to 100; None where nobody could tell."""
         return self.verdict.score if self.verdict else None
+
+    @property
+    def told_to_student(self) -> tuple[str, str]:
+        """Why there is no verdict, and the next step, for the author of what was handed in.
+
+        What broke off is told the instructor, in words and paths of the machine that grades.
+        """
+        return (self.reason, self.next_step) if self.state == "refused" else (NOT_YET, WHO_KNOWS)
 
     @property
     def word(self) -> str:

@@ -74,9 +74,8 @@ def _write(book: Gradebook, lab: Lab, grade: Grade, result: Result, place: Path)
 
 
 def _refusal(lab: Lab, result: Result) -> Refusal:
-    """For the platforms; the next step of a broken grading is the instructor's."""
-    refused = result.state == "refused"
-    return Refusal(lab.name, result.reason, result.next_step if refused else "", refused)
+    """For the platforms."""
+    return Refusal(lab.name, *result.told_to_student, result.state == "refused")
 
 
 def _page_of_lines(name: str, verdict: Verdict) -> str:
@@ -94,9 +93,8 @@ def _page_without(name: str, result: Result) -> str:
 
 
 def _told(result: Result) -> Iterator[str]:
-    yield from paragraphs(result.reason)
-    if result.state == "refused":  # the next step of a broken grading is the instructor's
-        yield from paragraphs(result.next_step)
+    for text in result.told_to_student:
+        yield from paragraphs(text)
 
 
 def _page(name: str, heading: str, lines: Iterator[str] | list[str]) -> str:

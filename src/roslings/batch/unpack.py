@@ -47,7 +47,7 @@ def package_in(handed_in: Path, name: str, room: Path) -> Path:
     except MachineTrouble:
         raise
     except WorkspaceError as error:
-        raise _in_its_own_words(error, (*opening.unpacked, handed_in, room)) from error
+        raise in_its_own_words(error, (*opening.unpacked, handed_in, room)) from error
 
 
 @dataclass
@@ -172,6 +172,6 @@ def _of(name: str, reason: str) -> str:
     return f"{name} {reason[3:]}" if reason.startswith("It ") else f"{name}: {reason}"
 
 
-def _in_its_own_words(error: WorkspaceError, places: tuple[Path, ...]) -> Refused:
+def in_its_own_words(error: WorkspaceError, places: tuple[Path, ...]) -> Refused:
     """The same sentences, without the paths of the machine that grades."""
     return Refused(without_places(error.problem, places), without_places(error.next_step, places))

@@ -9,6 +9,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from roslings.workspace.bounded import is_memory_full
+
 LARGEST_BYTES = 1_000_000
 
 
@@ -31,7 +33,11 @@ def parse(path: Path) -> ast.Module:
         return tree
     except SyntaxError as error:
         raise NotPython(error.lineno or 1, error.msg) from error
-    except (ValueError, RecursionError, MemoryError) as error:  # zero bytes, endless brackets
+    except (ValueError, RecursionError) as error:  # zero bytes, endless brackets
+        raise NotPython(1, str(error) or "too deeply nested") from error
+    except MemoryError as error:
+        if is_memory_full():  # else Python says so of what is nested too deeply
+            raise
         raise NotPython(1, str(error) or "too deeply nested") from error
 
 

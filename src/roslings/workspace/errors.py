@@ -267,9 +267,10 @@ class ChangedMeanwhile(WorkspaceError):
 class LinkLeadsOutside(WorkspaceError):
     """A symbolic link leaves the package."""
 
-    def __init__(self, link: Path, target: Path) -> None:
+    def __init__(self, link: Path, target: str) -> None:
+        """`target` as it stands in the link: where that lies on this machine is nobody's matter."""
         super().__init__(
-            f"{shown(link)} is a link to\n{shown(target)}, outside the package.",
+            f"{shown(link)} is a link to\n{target}, which leads outside the package.",
             "A package must hold its own files. Replace the link by a copy of the file.",
         )
 
@@ -281,6 +282,50 @@ class TooLarge(WorkspaceError):
         super().__init__(
             f"{shown(folder)} is too large:\n{size}. The limit is {limit}.",
             f"Move what is not code out of it. The largest part is\n{shown(largest)}",
+        )
+
+
+class FileTooLarge(WorkspaceError):
+    """A file that is read to understand the package is longer than anybody writes it."""
+
+    def __init__(self, file: Path, found: str, limit: str) -> None:
+        super().__init__(
+            f"{shown(file)} is too large to be read:\nit has {found}. The limit is {limit}.",
+            f"Write it anew, short and plain. `ros2 pkg create` shows how such a file looks,\n"
+            f"and what is not {file.name} belongs into another file.",
+        )
+
+
+class TooMuchToRead(WorkspaceError):
+    """What a file holds takes more time or memory than any honest file does."""
+
+    def __init__(self, file: Path, size: str, why: str) -> None:
+        super().__init__(
+            f"{shown(file)} ({size}) cannot be read:\n{why}.",
+            "No file of a lab's package is like that. Write it anew, short and plain,\n"
+            "or take it out of the package.",
+        )
+
+
+class PictureTooLarge(WorkspaceError):
+    """A picture of more pixels than any screen has."""
+
+    def __init__(self, file: Path, width: int, height: int, limit: int) -> None:
+        super().__init__(
+            f"{shown(file)} is too large to be looked at:\nit has {width} x {height} pixels,"
+            f" {width * height / 1e6:,.1f} million. The limit is {limit / 1e6:g} million.",
+            "Save it smaller. A whole 4K screen has 8.3 million.",
+        )
+
+
+class PictureTooSlow(WorkspaceError):
+    """A picture that takes long to unpack."""
+
+    def __init__(self, file: Path, bytes_of_it: int, limit_s: float) -> None:
+        super().__init__(
+            f"{shown(file)} ({bytes_of_it / 1e6:.1f} MB) cannot be looked at:\n"
+            f"it takes more than {limit_s:g} s of a processor.",
+            "Save it anew, as a plain PNG.",
         )
 
 

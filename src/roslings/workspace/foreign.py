@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import shutil
 import stat
+from dataclasses import dataclass
 from pathlib import Path
 
+from roslings.arena.bounds import MB
+from roslings.arena.isolation import ROOM_BYTES
+
 MOST_BYTES = 1024 * 1024
+PIECE_BYTES = 1024 * 1024
+LEAST_BYTES = 4096
+"""Of the disk, for anything that has a name."""
 
 
 def read_foreign(path: Path, most_bytes: int = MOST_BYTES) -> bytes | None:
@@ -27,22 +35,70 @@ def read_foreign(path: Path, most_bytes: int = MOST_BYTES) -> bytes | None:
         return file.read(most_bytes) if is_its_own else None
 
 
-def copy_foreign(folder: Path, to: Path) -> None:
-    """Copy plain files, folders and links as they are; leave out the rest.
+class NoRoom(OSError):
+    """What is to be copied is more than the room held, or would take the last of the disk."""
 
-    What runs as its owner (set-user-ID) loses that. Raises OSError, shutil.Error.
+    def __init__(self, place: Path) -> None:
+        super().__init__(errno.ENOSPC, "it takes more than it may", str(place))
+
+
+@dataclass
+class Allowance:
+    """How many bytes may be copied, as they are written: a sparse file has no holes afterwards."""
+
+    most_bytes: int = ROOM_BYTES
+    reserve_bytes: int = 512 * MB
+    """So much of the disk stays free, for the evidence and the gradebook of everybody else."""
+    copied_bytes: int = 0
+
+    def take(self, count: int, place: Path) -> None:
+        """So many more are written at `place`. Raises NoRoom."""
+        self.copied_bytes += count
+        is_too_much = self.copied_bytes > self.most_bytes
+        if is_too_much or shutil.disk_usage(place.parent).free < self.reserve_bytes + count:
+            raise NoRoom(place)
+
+
+def copy_foreign(folder: Path, to: Path, allowance: Allowance | None = None) -> None:
+    """Copy plain files, folders and links to the new folder `to`; leave out the rest.
+
+    What runs as its owner (set-user-ID) loses that. Whatever hinders the copy, nothing of it stays.
+    Raises NoRoom, OSError.
     """
-    shutil.copytree(folder, to, symlinks=True, ignore=_special, copy_function=_copy_plain)
+    allowance = allowance or Allowance()
+    to.parent.mkdir(parents=True, exist_ok=True)
+    try:
+        waiting = [(folder, to)]
+        while waiting:
+            waiting += _copy_folder(*waiting.pop(), allowance)
+    except BaseException:
+        shutil.rmtree(to, ignore_errors=True)
+        raise
 
 
-def _special(folder: str, names: list[str]) -> list[str]:
-    kinds = (stat.S_ISREG, stat.S_ISDIR, stat.S_ISLNK)
-    modes = {name: os.lstat(os.path.join(folder, name)).st_mode for name in names}  # noqa: PTH118
-    return [name for name, mode in modes.items() if not any(is_kind(mode) for is_kind in kinds)]
+def _copy_folder(folder: Path, to: Path, allowance: Allowance) -> list[tuple[Path, Path]]:
+    """Copy what lies directly in it; returns the folders that it holds, and where they go."""
+    allowance.take(LEAST_BYTES, to)
+    to.mkdir(mode=0o755)
+    inside = []
+    with os.scandir(folder) as found:
+        for entry in found:
+            source, target = Path(entry.path), to / entry.name
+            if entry.is_symlink():
+                allowance.take(LEAST_BYTES, target)
+                target.symlink_to(source.readlink())
+            elif entry.is_dir():
+                inside.append((source, target))
+            elif entry.is_file():
+                _copy_file(source, target, allowance)
+    return inside
 
 
-def _copy_plain(source: str, target: str) -> None:
-    shutil.copyfile(source, target, follow_symlinks=False)
-    if not os.path.islink(target):  # noqa: PTH114
-        runs = os.stat(source).st_mode & stat.S_IXUSR  # noqa: PTH116
-        os.chmod(target, 0o755 if runs else 0o644)  # noqa: PTH101
+def _copy_file(source: Path, target: Path, allowance: Allowance) -> None:
+    allowance.take(LEAST_BYTES, target)
+    with source.open("rb") as original, target.open("xb") as copy:
+        while piece := original.read(PIECE_BYTES):
+            allowance.take(len(piece), target)
+            copy.write(piece)
+        runs = os.fstat(original.fileno()).st_mode & stat.S_IXUSR
+    target.chmod(0o755 if runs else 0o644)

@@ -5,18 +5,21 @@ from __future__ import annotations
 import configparser
 import os
 import sys
-from collections.abc import Collection, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from pathlib import Path
 
+from roslings.arena.bounds import MB
 from roslings.course import Card
 from roslings.evidence import PackageSeen, PictureSeen
 from roslings.workspace import code
+from roslings.workspace.bounded import Bookmark, ReaderEnded, ReadingBounds, read_in_child
 from roslings.workspace.documents import text_of
-from roslings.workspace.errors import reading
+from roslings.workspace.errors import TooMuchToRead, reading
 from roslings.workspace.manifest import read_manifest
 from roslings.workspace.normal import digest_of_files
+from roslings.workspace.packages import insist_on_small_files
 from roslings.workspace.pictures import look_at
-from roslings.workspace.sources import files
+from roslings.workspace.sources import files, size
 
 NOT_THE_PACKAGES_CODE = frozenset({"test", "tests", "launch", "resource"})
 
@@ -46,19 +49,72 @@ def inspect_package(folder: Path, card: Card, known: Collection[str] | None = No
     """Read a package against its card; `known` are the ROS packages there are.
 
     `imported` names only code that other nodes could run: not tests, not setup.py. Raises what
-    `sources` raises: links that leave the package, too much in it, no permission.
+    `sources` raises: links that leave the package, too much in it, no permission; and FileTooLarge,
+    TooMuchToRead, PictureTooLarge, PictureTooSlow.
     """
-    found = files(folder)
+
+    def read(bookmark: Bookmark) -> str:
+        return read_package(folder, card, bookmark, known).model_dump_json()
+
+    return PackageSeen.model_validate_json(read_bounded(folder, read))
+
+
+def read_bounded(folder: Path, read: Callable[[Bookmark], str]) -> str:
+    """What `read` says of a package, read in a child. Raises what `inspect_package` raises."""
+    files(folder)
+    insist_on_small_files(folder)
     with reading(folder):
-        return _inspect(folder, card, found, ros_packages() if known is None else known)
+        try:
+            return read_in_child(read)
+        except ReaderEnded as ended:
+            raise _too_much(folder, ended) from ended
 
 
-def _inspect(
-    folder: Path, card: Card, found: dict[str, Path], known: Collection[str]
+WHY = {
+    "time": f"it takes more than {ReadingBounds.cpu_s} s of a processor",
+    "memory": f"it takes more than {ReadingBounds.memory_bytes // MB} MB of memory",
+}
+
+
+def _too_much(folder: Path, ended: ReaderEnded) -> TooMuchToRead:
+    file = folder / ended.at
+    found = size(file.stat().st_size) if file.is_file() else "the package"
+    return TooMuchToRead(file, found, WHY.get(ended.met, f"reading it broke off ({ended.words})"))
+
+
+def read_package(
+    folder: Path, card: Card, bookmark: Bookmark, known: Collection[str] | None = None
 ) -> PackageSeen:
+    """As `inspect_package`, in this process: for a child that is bounded."""
+    found = Marked(files(folder), bookmark)
+    return _inspect(folder, card, found, ros_packages() if known is None else known)
+
+
+class Marked(dict[str, Path]):
+    """The files of a package; who takes one out is about to read it."""
+
+    def __init__(self, found: Mapping[str, Path], bookmark: Bookmark) -> None:
+        super().__init__(found)
+        self._bookmark = bookmark
+
+    def note(self, name: str) -> None:
+        """This file is read next."""
+        self._bookmark.put(name)
+
+    def noted(self, names: Iterable[str]) -> Iterator[tuple[str, Path]]:
+        """These files, one after the other."""
+        for name in names:
+            self.note(name)
+            yield name, self[name]
+
+
+def _inspect(folder: Path, card: Card, found: Marked, known: Collection[str]) -> PackageSeen:
+    found.note("package.xml")
     manifest = read_manifest(folder)
-    python = {name: path for name, path in found.items() if _is_code(name)}
+    python = [name for name in found if _is_code(name)]
+    found.note("setup.py")
     setup, setup_errors = _read_setup(found.get("setup.py"))
+    found.note("setup.cfg")
     disagreements = _disagreements(card.package, manifest.name, setup, found)
     return PackageSeen(
         name=manifest.name,
@@ -66,13 +122,16 @@ def _inspect(
         build_type=manifest.build_type,
         xml_problems=manifest.problems + disagreements,
         missing_files=list(_missing(card.package, setup, found)),
-        syntax_errors=[*setup_errors, *_syntax_errors(python)],
+        syntax_errors=[*setup_errors, *_syntax_errors(found.noted(python))],
         declared=manifest.declared,
-        imported=_imported(python, known, card.package),
+        imported=_imported(found.noted(python), known, card.package),
         entry_points=setup.console_scripts,
-        pictures=dict(_pictures(folder, card)),
-        documents={path: text_of(found[path]) for path in card.documents if path in found},
-        content=digest_of_files(found),
+        pictures=dict(_pictures(folder, card, found)),
+        documents={
+            name: text_of(path)
+            for name, path in found.noted(each for each in card.documents if each in found)
+        },
+        content=digest_of_files(found.noted(found)),
     )
 
 
@@ -89,18 +148,20 @@ def _read_setup(path: Path | None) -> tuple[code.Setup, list[str]]:
         return code.Setup(), [f"setup.py:{error}"]
 
 
-def _syntax_errors(python: dict[str, Path]) -> Iterator[str]:
-    for name, path in python.items():
+def _syntax_errors(python: Iterable[tuple[str, Path]]) -> Iterator[str]:
+    for name, path in python:
         try:
             code.parse(path)
         except code.NotPython as error:
             yield f"{name}:{error}"
 
 
-def _imported(python: dict[str, Path], known: Collection[str], own: str) -> dict[str, str]:
+def _imported(
+    python: Iterable[tuple[str, Path]], known: Collection[str], own: str
+) -> dict[str, str]:
     """Each package that package.xml must name to the first place where it is imported."""
     found: dict[str, str] = {}
-    for name, path in python.items():
+    for name, path in python:
         try:
             imports = sorted(code.imports(code.parse(path)), key=lambda pair: pair[1])
         except code.NotPython:  # told as an error of syntax
@@ -127,11 +188,12 @@ def _disagreements(wanted: str, named: str, setup: code.Setup, found: dict[str, 
     if setup.name not in (None, named):
         problems.append(f"setup.py says the name is {setup.name}; package.xml says {named}")
     if "setup.cfg" in found:
-        problems += _setup_cfg_problems(found["setup.cfg"], wanted)
+        problems += setup_cfg_problems(found["setup.cfg"], wanted)
     return problems
 
 
-def _setup_cfg_problems(path: Path, package: str) -> list[str]:
+def setup_cfg_problems(path: Path, package: str) -> list[str]:
+    """Why `ros2 run` would find nothing, in words; one line at most."""
     try:
         folders = code.script_folders(path)
     except (configparser.Error, UnicodeDecodeError) as error:
@@ -146,8 +208,9 @@ def _setup_cfg_problems(path: Path, package: str) -> list[str]:
     return []
 
 
-def _pictures(folder: Path, card: Card) -> Iterator[tuple[str, PictureSeen]]:
+def _pictures(folder: Path, card: Card, found: Marked) -> Iterator[tuple[str, PictureSeen]]:
     for contract in card.pictures:
+        found.note(contract.path)
         seen = look_at(folder, contract)
         if seen:
             yield contract.path, seen

@@ -21,6 +21,7 @@ from roslings.workspace.sources import Source, sources
 PACKAGES = "lib/python*/site-packages"
 """Where setuptools installs Python packages, below colcon's folder for one package."""
 BYTECODE = "__pycache__"
+PIECE_BYTES = 1024 * 1024
 
 
 def content_of(package: Path, begun_with: str, but: frozenset[Path] = frozenset()) -> str:
@@ -30,7 +31,9 @@ def content_of(package: Path, begun_with: str, but: frozenset[Path] = frozenset(
         runs = source.path.is_file() and os.access(source.path, os.X_OK)
         content.update(f"\0{source.name!r} {source.link_to!r} {runs}\0".encode())
         if source.link_to is None and source.path.is_file() and source.name not in but:
-            content.update(source.path.read_bytes())
+            with source.path.open("rb") as file:
+                while piece := file.read(PIECE_BYTES):
+                    content.update(piece)
     return content.hexdigest()[:32]
 
 

@@ -9,10 +9,10 @@ from xml.parsers import expat
 from catkin_pkg.package import InvalidPackage, parse_package_string
 from pydantic import BaseModel
 
-from roslings.workspace.packages import LARGEST_XML_BYTES, package_name, xml_text
+from roslings.workspace.packages import package_name, xml_text
 
-_DEPEND = re.compile(r"<(?:\w+_)?depend\b[^>]*>\s*([^<>\s]+)\s*</")
-_BUILD_TYPE = re.compile(r"<build_type\b[^>]*>\s*([^<>\s]+)\s*</")
+_DEPEND = re.compile(r"<(?:\w+_)?depend\b[^<>]*>\s*([^<>\s]+)\s*</")
+_BUILD_TYPE = re.compile(r"<build_type\b[^<>]*>\s*([^<>\s]+)\s*</")
 
 
 class Manifest(BaseModel):
@@ -37,9 +37,7 @@ def read_manifest(folder: Path) -> Manifest:
 
 
 def _problems(path: Path) -> list[str]:
-    content = path.read_bytes()[: LARGEST_XML_BYTES + 1]
-    if len(content) > LARGEST_XML_BYTES:
-        return ["package.xml is larger than any package.xml is"]
+    content = path.read_bytes()
     try:
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError as error:

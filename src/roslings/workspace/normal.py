@@ -9,12 +9,14 @@ from __future__ import annotations
 import ast
 import hashlib
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 
 Special = Callable[[ast.AST], str | None]
 """What stands for a node in place of its own words; None: its own words. Empty: nothing."""
 
+LARGEST_CODE_BYTES = 1_000_000
+PIECE_BYTES = 1024 * 1024
 WITHOUT_MEANING = frozenset({"kind", "type_comment", "type_ignores", "lineno", "col_offset"})
 """Fields of a node that change nothing of what it does: `u''`, comments with types."""
 HAVE_DOCSTRINGS = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
@@ -31,16 +33,30 @@ def digest_of_all(digests: Mapping[str, str]) -> str:
     return digest_of("".join(lines).encode())
 
 
-def digest_of_files(files: Mapping[str, Path]) -> str:
-    """Of a package's files, by their names in it; Python counts by what it does."""
-    return digest_of_all({name: digest_of_file(path) for name, path in files.items()})
+def digest_of_files(files: Iterable[tuple[str, Path]]) -> str:
+    """Of a package's files, each with its name in it; Python counts by what it does."""
+    return digest_of_all({name: digest_of_file(path) for name, path in files})
 
 
 def digest_of_file(path: Path) -> str:
     """Of one file; Python that cannot be read counts by its bytes, as all other files do."""
+    if path.suffix != ".py" or path.stat().st_size > LARGEST_CODE_BYTES:
+        return _digest_of_bytes(path)
     content = path.read_bytes()
-    tree = tree_of(content) if path.suffix == ".py" else None
-    return digest_of(normal(tree) if tree else content)
+    try:
+        tree = tree_of(content)
+        return digest_of(normal(tree) if tree else content)
+    except RecursionError:  # Python reads what is nested deeper than we go
+        return digest_of(content)
+
+
+def _digest_of_bytes(path: Path) -> str:
+    """A piece at a time: it may be as large as a package may be."""
+    content = hashlib.sha256()
+    with path.open("rb") as file:
+        while piece := file.read(PIECE_BYTES):
+            content.update(piece)
+    return content.hexdigest()
 
 
 def tree_of(content: bytes) -> ast.Module | None:

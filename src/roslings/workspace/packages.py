@@ -11,6 +11,7 @@ from pathlib import Path
 from roslings.workspace.errors import (
     Archive,
     EmptyFolder,
+    FileTooLarge,
     IgnoredByColcon,
     NamedOtherwise,
     NoPackage,
@@ -36,9 +37,12 @@ LEVELS_UP = 3
 COLCON_MARKERS = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
 IGNORE_MARKERS = (*COLCON_MARKERS, "pyvenv.cfg")
 PACKED = (".zip", ".tar", ".gz", ".tgz", ".xz", ".txz", ".bz2", ".tbz2", ".7z", ".rar")
-LARGEST_XML_BYTES = 1_000_000
+LARGEST_BYTES = {name: 64_000 for name in ("package.xml", "setup.cfg", "colcon.pkg")}
+"""Of what we and colcon read to know what the package is; people write a fiftieth of it."""
+MOST_LINES, LONGEST_LINE = 2_000, 1_000
+"""Of setup.cfg: Python's own reader takes the square of them."""
 NAME = re.compile(r"<name>\s*([^<>\s]+)\s*</name>")
-_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
+COMMENT = ("<!--", "-->")
 
 
 def find_package(path: Path, name: str) -> Path:
@@ -56,8 +60,30 @@ def find_package(path: Path, name: str) -> Path:
     package = _choose(folder, name, found)
     if not (package / "setup.py").is_file():
         raise NoSetupPy(package, has_cmake=(package / "CMakeLists.txt").is_file())
+    insist_on_small_files(package)
     _insist_that_colcon_takes(package, name)
     return package
+
+
+def insist_on_small_files(package: Path) -> None:
+    """So that reading them comes to an end, for us and for colcon. Raises FileTooLarge."""
+    for name, most_bytes in LARGEST_BYTES.items():
+        file = package / name
+        if file.is_file() and (found := file.stat().st_size) > most_bytes:
+            raise FileTooLarge(file, f"{found:,} bytes", f"{most_bytes:,} bytes")
+    settings = package / "setup.cfg"
+    if settings.is_file():
+        with reading(settings):
+            _insist_on_short_lines(settings, settings.read_bytes().splitlines())
+
+
+def _insist_on_short_lines(file: Path, lines: list[bytes]) -> None:
+    if len(lines) > MOST_LINES:
+        raise FileTooLarge(file, f"{len(lines):,} lines", f"{MOST_LINES:,} lines")
+    longest = max(map(len, lines), default=0)
+    if longest > LONGEST_LINE:
+        found = f"a line of {longest:,} bytes"
+        raise FileTooLarge(file, found, f"{LONGEST_LINE:,} bytes a line")
 
 
 def _insist_that_colcon_takes(package: Path, name: str) -> None:
@@ -71,20 +97,15 @@ def _insist_that_colcon_takes(package: Path, name: str) -> None:
 
 def _problem_in(settings: Path, name: str) -> str:
     """What colcon.pkg says against package.xml; empty where both say the same."""
-    import yaml  # few packages have such a file
+    from roslings.workspace.colcon_settings import said_in  # few packages have such a file
 
-    try:
-        with reading(settings), settings.open("rb") as file:
-            said = yaml.safe_load(file.read(LARGEST_XML_BYTES)) or {}
-    except (OSError, yaml.YAMLError, RecursionError):
-        return "colcon cannot read it"
-    if not isinstance(said, dict):
-        return "colcon cannot read it"
+    said = said_in(settings)
     wanted = {"type": "ros.ament_python", "name": name}
-    own = {key: said.get(key) for key in wanted}
-    if own in ({"type": None, "name": None}, wanted):
+    if said is None:
+        return "colcon cannot read it"
+    if said in ({"type": None, "name": None}, wanted):
         return ""
-    return f"it says type {own['type']!r} and name {own['name']!r}"
+    return f"it says type {said['type']!r} and name {said['name']!r}"
 
 
 def packages_in(folder: Path) -> list[Path]:
@@ -135,8 +156,21 @@ def package_name(package: Path) -> str:
 def xml_text(path: Path) -> str:
     """The text of a package.xml without its comments; what is no UTF-8 becomes a �."""
     with reading(path), path.open("rb") as file:
-        start = file.read(LARGEST_XML_BYTES)
-    return _COMMENT.sub("", start.decode("utf-8", errors="replace"))
+        start = file.read(LARGEST_BYTES["package.xml"])
+    return "".join(_without_comments(start.decode("utf-8", errors="replace")))
+
+
+def _without_comments(text: str) -> Iterator[str]:
+    """The pieces between comments; one that does not end is none."""
+    opening, closing = COMMENT
+    begin = 0
+    while (comment := text.find(opening, begin)) >= 0:
+        end = text.find(closing, comment + len(opening))
+        if end < 0:
+            break
+        yield text[begin:comment]
+        begin = end + len(closing)
+    yield text[begin:]
 
 
 def _folder(path: Path) -> Path:

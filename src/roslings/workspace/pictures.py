@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import struct
+import time
 import zlib
-from collections.abc import Iterable, Sequence
 from pathlib import Path
-
-import png
 
 from roslings.course import PictureContract
 from roslings.evidence import PictureSeen
+from roslings.workspace.errors import PictureTooLarge, PictureTooSlow
+from roslings.workspace.png_rows import NotPng, has_one_colour, read_header
 
 BEGINNINGS = {
     b"\x89PNG\r\n\x1a\n": "PNG",
@@ -24,25 +23,19 @@ BEGINNINGS = {
 """How a file of each format begins; of other formats than PNG no more is told."""
 
 LARGEST_BYTES = 50_000_000
-LARGEST_PIXELS = 50_000_000
+LARGEST_PIXELS = 20_000_000
 """A screen has 8 million. A file of few bytes can claim billions (a decompression bomb)."""
+LONGEST_S = 5.0
+"""Of a processor."""
 
-NOT_READABLE = (
-    png.Error,
-    zlib.error,
-    OSError,
-    ValueError,
-    EOFError,
-    struct.error,
-    OverflowError,
-    MemoryError,
-)
+NOT_READABLE = (NotPng, zlib.error, OSError)
 
 
 def look_at(package: Path, contract: PictureContract) -> PictureSeen | None:
     """What the picture of the card is; None where there is no such file in the package.
 
-    `format` is None for a file that is no image, is broken, or is far too large for one.
+    `format` is None for a file that is no image, is broken, or is far too large for one. Raises
+    PictureTooLarge, PictureTooSlow.
     """
     path = package / contract.path
     if not path.is_file() or not path.resolve().is_relative_to(package.resolve()):
@@ -68,23 +61,16 @@ def _format(path: Path) -> str | None:
 
 
 def _look(path: Path, name: str) -> PictureSeen:
-    for _ in png.Reader(filename=str(path)).chunks():
-        pass  # each part is whole, up to the last one
-    reader = png.Reader(filename=str(path))
-    reader.preamble()
-    if reader.width * reader.height > LARGEST_PIXELS:
-        return PictureSeen(path=name, format=None)
-    width, height, rows, info = reader.read()
+    until_s = time.process_time() + LONGEST_S
+    with path.open("rb") as file:
+        header = read_header(file)
+        if header.width * header.height > LARGEST_PIXELS:
+            raise PictureTooLarge(path, header.width, header.height, LARGEST_PIXELS)
+        colours = 1
+        for is_one in has_one_colour(file, header):
+            colours = 1 if is_one else 2
+            if time.process_time() > until_s:
+                raise PictureTooSlow(path, path.stat().st_size, LONGEST_S)
     return PictureSeen(
-        path=name, format="PNG", width=width, height=height, colours=_colours(rows, info["planes"])
-    )
-
-
-def _colours(rows: Iterable[Sequence[int]], planes: int) -> int:
-    """1 or 2, for two and more: rows are read until the second colour is found."""
-    first: list[int] = []
-    for row in rows:
-        first = first or list(row[:planes])
-        if list(row) != first * (len(row) // planes):
-            return 2
-    return 1
+        path=name, format="PNG", width=header.width, height=header.height, colours=colours,
+    )  # fmt: skip

@@ -106,7 +106,7 @@ def _build_in(
     try:
         if own.lies_at:
             copy_foreign(own.lies / "install", installed.folder)
-    except (OSError, shutil.Error, RecursionError):
+    except OSError:
         return _build_alone(source, room, place, within_s)
     built = Built(
         seen=seen, programs=installed.programs, environment=installed.environment,
@@ -119,7 +119,7 @@ def _build_in(
 def _build_alone(
     source: Path, room: Path, place: Place, within_s: float
 ) -> tuple[BuildSeen, Installed | None]:
-    """Build in `room` for one run only: what came of it cannot be kept (no rights, too deep)."""
+    """Build in `room` for one run only: nobody else gets it (no rights, too deep, too much)."""
     alone = BuildRoom(room / "alone", source.name)
     shutil.copytree(source, alone.source, symlinks=True)
     return build(alone, place, within_s)

@@ -107,7 +107,7 @@ def _from_link(link: Path, root: Path) -> Iterator[Source]:
         return
     target = link.resolve()
     if not target.is_relative_to(root):
-        raise LinkLeadsOutside(link, target)
+        raise LinkLeadsOutside(link, os.readlink(link))  # noqa: PTH115
     if not link.parent.is_relative_to(target):
         yield Source(link, link.relative_to(root), link_to=os.path.relpath(target, link.parent))
 

@@ -83,7 +83,7 @@ def content_of(package: Package) -> str:
     scratch = Path(tempfile.mkdtemp(prefix="roslings-"))
     try:
         place, own = package.make(scratch), package.lab.card.package
-        return digest_of_files(files(place if place.name == own else place / own))
+        return digest_of_files(files(place if place.name == own else place / own).items())
     finally:
         shutil.rmtree(scratch, ignore_errors=True)
 
