@@ -125,7 +125,10 @@ class Choice:
         if not files:
             return
         for file in sorted(files & BY_TEST):
-            yield LeftOut(file, outcome, part, seed())
+            yield LeftOut(file, outcome, part, seed(), self._skipped(file))
         others = files - BY_TEST
         for file in sorted(others - drawn(others, seed(), part)):
-            yield LeftOut(file, outcome)
+            yield LeftOut(file, outcome, skipped=self._skipped(file))
+
+    def _skipped(self, file: str) -> tuple[str, ...]:
+        return tuple(self.records[file].skipped)

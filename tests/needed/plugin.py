@@ -6,8 +6,7 @@ told at the end, and stands in the file of `--costs`.
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Generator, Iterator, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -15,14 +14,10 @@ from typing import Any
 import pytest
 from costs import COSTS, Costs, without_group
 
-from needed.left_out import KEPT, UNDRAWN, LeftOut, read
+from needed.left_out import LeftOut, read, told
 
 PLUGIN = "left-out-by-needs"
 LESSON = ".ipynb"
-TOLD = {
-    KEPT: "{} tests were run before with all that they need as it is",
-    UNDRAWN: "{} tests not drawn: of what they need, only what measures all labs is another",
-}
 
 
 def add_needed_option(parser: pytest.Parser) -> None:
@@ -71,8 +66,9 @@ class LeavesOut:
         """Each that is left out, and why."""
         for file, left in self._left_out.items():
             own = [item for item in items if item.path == root / file and is_recorded(item)]
-            stay = left.drawn([item.nodeid for item in own])
-            yield from ((item, left.outcome) for item in own if item.nodeid not in stay)
+            named = {without_group(item.nodeid): item for item in own}
+            stay = {*left.drawn(named.keys()), *left.skipped}
+            yield from ((item, left.outcome) for name, item in named.items() if name not in stay)
 
     @pytest.hookimpl(optionalhook=True)
     def pytest_testnodedown(self, node: Any) -> None:
@@ -95,9 +91,3 @@ class LeavesOut:
         """How many, and why."""
         for line in told(self.tests.values()):
             terminalreporter.write_line(f"Left out: {line}.")
-
-
-def told(outcomes: Iterable[str]) -> list[str]:
-    """How many were left out by which rule."""
-    found = Counter(outcomes)
-    return [words.format(found[name]) for name, words in TOLD.items() if found[name]]

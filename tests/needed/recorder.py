@@ -70,11 +70,11 @@ class Recorder:
             costs = Path(folder, "costs")
             with Watch(self.root, tuple(tree.watched)) as watch:
                 self._run(test, costs)
-            lacks = lacks_in(costs)
+            skipped = skipped_in(costs)
         opened = watch.opened()
         self._insist_on_stillness(opened, tree)
         needs = {need: tree.digest(need) for need in tree.needs(test, opened)}
-        return Record(test, made_with(), lacks, needs)
+        return Record(test, made_with(), skipped, needs)
 
     def _run(self, test: str, costs: Path) -> None:
         for words in words_for(test):
@@ -110,17 +110,18 @@ def words_for(test: str) -> Iterator[list[str]]:
         yield from (["-m", marks, "-n", processes] for marks, processes in RUNS)
 
 
-def lacks_in(costs: Path) -> tuple[str, ...]:
-    """For want of what some were skipped. Raises NoRecord where that is nearly all, or time."""
+def skipped_in(costs: Path) -> dict[str, str]:
+    """Test to what the machine lacks. Raises NoRecord where all were skipped, or some for time."""
     lines = costs.read_text("utf-8").splitlines() if costs.exists() else []
     tests = [json.loads(line) for line in lines]
-    lacks = {each["lack"] for each in tests if each["outcome"] == "skipped"}
+    skipped = {each["test"]: each["lack"] for each in tests if each["outcome"] == "skipped"}
+    lacks = set(skipped.values())
     if not any(each["outcome"] == "passed" for each in tests):
         why = f": no {', '.join(sorted(lacks))}" if lacks else ""
         raise NoRecord(f"none of its slow tests ran{why}")
     if late := [lack for lack in lacks if lack not in TABLE or TABLE[lack].kind == "time"]:
         raise NoRecord(f"some were skipped: no {', '.join(sorted(late))}")
-    return tuple(sorted(lacks))
+    return skipped
 
 
 def _end(said: str) -> str:

@@ -14,7 +14,7 @@ import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import cast
+from typing import Any, cast
 
 from needed.tree import Kind, Need
 
@@ -28,10 +28,15 @@ class Record:
     file: str
     made_with: str
     """The Python, and where ROS came from: with others it may need other files."""
-    lacks: tuple[str, ...]
-    """For want of what some tests were skipped: names of `machine.py`."""
+    skipped: Mapping[str, str]
+    """Tests that the machine lacked something for, each with its name in `machine.py`."""
     needs: Mapping[Need, str]
     """Each with its digest when the test ran."""
+
+    @property
+    def lacks(self) -> list[str]:
+        """What the machine did not have."""
+        return sorted(set(self.skipped.values()))
 
 
 def made_with() -> str:
@@ -85,14 +90,14 @@ def _state(line: str) -> State:
     return Need(path, cast(Kind, kind)), digest
 
 
-def _record(line: Mapping[str, str], states: Sequence[State]) -> Record:
+def _record(line: Mapping[str, Any], states: Sequence[State]) -> Record:
     needs = dict(states[number] for number in numbers(line["needs"]))
-    return Record(line["file"], line["made_with"], tuple(line["lacks"]), needs)
+    return Record(line["file"], line["made_with"], line["skipped"], needs)
 
 
 def _line(record: Record, places: Mapping[State, int]) -> dict[str, object]:
     needs = ranges(sorted(places[state] for state in record.needs.items()))
-    return {"file": record.file, "made_with": record.made_with, "lacks": record.lacks,
+    return {"file": record.file, "made_with": record.made_with, "skipped": record.skipped,
             "needs": needs}  # fmt: skip
 
 
