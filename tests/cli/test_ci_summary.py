@@ -8,6 +8,8 @@ import sys
 from pathlib import Path
 
 import pytest
+from needed.left_out import KEPT as KEPT_BY_NEEDS
+from needed.left_out import UNDRAWN
 
 from roslings.authoring.proofs.kept import kept_here
 from roslings.course import all_labs, root
@@ -96,12 +98,12 @@ def last(words: str) -> str:
     return words.splitlines()[-1]
 
 
-def of_all(folder: Path, **skipped: int) -> tuple[int, str]:
+def of_all(folder: Path, *, word: str = "skipped", **number: int) -> tuple[int, str]:
     """The end of a run in which so many of each kind were skipped, and all others passed."""
     outcomes: dict[str, str] = {}
     for kind, tests in all_of_them(folder).items():
         outcomes |= dict.fromkeys(tests, "passed")
-        outcomes |= dict.fromkeys(tests[: skipped.get(kind, 0)], "skipped")
+        outcomes |= dict.fromkeys(tests[: number.get(kind, 0)], word)
     return summary(folder, outcomes, "1.0 1.0 0 One\n")
 
 
@@ -204,6 +206,60 @@ def test_what_was_measured_live_counts_before_what_is_kept(tmp_path: Path) -> No
     _, words = summary(tmp_path, kept, "1 1 0 One\n", {package(one): "failed"})
     assert f"Mutants: {len(KEPT_ONES)} of {len(MUTANTS)} proven, 1 wrong" in words
     assert "Mutants measured live at this landing: 1" in words
+
+
+# --- what was left out by what it needs ---------------------------------------------------------
+
+
+def of_rogues(words: str) -> list[str]:
+    """The lines about rogues as an ordinary user."""
+    lines = words.partition("Rogues as ordinary: ")[2].partition("Rogues as root")[0]
+    return [line.strip() for line in lines.splitlines()]
+
+
+def number_as_ordinary(folder: Path) -> tuple[int, int]:
+    """How many rogues are graded as an ordinary user, and how many tests all rogues are."""
+    tests = all_of_them(folder)["rogues"]
+    return sum("[ordinary-" in test for test in tests), len(tests)
+
+
+def test_rogues_that_are_kept_are_counted_apart_from_those_that_ran(tmp_path: Path) -> None:
+    """None is missing, none was proven live, and the last line says that they ran before."""
+    ordinary, all_of = number_as_ordinary(tmp_path)
+    status, words = of_all(tmp_path, word=KEPT_BY_NEEDS, rogues=all_of - 1)
+    assert (status, "MISSING" in words, "NOT PROVEN" in words) == (0, False, False)
+    assert of_rogues(words) == [
+        f"0 of {ordinary} proven, 0 wrong",
+        f"{ordinary} kept by needs: proven before, with all that they need as it is.",
+    ]
+    before = f"{all_of - 1} tests were run before with all that they need as it is"
+    assert f"\nLeft out: {before}.\n" in words
+    assert last(words) == (
+        f"All is well: every mutant and every rogue is proven, and no test was skipped; {before}."
+    )
+
+
+def test_rogues_on_which_no_lot_fell_are_not_called_proven(tmp_path: Path) -> None:
+    """The core is another than when they passed: the lot is a rule, and no proof."""
+    ordinary, _ = number_as_ordinary(tmp_path)
+    status, words = of_all(tmp_path, word=UNDRAWN, rogues=ordinary)
+    assert (status, "MISSING" in words, "All is well" in words) == (0, False, False)
+    assert of_rogues(words)[1] == (
+        f"{ordinary} not drawn: of what they need, only the core is another."
+    )
+    assert last(words).startswith("Passed, but NOT PROVEN: 0 of ")
+    assert f", {ordinary} of {ordinary} rogues as ordinary, 0 of " in last(words)
+    assert f"{ordinary} tests not drawn: " in last(words)
+
+
+def test_what_is_kept_stands_behind_what_the_machine_lacks(tmp_path: Path) -> None:
+    """Both are said, and neither as the other; other tests than rogues count as well."""
+    status, line, _ = with_all(tmp_path, KEPT_BY_NEEDS, "skipped: root", KEPT_BY_NEEDS)
+    kept = "2 tests were run before with all that they need as it is"
+    assert (status, line) == (0, f"Proven, but for 1 of the machine: 1 no root; {kept}.")
+    status, line, tests = with_all(tmp_path, KEPT_BY_NEEDS, "skipped", KEPT_BY_NEEDS)
+    late = f"1 of {tests} tests left out for want of time"
+    assert (status, line) == (0, f"Passed, but NOT PROVEN: {late}; {kept}.")
 
 
 def test_unsteady_ones_are_counted_and_fail_nothing(tmp_path: Path) -> None:
