@@ -407,9 +407,12 @@ def run_suite(folder: Path, left_out: LeftOut, *words: str) -> tuple[Counter[str
     (folder / "conftest.py").write_text(HOOKED, "utf-8")
     write(folder / "needed", [left_out])
     command = [sys.executable, "-m", "pytest", "-q", "-c", os.devnull, f"--rootdir={folder}",
-               "-p", "no:cacheprovider", f"--costs={folder / 'costs'}",
+               "-p", "xdist", "-p", "no:cacheprovider", f"--costs={folder / 'costs'}",
                f"--needed={folder / 'needed'}", *words, str(folder)]  # fmt: skip
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(HERE), *sys.path])}
+    environment = {
+        **os.environ, "PYTHONPATH": os.pathsep.join([str(HERE), *sys.path]),
+        "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1",
+    }  # fmt: skip
     done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
     lines = map(json.loads, (folder / "costs").read_text("utf-8").splitlines())
     return Counter(line["outcome"] for line in lines), done.stdout, done.returncode

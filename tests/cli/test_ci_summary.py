@@ -5,7 +5,9 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import pytest
 from needed.left_out import KEPT as KEPT_BY_NEEDS
@@ -79,9 +81,11 @@ def package(mutant: str) -> str:
     return f"{lab}: mutant {mutant.removeprefix(f'{lab}-')}"
 
 
-def all_of_them(folder: Path) -> dict[str, list[str]]:
+@cache
+def all_of_them() -> dict[str, list[str]]:
     """The tests of all mutants and of all rogues: what a run with no test misses."""
-    _, words = summary(folder, {}, "1.0 1.0 0 One\n")
+    with TemporaryDirectory() as folder:
+        _, words = summary(Path(folder), {}, "1.0 1.0 0 One\n")
     mutants, ordinary, as_root = (
         line.partition(": ")[2].split(", ") for line in words.splitlines() if "MISSING" in line
     )
@@ -101,7 +105,7 @@ def last(words: str) -> str:
 def of_all(folder: Path, *, word: str = "skipped", **number: int) -> tuple[int, str]:
     """The end of a run in which so many of each kind were skipped, and all others passed."""
     outcomes: dict[str, str] = {}
-    for kind, tests in all_of_them(folder).items():
+    for kind, tests in all_of_them().items():
         outcomes |= dict.fromkeys(tests, "passed")
         outcomes |= dict.fromkeys(tests[: number.get(kind, 0)], word)
     return summary(folder, outcomes, "1.0 1.0 0 One\n")
@@ -122,12 +126,12 @@ def test_what_was_skipped_is_not_called_well(kind: str, tmp_path: Path) -> None:
     status, words = of_all(tmp_path, **{kind: 1})
     assert (status, "All is well" in words) == (0, False)
     assert last(words).startswith("Passed, but NOT PROVEN: ")
-    assert f" 1 of {len(all_of_them(tmp_path)['mutants'])} mutants" in last(words) or kind != MUTANT
+    assert f" 1 of {len(all_of_them()['mutants'])} mutants" in last(words) or kind != MUTANT
 
 
 def with_all(folder: Path, *others: str) -> tuple[int, str, int]:
     """Every mutant and rogue is proven, and `others` came of further tests; how many tests."""
-    outcomes = {name: "passed" for names in all_of_them(folder).values() for name in names}
+    outcomes = {name: "passed" for names in all_of_them().values() for name in names}
     outcomes |= {f"tests/test_it.py::test_{n}": word for n, word in enumerate(others)}
     status, words = summary(folder, outcomes, "1 1 0 One\n")
     return status, last(words), sum(": mutant " not in name for name in outcomes)
@@ -170,7 +174,7 @@ def test_a_run_in_which_all_was_skipped_fails_with_the_reason(tmp_path: Path) ->
 @pytest.mark.parametrize(("kind", "fewest"), [("mutants", 120), ("rogues", 30)])
 def test_a_run_that_showed_too_little_fails(kind: str, fewest: int, tmp_path: Path) -> None:
     """All skipped, or all but a few: that is no proof, whatever the reason."""
-    there = len(all_of_them(tmp_path)[kind])
+    there = len(all_of_them()[kind])
     for skipped, wanted in ((there, 1), (there - fewest + 1, 1), (there - fewest, 0)):
         status, words = of_all(tmp_path, **{kind: skipped})
         assert status == wanted, words
@@ -217,15 +221,15 @@ def of_rogues(words: str) -> list[str]:
     return [line.strip() for line in lines.splitlines()]
 
 
-def number_as_ordinary(folder: Path) -> tuple[int, int]:
+def number_as_ordinary() -> tuple[int, int]:
     """How many rogues are graded as an ordinary user, and how many tests all rogues are."""
-    tests = all_of_them(folder)["rogues"]
+    tests = all_of_them()["rogues"]
     return sum("[ordinary-" in test for test in tests), len(tests)
 
 
 def test_rogues_that_are_kept_are_counted_apart_from_those_that_ran(tmp_path: Path) -> None:
     """None is missing, none was proven live, and the last line says that they ran before."""
-    ordinary, all_of = number_as_ordinary(tmp_path)
+    ordinary, all_of = number_as_ordinary()
     status, words = of_all(tmp_path, word=KEPT_BY_NEEDS, rogues=all_of - 1)
     assert (status, "MISSING" in words, "NOT PROVEN" in words) == (0, False, False)
     assert of_rogues(words) == [
@@ -241,7 +245,7 @@ def test_rogues_that_are_kept_are_counted_apart_from_those_that_ran(tmp_path: Pa
 
 def test_rogues_on_which_no_lot_fell_are_not_called_proven(tmp_path: Path) -> None:
     """The core is another than when they passed: the lot is a rule, and no proof."""
-    ordinary, _ = number_as_ordinary(tmp_path)
+    ordinary, _ = number_as_ordinary()
     status, words = of_all(tmp_path, word=UNDRAWN, rogues=ordinary)
     assert (status, "MISSING" in words, "All is well" in words) == (0, False, False)
     assert of_rogues(words)[1] == (

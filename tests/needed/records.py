@@ -1,6 +1,6 @@
 """What is kept of each test file: `tests/proofs/needs`.
 
-    states.txt      a line for each need in some state: KIND DIGEST PATH
+    states.txt      a line for each need in some state: KIND (a letter) DIGEST PATH
     records.jsonl   a line for each test file: how it was run, and its needs by their lines there
 
 Many test files need the same files in the same state, so each state is written once.
