@@ -4,11 +4,13 @@
 
 STAGES has a line `SECONDS CPU_SECONDS STATUS NAME` for each stage, COSTS a line of JSON for each
 test (`tests/costs.py`), DUE one for each package that was due (`prove --due --told`). A mutant is
-proven where it was measured live, or where its kept evidence was judged. The last line says what is
-proven and no more: what was skipped is not, and it says for want of what (`tests/machine.py`).
+proven where it was measured live, or where its kept evidence was judged. A test that was left out
+(`.ci/needs.py`) is kept where it passed before with all that it needs as it is; that is counted
+apart from what ran. The last line says what is proven and no more: what was skipped is not, and it
+says for want of what (`tests/machine.py`); nor is that on which no lot fell.
 Ends with 1 where a stage failed, where nothing asked for a mutant or a rogue that lies in this
-clone, where something was due and not measured, where fewer than `FEWEST` of a kind were graded,
-where all was skipped, or where something was skipped for no known reason.
+clone, where something was due and not measured, where fewer than `FEWEST` of a kind were graded or
+left out by rule, where all was skipped, or where something was skipped for no known reason.
 """
 
 from __future__ import annotations
@@ -27,14 +29,19 @@ import yaml
 ROOT = Path(__file__).resolve().parents[1]
 UNSTEADY = ROOT / "tests/unsteady.yaml"
 sys.path[:0] = [str(ROOT / "tests/rogues"), str(ROOT / "tests"), str(ROOT / "src")]
+
+from needed.left_out import KEPT, UNDRAWN, told  # noqa: E402
+
 SLOWEST = 20
-KEPT = re.compile(r"test_authoring_proofs\.py::test_what_is_kept_shows_what_it_must\[(.+)\]$")
+KEPT_MUTANTS = re.compile(
+    r"test_authoring_proofs\.py::test_what_is_kept_shows_what_it_must\[(.+)\]$"
+)
 ROGUE = re.compile(r"test_rogues\.py::test_a_(?:wild_)?rogue_is_contained\[(.+)\]$")
 USERS = ("ordinary", "root")
 VERDICTS = ("passed", "failed")
 MUTANTS, ROGUES = "mutants", "rogues"
 FEWEST = {MUTANTS: 120, ROGUES: 30}
-"""A run that graded fewer of them has shown too little, whatever kept it from more."""
+"""A run that shows fewer of them has shown too little, whatever the machine kept it from."""
 
 
 @dataclass(frozen=True)
@@ -69,9 +76,19 @@ class Count:
         return self.number("passed", "failed")
 
     @property
+    def kept(self) -> int:
+        """Those that passed before, with all that they need as it is."""
+        return self.number(KEPT)
+
+    @property
+    def undrawn(self) -> int:
+        """Those that were left to a lot, which fell on others."""
+        return self.number(UNDRAWN)
+
+    @property
     def unproven(self) -> int:
-        """Those that no verdict was told of."""
-        return len(self.there) - self.graded
+        """Those that no verdict was told of: not now, and not with all that they need as it is."""
+        return len(self.there) - self.graded - self.kept
 
     @property
     def missing(self) -> list[str]:
@@ -82,6 +99,10 @@ class Count:
         """How many were graded, and what became of the others."""
         wrong, skipped = self.number("failed"), self.number("skipped")
         yield f"{self.name}: {self.graded} of {len(self.there)} proven, {wrong} wrong"
+        if self.kept:
+            yield f"  {self.kept} kept by needs: proven before, with all that they need as it is."
+        if self.undrawn:
+            yield f"  {self.undrawn} not drawn: of what they need, only the core is another."
         if skipped:
             yield f"  {skipped} skipped: no room or no time on this machine; the tests say which."
         if self.missing:
@@ -96,7 +117,7 @@ def mutants() -> frozenset[str]:
 
 def kept_mutants(tests: Sequence[Test]) -> dict[str, str]:
     """LAB-MUTANT of each that evidence is kept of, to what came of judging that of its lab."""
-    labs = outcomes(tests, KEPT)
+    labs = outcomes(tests, KEPT_MUTANTS)
     return {
         f"{file.stem}-{name.removeprefix('mutant ')}": labs[file.stem]
         for file in (ROOT / "tests/proofs").glob("*.jsonl")
@@ -210,6 +231,8 @@ def main(stages_file: Path, costs_file: Path, due_file: Path) -> int:
     for count in found:
         print("\n".join(count.lines()))
     print(f"Mutants measured live at this landing: {len(due.measured)}")
+    for line in told(each.outcome for each in tests):
+        print(f"Left out: {line}.")
     print(told_of_unsteady(stages_file.with_name("unsteady")))
     wrong = [*broken(run, found), *due.wrong(), *unfounded(tests)]
     print(f"FAILED: {'; '.join(wrong)}" if wrong else proven(tests, found, due))
@@ -231,9 +254,10 @@ def broken(run: Stages, found: Sequence[Count]) -> Iterator[str]:
     if missing := sum(len(count.missing) for count in found):
         yield f"nothing asked for {missing} mutants and rogues"
     for kind, fewest in FEWEST.items():
-        graded = sum(count.graded for count in found if count.kind == kind)
-        if graded < fewest:
-            yield f"{graded} {kind} are proven, and {fewest} are the fewest that show something"
+        counts = [count for count in found if count.kind == kind]
+        shown = sum(count.graded + count.kept + count.undrawn for count in counts)
+        if shown < fewest:
+            yield f"{shown} {kind} are proven, and {fewest} are the fewest that show something"
 
 
 def unfounded(tests: Sequence[Test]) -> Iterator[str]:
@@ -247,20 +271,31 @@ def unfounded(tests: Sequence[Test]) -> Iterator[str]:
 
 def proven(tests: Sequence[Test], found: Sequence[Count], due: WasDue) -> str:
     """The last line of a run that passed: it says no more than was proven."""
-    skipped = [each for each in tests if each.outcome == "skipped"]
-    out_of_time = sum(_kind(each) == "time" for each in skipped)
-    of_machine = [each for each in skipped if _kind(each) == "machine"]
-    parts = [*due.unclear()]
-    if any(count.unproven for count in found):
-        parts += [", ".join(f"{c.unproven} of {len(c.there)} {_named(c)}" for c in found)]
-    if out_of_time:
-        parts += [f"{out_of_time} of {len(tests)} tests left out for want of time"]
+    of_machine = [each for each in tests if each.outcome == "skipped" and _kind(each) == "machine"]
     but = f"proven, but for {len(of_machine)} of the machine: {_lacks(of_machine)}"
-    if parts:
-        return f"Passed, but NOT PROVEN: {'; '.join([*parts, but] if of_machine else parts)}."
+    before = _kept(tests)
+    if parts := [*due.unclear(), *_unproven(tests, found)]:
+        words = "; ".join([*parts, *([but] if of_machine else []), *before])
+        return f"Passed, but NOT PROVEN: {words}."
     if of_machine:
-        return f"P{but[1:]}."
-    return "All is well: every mutant and every rogue is proven, and no test was skipped."
+        return f"P{'; '.join([but, *before])[1:]}."
+    well = "All is well: every mutant and every rogue is proven, and no test was skipped"
+    return f"{'; '.join([well, *before])}."
+
+
+def _unproven(tests: Sequence[Test], found: Sequence[Count]) -> Iterator[str]:
+    """What nobody may believe after this run, by the reason."""
+    if any(count.unproven for count in found):
+        yield ", ".join(f"{c.unproven} of {len(c.there)} {_named(c)}" for c in found)
+    out_of_time = sum(each.outcome == "skipped" and _kind(each) == "time" for each in tests)
+    if out_of_time:
+        yield f"{out_of_time} of {len(tests)} tests left out for want of time"
+    yield from told(each.outcome for each in tests if each.outcome == UNDRAWN)
+
+
+def _kept(tests: Sequence[Test]) -> list[str]:
+    """What did not run now and is proven all the same; in one line at most."""
+    return told(each.outcome for each in tests if each.outcome == KEPT)
 
 
 def _kind(test: Test) -> str | None:

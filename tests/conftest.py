@@ -8,6 +8,7 @@ import signal
 import pytest
 from browser import browser
 from costs import add_costs_option, note_costs
+from needed.plugin import add_needed_option, leave_out
 from once import shared_folder
 from skips import hold_to_reasons, skip_without
 from subreaper import leave_nothing_behind
@@ -35,6 +36,7 @@ DEAR = (
 def pytest_addoption(parser: pytest.Parser) -> None:
     """Options of the tests."""
     add_costs_option(parser)
+    add_needed_option(parser)
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -44,6 +46,7 @@ def pytest_configure(config: pytest.Config) -> None:
         signal.signal(signal.SIGINT, signal.default_int_handler)
     leave_nothing_behind(config)
     note_costs(config)
+    leave_out(config)
     hold_to_reasons(config)
 
 

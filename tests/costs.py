@@ -7,13 +7,15 @@ from __future__ import annotations
 
 import json
 import resource
-from collections.abc import Generator
+from collections.abc import Generator, Mapping
 from contextlib import suppress
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 import pytest
+
+COSTS = "costs-of-tests"
 
 
 @dataclass
@@ -40,8 +42,8 @@ def add_costs_option(parser: pytest.Parser) -> None:
 def note_costs(config: pytest.Config) -> None:
     """Where it was asked for, once."""
     file = config.getoption("--costs")
-    if file and not config.pluginmanager.has_plugin("costs-of-tests"):
-        config.pluginmanager.register(Costs(file.absolute()), "costs-of-tests")
+    if file and not config.pluginmanager.has_plugin(COSTS):
+        config.pluginmanager.register(Costs(file.absolute()), COSTS)
 
 
 def cpu_s() -> float:
@@ -94,6 +96,10 @@ class Costs:
         if report.skipped:
             lack = getattr(report, "lack", "")
             self._costs[report.nodeid] = Cost(report.nodeid, report.outcome, lack)
+
+    def leave_out(self, tests: Mapping[str, str]) -> None:
+        """Tests that were not run, each with the word that tells why (`needed/left_out.py`)."""
+        self._costs |= {name: Cost(name, outcome) for name, outcome in tests.items()}
 
     def pytest_sessionfinish(self, session: pytest.Session) -> None:
         """Write all down."""

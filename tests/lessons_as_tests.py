@@ -26,6 +26,7 @@ import pytest
 from costs import add_costs_option, note_costs
 from nbval.kernel import RunningKernel
 from nbval.plugin import IPyNbCell, IPyNbFile, NbCellError
+from needed.plugin import add_needed_option, leave_out
 from pydantic import BaseModel
 from skips import hold_to_reasons
 from subreaper import leave_nothing_behind
@@ -328,6 +329,7 @@ def answered(cell: Any) -> str:
 def pytest_addoption(parser: pytest.Parser) -> None:
     """What can be asked for beside nbval's own options."""
     add_costs_option(parser)
+    add_needed_option(parser)
     group = parser.getgroup("nbval")
     group.addoption("--save-outputs", action="store_true",
                     help="write what compared cells print now into their lessons")  # fmt: skip
@@ -343,6 +345,7 @@ def pytest_configure(config: pytest.Config) -> None:
         config.option.nbval_kernel_startup_timeout = START_S
     leave_nothing_behind(config)
     note_costs(config)
+    leave_out(config)
     hold_to_reasons(config)
 
 

@@ -10,9 +10,12 @@ from functools import cache
 from importlib.util import module_from_spec, spec_from_file_location
 from io import StringIO
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from types import ModuleType
 
 import pytest
+from needed.left_out import KEPT as KEPT_BY_NEEDS
+from needed.left_out import UNDRAWN
 
 from roslings.authoring.proofs.kept import kept_here
 from roslings.course import all_labs, root
@@ -101,9 +104,10 @@ def package(mutant: str) -> str:
 
 
 @cache
-def all_of_them(folder: Path) -> dict[str, list[str]]:
+def all_of_them() -> dict[str, list[str]]:
     """The tests of all mutants and of all rogues: what a run with no test misses."""
-    _, words = summary(folder, {}, "1.0 1.0 0 One\n")
+    with TemporaryDirectory() as folder:
+        _, words = summary(Path(folder), {}, "1.0 1.0 0 One\n")
     mutants, ordinary, as_root = (
         line.partition(": ")[2].split(", ") for line in words.splitlines() if "MISSING" in line
     )
@@ -120,13 +124,13 @@ def last(words: str) -> str:
     return words.splitlines()[-1]
 
 
-def of_all(folder: Path, **skipped: int) -> tuple[int, str]:
+def of_all(folder: Path, *, word: str = "skipped", **number: int) -> tuple[int, str]:
     """The end of a run in which so many of each kind were skipped, and all others passed."""
     outcomes: dict[str, str] = {}
-    for kind, tests in all_of_them(folder).items():
-        left_out = "unclear" if kind == MUTANT else "skipped"
+    for kind, tests in all_of_them().items():
+        left_out = "unclear" if kind == MUTANT else word
         outcomes |= dict.fromkeys(tests, "passed")
-        outcomes |= dict.fromkeys(tests[: skipped.get(kind, 0)], left_out)
+        outcomes |= dict.fromkeys(tests[: number.get(kind, 0)], left_out)
     return summary(folder, outcomes, "1.0 1.0 0 One\n")
 
 
@@ -145,12 +149,12 @@ def test_what_was_skipped_is_not_called_well(kind: str, tmp_path: Path) -> None:
     status, words = of_all(tmp_path, **{kind: 1})
     assert (status, "All is well" in words) == (0, False)
     assert last(words).startswith("Passed, but NOT PROVEN: ")
-    assert f" 1 of {len(all_of_them(tmp_path)['mutants'])} mutants" in last(words) or kind != MUTANT
+    assert f" 1 of {len(all_of_them()['mutants'])} mutants" in last(words) or kind != MUTANT
 
 
 def with_all(folder: Path, *others: str) -> tuple[int, str, int]:
     """Every mutant and rogue is proven, and `others` came of further tests; how many tests."""
-    outcomes = {name: "passed" for names in all_of_them(folder).values() for name in names}
+    outcomes = {name: "passed" for names in all_of_them().values() for name in names}
     outcomes |= {f"tests/test_it.py::test_{n}": word for n, word in enumerate(others)}
     status, words = summary(folder, outcomes, "1 1 0 One\n")
     return status, last(words), sum(": mutant " not in name for name in outcomes)
@@ -193,7 +197,7 @@ def test_a_run_in_which_all_was_skipped_fails_with_the_reason(tmp_path: Path) ->
 @pytest.mark.parametrize(("kind", "fewest"), [("mutants", 120), ("rogues", 30)])
 def test_a_run_that_showed_too_little_fails(kind: str, fewest: int, tmp_path: Path) -> None:
     """All skipped, or all but a few: that is no proof, whatever the reason."""
-    there = len(all_of_them(tmp_path)[kind])
+    there = len(all_of_them()[kind])
     for skipped, wanted in ((there, 1), (there - fewest + 1, 1), (there - fewest, 0)):
         status, words = of_all(tmp_path, **{kind: skipped})
         assert status == wanted, words
@@ -234,7 +238,7 @@ def test_what_was_measured_live_counts_before_what_is_kept(tmp_path: Path) -> No
 def test_what_was_due_and_not_measured_fails_the_run(tmp_path: Path) -> None:
     """Whatever kind of package it is; how to measure it stands in the last line."""
     due = {"topics: solution": "passed", "topics: kill sign-talker.py:3-0": "unmeasured"}
-    outcomes = {name: "passed" for names in all_of_them(tmp_path).values() for name in names}
+    outcomes = {name: "passed" for names in all_of_them().values() for name in names}
     status, words = summary(tmp_path, outcomes, "1 1 0 One\n", due)
     total = len(MUTANTS) + len(due)
     wanted = f"FAILED: no time was left for 1 of {total} packages that were due;"
@@ -244,13 +248,67 @@ def test_what_was_due_and_not_measured_fails_the_run(tmp_path: Path) -> None:
 
 def test_what_could_not_be_told_leaves_its_proof_as_old_as_it_was(tmp_path: Path) -> None:
     """Its kept evidence still counts; the last line has the number all the same."""
-    outcomes = {name: "passed" for names in all_of_them(tmp_path).values() for name in names}
+    outcomes = {name: "passed" for names in all_of_them().values() for name in names}
     outcomes |= {f"{KEPT}[{lab.name}]": "passed" for lab in all_labs()}
     outcomes[package(min(KEPT_ONES))] = "unclear"
     status, words = summary(tmp_path, outcomes, "1 1 0 One\n")
     assert f"Mutants: {len(MUTANTS)} of {len(MUTANTS)} proven, 0 wrong" in words
     wanted = f"1 of {len(MUTANTS)} packages that were due could not be told"
     assert (status, last(words)) == (0, f"Passed, but NOT PROVEN: {wanted}.")
+
+
+# --- what was left out by what it needs ---------------------------------------------------------
+
+
+def of_rogues(words: str) -> list[str]:
+    """The lines about rogues as an ordinary user."""
+    lines = words.partition("Rogues as ordinary: ")[2].partition("Rogues as root")[0]
+    return [line.strip() for line in lines.splitlines()]
+
+
+def number_as_ordinary() -> tuple[int, int]:
+    """How many rogues are graded as an ordinary user, and how many tests all rogues are."""
+    tests = all_of_them()["rogues"]
+    return sum("[ordinary-" in test for test in tests), len(tests)
+
+
+def test_rogues_that_are_kept_are_counted_apart_from_those_that_ran(tmp_path: Path) -> None:
+    """None is missing, none was proven live, and the last line says that they ran before."""
+    ordinary, all_of = number_as_ordinary()
+    status, words = of_all(tmp_path, word=KEPT_BY_NEEDS, rogues=all_of - 1)
+    assert (status, "MISSING" in words, "NOT PROVEN" in words) == (0, False, False)
+    assert of_rogues(words) == [
+        f"0 of {ordinary} proven, 0 wrong",
+        f"{ordinary} kept by needs: proven before, with all that they need as it is.",
+    ]
+    before = f"{all_of - 1} tests were run before with all that they need as it is"
+    assert f"\nLeft out: {before}.\n" in words
+    assert last(words) == (
+        f"All is well: every mutant and every rogue is proven, and no test was skipped; {before}."
+    )
+
+
+def test_rogues_on_which_no_lot_fell_are_not_called_proven(tmp_path: Path) -> None:
+    """The core is another than when they passed: the lot is a rule, and no proof."""
+    ordinary, _ = number_as_ordinary()
+    status, words = of_all(tmp_path, word=UNDRAWN, rogues=ordinary)
+    assert (status, "MISSING" in words, "All is well" in words) == (0, False, False)
+    assert of_rogues(words)[1] == (
+        f"{ordinary} not drawn: of what they need, only the core is another."
+    )
+    assert last(words).startswith("Passed, but NOT PROVEN: 0 of ")
+    assert f", {ordinary} of {ordinary} rogues as ordinary, 0 of " in last(words)
+    assert f"{ordinary} tests not drawn: " in last(words)
+
+
+def test_what_is_kept_stands_behind_what_the_machine_lacks(tmp_path: Path) -> None:
+    """Both are said, and neither as the other; other tests than rogues count as well."""
+    status, line, _ = with_all(tmp_path, KEPT_BY_NEEDS, "skipped: root", KEPT_BY_NEEDS)
+    kept = "2 tests were run before with all that they need as it is"
+    assert (status, line) == (0, f"Proven, but for 1 of the machine: 1 no root; {kept}.")
+    status, line, tests = with_all(tmp_path, KEPT_BY_NEEDS, "skipped", KEPT_BY_NEEDS)
+    late = f"1 of {tests} tests left out for want of time"
+    assert (status, line) == (0, f"Passed, but NOT PROVEN: {late}; {kept}.")
 
 
 def test_unsteady_ones_are_counted_and_fail_nothing(tmp_path: Path) -> None:

@@ -14,6 +14,7 @@ import tempfile
 from pathlib import Path
 
 MS_BIND, MS_REC, MS_PRIVATE = 4096, 16384, 1 << 18
+MNT_DETACH = 2
 HIDE = "--hide="
 libc = ctypes.CDLL(None, use_errno=True)
 
@@ -43,16 +44,21 @@ def show(folders: list[Path]) -> None:
 
 
 def _replace(home: Path, inside: list[Path]) -> None:
-    with tempfile.TemporaryDirectory() as name:
-        held = [Path(name, str(number)) for number in range(len(inside))]
-        for folder, place in zip(inside, held):  # noqa: B905
-            place.mkdir()
-            mount(str(folder), str(place), None, MS_BIND | MS_REC)
-        mount("tmpfs", str(home), "tmpfs", 0, "mode=0755")
-        for folder, place in zip(inside, held):  # noqa: B905
-            folder.mkdir(parents=True, exist_ok=True)
-            mount(str(place), str(folder), None, MS_BIND | MS_REC)
-            libc.umount2(str(place).encode(), 2)
+    """Each folder is held elsewhere meanwhile. What holds it is removed only where it is empty:
+    who removes all below a place, and a mount is still there, removes the folder itself.
+    """
+    name = Path(tempfile.mkdtemp())
+    held = [name / str(number) for number in range(len(inside))]
+    for folder, place in zip(inside, held):  # noqa: B905
+        place.mkdir()
+        mount(str(folder), str(place), None, MS_BIND | MS_REC)
+    mount("tmpfs", str(home), "tmpfs", 0, "mode=0755")
+    for folder, place in zip(inside, held):  # noqa: B905
+        folder.mkdir(parents=True, exist_ok=True)
+        mount(str(place), str(folder), None, MS_BIND | MS_REC)
+        libc.umount2(str(place).encode(), MNT_DETACH)
+        place.rmdir()
+    name.rmdir()
 
 
 def main(uid: int, words: list[str], command: list[str]) -> None:
