@@ -4,15 +4,21 @@ from __future__ import annotations
 
 import os
 import signal
+from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from browser import browser
 from costs import add_costs_option, note_costs
 from once import shared_folder
 from skips import hold_to_reasons, skip_without
+from slow import is_slow_whole
 from subreaper import leave_nothing_behind
 
 __all__ = ["browser", "shared_folder"]
+
+NOT_SLOW = "not slow"
+"""The expression of `-m` in pyproject.toml: README's command."""
 
 LONGEST = ("forgers", "labs", "cli", "batch", "bootstrap", "devices")
 """Folders with long tests: what is begun last ought to be short."""
@@ -54,14 +60,33 @@ def pytest_runtest_setup(item: pytest.Item) -> None:
         skip_without("time for slow tests")
 
 
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """A file of slow tests alone is not even read where none of them is wanted.
+
+    One that was asked for by its name is: who typed it is told how many were left out.
+    """
+    if config.option.markexpr != NOT_SLOW or collection_path.suffix != ".py":
+        return None
+    asked_for = any(collection_path.samefile(word.split("::")[0]) for word in _files_of(config))
+    return True if not asked_for and is_slow_whole(collection_path) else None
+
+
+def _files_of(config: pytest.Config) -> Iterator[str]:
+    return (word for word in config.args if Path(word.split("::")[0]).is_file())
+
+
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """The folders with long tests come first; who shares something dear shares a worker."""
+    """The folders with long tests come first; who shares something shares a worker.
+
+    Quick tests share what their file makes once and what it imports; slow ones are spread.
+    """
     items.sort(key=_turn)
     for item in items:
         names = getattr(item, "fixturenames", ())
-        if dear := next((name for name in DEAR if name in names), None):
-            item.add_marker(pytest.mark.xdist_group(dear))
+        dear = next((name for name in DEAR if name in names), None)
+        if dear or not (item.get_closest_marker("slow") or item.get_closest_marker("xdist_group")):
+            item.add_marker(pytest.mark.xdist_group(dear or item.path.stem))
 
 
 def _turn(item: pytest.Item) -> int:

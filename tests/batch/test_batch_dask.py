@@ -22,6 +22,7 @@ from roslings.batch.gradebook import gradebook
 from roslings.batch.result import Result
 from roslings.course import lab
 
+pytestmark = pytest.mark.slow
 imported("distributed")
 
 TOPICS = lab("topics")
