@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 from browser import browser
+from changed import add_changed_option, choose_what_is_changed
 from costs import add_costs_option, note_costs
 from once import shared_folder
 from skips import hold_to_reasons, skip_without
@@ -41,6 +42,7 @@ DEAR = (
 def pytest_addoption(parser: pytest.Parser) -> None:
     """Options of the tests."""
     add_costs_option(parser)
+    add_changed_option(parser)
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -48,6 +50,7 @@ def pytest_configure(config: pytest.Config) -> None:
     os.environ["ROSLINGS_SOAK_S"] = "0"  # what is about half a minute of running says so itself
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
+    choose_what_is_changed(config, NOT_SLOW)
     leave_nothing_behind(config)
     note_costs(config)
     hold_to_reasons(config)

@@ -6,16 +6,16 @@ them; `test_slow_list.py` holds the list against the marks.
 
 from __future__ import annotations
 
-import ast
 import re
-from collections.abc import Iterator
 from pathlib import Path
 
 TESTS = Path(__file__).parent
 LIST = TESTS / "README.md"
 WHOLE = re.compile(r"^pytestmark = (?:\[\s*)?pytest\.mark\.slow\b", re.MULTILINE)
 SOME = re.compile(r"\bpytest\.mark\.slow\b|\bfew(?:_labs)?\(")
-ROW = re.compile(r"^\| `(?P<file>[^`]+)` \| (?P<what>[^|]+) \| (?P<why>[^|]+) \| (?P<stage>[^|]+) \|$")
+ROW = re.compile(
+    r"^\| `(?P<file>[^`]+)` \| (?P<what>[^|]+) \| (?P<why>[^|]+) \| (?P<stage>[^|]+) \|$"
+)
 
 
 def is_slow_whole(file: Path) -> bool:

@@ -12,6 +12,8 @@ import pytest
 from roslings.authoring.proofs.kept import kept_here
 from roslings.course import all_labs, root
 
+pytestmark = pytest.mark.slow
+
 SUMMARY = root() / ".ci/summary.py"
 MUTANTS = [f"{lab.name}-{each.name}" for lab in all_labs() for each in lab.mutants()]
 KEPT_ONES = {

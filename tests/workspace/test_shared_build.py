@@ -12,7 +12,7 @@ import pytest
 from few import few_labs
 
 from roslings.arena import Installed, Place, choose_isolation
-from roslings.course import Lab, all_labs, lab
+from roslings.course import Lab, lab
 from roslings.evidence import BuildSeen
 from roslings.workspace import shared_build as building
 from roslings.workspace.kin import family_of, modules_of
