@@ -1,7 +1,7 @@
 """Every lab, graded for real: solution, starter and mutants, each with the verdict it must get.
 
     ./roslings test tests/labs                              one solution and one starter
-    ./roslings test tests/labs -m slow                      all of them, and every mutant of every lab
+    ./roslings test tests/labs -m slow                      all, and every mutant of every lab
     ./roslings test tests/labs -m slow -k "topics and rate" some of them
 
 What must hold of a mutant, `roslings prove` knows; nothing here judges it a second time.
