@@ -73,9 +73,13 @@ def of_a_lab(name: str) -> Iterator[Choice]:
     yield from (Choice(place, name) for place in OF_A_LAB)
     yield from (Choice(place) for place in TEXTS)
     yield Choice(STYLE, only=NO_TYPES)
-    day = next((lab.card.day for lab in all_labs() if lab.name == name), None)
-    if day:
+    if day := _day_of(name):
         yield from of_a_day(day)
+
+
+@cache
+def _day_of(name: str) -> str | None:
+    return next((lab.card.day for lab in all_labs() if lab.name == name), None)
 
 
 def of_a_day(day: str) -> Iterator[Choice]:
