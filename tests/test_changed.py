@@ -43,11 +43,13 @@ def test_a_file_of_a_lab_chooses_the_tests_of_that_lab(file: str) -> None:
     for name in (f"{KEPT}[services]", "tests/labs/test_content.py::test_it[services-rate]",
                  "tests/labs/test_content.py::test_of_all",
                  "tests/days/test_days_lessons.py::test_a_rule[04-services]",
-                 "tests/test_anchors.py::test_it", f"{STYLE}::test_the_code_is_formatted"):  # fmt: skip
+                 "tests/test_anchors.py::test_it",
+                 f"{STYLE}::test_the_code_is_formatted"):  # fmt: skip
         assert chosen(file, name), name
     for name in (f"{KEPT}[topics]", "tests/labs/test_content.py::test_it[topics-no_services]",
                  "tests/days/test_days_lessons.py::test_a_rule[03-topics]",
-                 "tests/judge/test_judge.py::test_it", f"{STYLE}::test_the_types_hold"):  # fmt: skip
+                 "tests/judge/test_judge.py::test_it",
+                 f"{STYLE}::test_the_types_hold"):  # fmt: skip
         assert not chosen(file, name), name
 
 
@@ -113,7 +115,7 @@ def test_a_file_is_read_once() -> None:
 
 
 def test_what_is_changed_is_what_git_tells(tmp_path: Path) -> None:
-    """Changed, deleted, new, and with a strange name; not what is ignored, nor what is as it was."""
+    """Changed, deleted, new, and with a strange name; not what is ignored or as it was."""
 
     def git(*words: str) -> None:
         subprocess.run(["git", *words], cwd=tmp_path, check=True, capture_output=True)

@@ -16,7 +16,7 @@ STAGES = set(re.findall(r'^(?:stage|trial) "([^"$]+)"', GATE, re.MULTILINE))
 OF_LABS = "By the wall's clock, and with nothing in them"
 ROWS = [match.groupdict() for match in ROW.finditer(LIST.read_text("utf-8"))]
 MARKED = {
-    "all": "import pytest\n\npytestmark = [\n    pytest.mark.slow,\n]\n\n\ndef test_it():\n    pass\n",
+    "all": "import pytest\n\npytestmark = [\n    pytest.mark.slow,\n]\n\ndef test_it():\n    pass\n",
     "some": "from few import few_labs\n\n\n@few_labs('lab')\ndef test_it(lab):\n    pass\n",
 }  # fmt: skip
 
@@ -37,7 +37,7 @@ def test_a_mark_of_each_form_is_seen(how_many: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row["file"])
 def test_each_has_its_stage(row: dict[str, str]) -> None:
-    """One that there is; the tests of labs have a stage of their own, which the others leave out."""
+    """One that there is; the tests of labs have a stage of their own."""
     stages = row["stage"].split("; ")
     assert set(stages) <= STAGES
     assert (OF_LABS in stages) == row["file"].startswith("labs/")
