@@ -16,7 +16,7 @@ STAGES = set(re.findall(r'^(?:stage|trial) "([^"$]+)"', GATE, re.MULTILINE))
 OF_LABS = "By the wall's clock, and with nothing in them"
 ROWS = [match.groupdict() for match in ROW.finditer(LIST.read_text("utf-8"))]
 MARKED = {
-    "all": "import pytest\n\npytestmark = [\n    pytest.mark.slow,\n]\n\ndef test_it():\n    pass\n",
+    "all": "import pytest\n\npytestmark = [\n    pytest.mark.slow,\n]\n\ndef test_it(): pass\n",
     "some": "from few import few_labs\n\n\n@few_labs('lab')\ndef test_it(lab):\n    pass\n",
 }  # fmt: skip
 
