@@ -97,6 +97,7 @@ def commands_of(edition: Path) -> list[str]:
     return [line.partition("#")[0].strip() for line in block.splitlines()]
 
 
+@pytest.mark.slow
 def test_the_first_command_works_without_a_solution(edition: Path, tmp_path: Path) -> None:
     """With the Python of this environment, in the released course."""
     first, second = commands_of(edition)
