@@ -9,11 +9,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-import nbformat
-from jupyter_cache import get_cache
-from jupyter_cache.base import CacheBundleIn
-from lessons_as_tests import Walk
 from once import once
+from walks import Walk
 
 from roslings.course import root
 from roslings.lessons.document import read
@@ -85,6 +82,10 @@ def kept_for_the_site(walk: Walk, cache: Path) -> None:
 
     The builder asks for it under the name of the kernel that it would take itself.
     """
+    import nbformat  # a second of a processor, which each process of a test run would pay
+    from jupyter_cache import get_cache
+    from jupyter_cache.base import CacheBundleIn
+
     book = nbformat.reads(walk.executed, as_version=4)
     book.metadata.kernelspec.name = "python3"
     bundle = CacheBundleIn(book, uri="lesson.ipynb", data={"execution_seconds": 0.0})

@@ -27,9 +27,9 @@ from costs import add_costs_option, note_costs
 from nbval.kernel import RunningKernel
 from nbval.plugin import IPyNbCell, IPyNbFile, NbCellError
 from needed.plugin import add_needed_option, leave_out
-from pydantic import BaseModel
 from skips import hold_to_reasons
 from subreaper import leave_nothing_behind
+from walks import Walk
 
 from roslings.arena.lease import leased_domain
 from roslings.course import root
@@ -59,19 +59,6 @@ MEND = """
 Is the new output right? This writes it into the lesson:
     ./roslings test days/{} --nbval-lax --save-outputs
 """
-
-
-class Walk(BaseModel):
-    """One execution of a lesson: down as it is, for the site too; then up, with its changes made.
-
-    The cells of the way down know that they are on the site; those of the way up are a student's.
-    """
-
-    executed: str
-    """The notebook after the way down, as JSON."""
-    down: list[str]
-    """What went otherwise than the lesson announces, a line each."""
-    up: list[str]
 
 
 # --- where a lesson runs -----------------------------------------------------------------------

@@ -236,6 +236,7 @@ def test_they_are_spread(monkeypatch: pytest.MonkeyPatch) -> None:
     assert len({each.place for each in chosen(found)}) >= 10
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "own"),
     [

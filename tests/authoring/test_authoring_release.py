@@ -36,6 +36,7 @@ def test_no_solution_mutant_or_hidden_check_is_in_it(edition: Path) -> None:
         assert kept >= {"card.yaml", "task.md", "hints.yaml", "starter"}
 
 
+@pytest.mark.slow
 def test_its_lessons_run_under_nbval(edition: Path) -> None:
     """What `./roslings test days --nbval-lax` needs is in it: each cell of each day is a test."""
     words = ["days", "--nbval-lax", "--collect-only", "-qq", "-n0"]
@@ -96,6 +97,7 @@ def commands_of(edition: Path) -> list[str]:
     return [line.partition("#")[0].strip() for line in block.splitlines()]
 
 
+@pytest.mark.slow
 def test_the_first_command_works_without_a_solution(edition: Path, tmp_path: Path) -> None:
     """With the Python of this environment, in the released course."""
     first, second = commands_of(edition)
@@ -114,6 +116,7 @@ def test_the_first_command_works_without_a_solution(edition: Path, tmp_path: Pat
     assert "students' edition" in done.stderr
 
 
+@pytest.mark.slow
 def test_its_tests_find_all_that_they_import(edition: Path) -> None:
     """Nothing that a test of the edition imports is left out: they can be collected."""
     words = [sys.executable, "-m", "pytest", "--collect-only", "-q", "-p", "no:cacheprovider"]

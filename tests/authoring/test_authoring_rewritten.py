@@ -8,9 +8,11 @@ import subprocess
 import sys
 from collections.abc import Callable
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 import pytest
+from few import few_labs
 from rclpy.action import ActionClient, ActionServer
 from rclpy.node import Node
 from until_told import checked
@@ -298,14 +300,16 @@ def test_rclpy_calls_its_arguments_as_we_do(function: str) -> None:
 # --- all labs ----------------------------------------------------------------------------------
 
 
-@pytest.fixture(scope="module")
-def made() -> dict[str, list[Rewritten]]:
-    """What is made of each lab."""
-    return {one.name: rewritten(one) for one in all_labs()}
+@cache
+def made_of(name: str) -> list[Rewritten]:
+    """What is made of a lab."""
+    return rewritten(lab(name))
 
 
-def test_each_rewrite_applies_to_some_lab(made: dict[str, list[Rewritten]]) -> None:
+@pytest.mark.slow
+def test_each_rewrite_applies_to_some_lab() -> None:
     """And each lab has a dozen at least, and its combinations; half of it where no node is."""
+    made = {one.name: made_of(one.name) for one in all_labs()}
     used = {each.made.name for packages in made.values() for each in packages}
     assert set(REWRITES) <= used
     for name, packages in made.items():
@@ -313,12 +317,10 @@ def test_each_rewrite_applies_to_some_lab(made: dict[str, list[Rewritten]]) -> N
         assert len({each.name for each in packages}) == len(packages)
 
 
-@pytest.mark.parametrize("one", all_labs(), ids=lambda one: one.name)
-def test_what_is_made_is_a_package(
-    one: Lab, made: dict[str, list[Rewritten]], tmp_path: Path
-) -> None:
+@few_labs("one")
+def test_what_is_made_is_a_package(one: Lab, tmp_path: Path) -> None:
     """Its Python can be read, its executables exist, and package.xml names what it imports."""
-    for each in made[one.name]:
+    for each in made_of(one.name):
         folder = each.make(tmp_path)
         seen = inspect_package(folder, one.card)
         assert not [*seen.xml_problems, *seen.missing_files, *seen.syntax_errors], each.about
@@ -423,7 +425,7 @@ def test_one_command_at_a_time(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
         pass
 
 
-@pytest.mark.parametrize("each", all_labs(), ids=lambda each: each.name)
+@few_labs("each")
 def test_every_module_that_is_made_knows_its_names(each: Lab, tmp_path: Path) -> None:
     """One that is split lacks no import that a later rewrite needs; all pairs are tried."""
     solution = Sources.read(each.solution, each.card)

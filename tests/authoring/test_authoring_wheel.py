@@ -25,6 +25,8 @@ from roslings.bootstrap.place import Place
 from roslings.course import all_labs
 from roslings.installed import ARCHIVE
 
+pytestmark = pytest.mark.slow
+
 CLONE = Place(course.root())
 NAME = f"roslings-{__version__}-py3-none-any.whl"
 RUNS_A_CHECK = "ros,colcon,check"

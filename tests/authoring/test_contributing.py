@@ -14,6 +14,8 @@ from until_told import checked
 
 from roslings.course import Lab, lab, root
 
+pytestmark = pytest.mark.slow
+
 TEXT = (root() / "CONTRIBUTING.md").read_text("utf-8")
 WALK = TEXT[TEXT.index("## Add a check") : TEXT.index("## Add a capability")]
 NAME = "listener_quiet"

@@ -23,6 +23,7 @@ from roslings.batch.result import Result
 from roslings.batch.signed_gradebook import take_key
 from roslings.course import lab
 
+pytestmark = pytest.mark.slow
 imported("distributed")
 
 TOPICS = lab("topics")

@@ -44,6 +44,7 @@ def evidence() -> Evidence:
     return Evidence(lab="topics", seed=1, machine=machine, package=files, build=built)
 
 
+@pytest.mark.slow
 def test_hidden_checks_come_on_top(tmp_path: Path) -> None:
     """Their points too; they may need the lab's own checks, and the score stays up to 100."""
     file = tmp_path / "hidden_topics.py"

@@ -16,6 +16,8 @@ import pytest
 
 from roslings.course import lab
 
+pytestmark = pytest.mark.slow
+
 TOPICS = lab("topics")
 LONG_S = 300.0
 

@@ -26,6 +26,7 @@ def test_a_fresh_environment_is_compiled(standing: CourseCopy) -> None:
     assert uncompiled(standing.site) == []
 
 
+@pytest.mark.slow
 def test_a_later_group_is_compiled(ready: CourseCopy) -> None:
     """So is a package whose pin has changed."""
     ready.pin(ros_x="2.0")
@@ -41,6 +42,7 @@ def forget_bytecode(course: CourseCopy) -> None:
     assert uncompiled(course.site)
 
 
+@pytest.mark.slow
 def test_an_older_environment_is_compiled(ready: CourseCopy) -> None:
     """Once, and without a package that comes again."""
     forget_bytecode(ready)
@@ -50,6 +52,7 @@ def test_an_older_environment_is_compiled(ready: CourseCopy) -> None:
     assert ready.run("check").err == ""
 
 
+@pytest.mark.slow
 def test_an_older_environment_that_cannot_be_written_is_used(ready: CourseCopy) -> None:
     """It is slower, and no reason to refuse."""
     forget_bytecode(ready)
@@ -62,6 +65,7 @@ def test_an_older_environment_that_cannot_be_written_is_used(ready: CourseCopy) 
     assert (done.returncode, done.stderr) == (0, "")
 
 
+@pytest.mark.slow
 def test_a_copy_whose_files_have_new_times_is_compiled_again(
     ready: CourseCopy, tmp_path: Path
 ) -> None:
@@ -104,6 +108,7 @@ def set_up() -> None:
     skip_without("environment made by ./roslings")
 
 
+@pytest.mark.slow
 def test_a_real_build_compiles_nothing(set_up: None, tmp_path: Path) -> None:
     """colcon, what it asks setup.py, and setuptools at work."""
     lab = real_course.lab("topics")
@@ -112,12 +117,14 @@ def test_a_real_build_compiles_nothing(set_up: None, tmp_path: Path) -> None:
     assert list(tmp_path.glob("log/latest/*/stderr.log"))
 
 
+@pytest.mark.slow
 def test_a_node_and_the_grader_compile_nothing(set_up: None, tmp_path: Path) -> None:
     """What each of them imports before it does anything."""
     needed = "import rclpy, std_msgs.msg, pydantic, rich, yaml, pytest"
     assert compiled_anew([sys.executable, "-c", needed], tmp_path) == []
 
 
+@pytest.mark.slow
 def test_no_module_of_this_environment_waits_to_be_compiled(set_up: None) -> None:
     """The real packages, all of them, but those in which this Python finds a mistake."""
     left = uncompiled(Virtual(Path(sys.prefix)).site)

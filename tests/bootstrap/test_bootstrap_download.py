@@ -21,6 +21,7 @@ def big(wheels: Path) -> None:
     make_wheel(wheels, "check-x", "1.0", BIG)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("big")
 def test_a_cut_download_goes_on_within_one_run(online: CourseCopy, index: PackageIndex) -> None:
     """pip asks for the rest of the file, not for all of it again."""
@@ -31,6 +32,7 @@ def test_a_cut_download_goes_on_within_one_run(online: CourseCopy, index: Packag
     assert not (online.venv / "wheels").exists()
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("big")
 def test_the_next_try_goes_on(online: CourseCopy, index: PackageIndex) -> None:
     """The connection breaks for good; the next run fetches only what is missing."""
@@ -57,6 +59,7 @@ def fetches_one_by_one(course: CourseCopy) -> None:
     file.write_text(changed)
 
 
+@pytest.mark.slow
 def test_an_index_that_is_away_is_named(online: CourseCopy) -> None:
     """No network, or a registry that is down: one message, nothing left."""
     outcome = online.run("check", PIP_INDEX_URL="http://127.0.0.1:9/simple")
@@ -67,6 +70,7 @@ def test_an_index_that_is_away_is_named(online: CourseCopy) -> None:
     assert not online.venv.exists()
 
 
+@pytest.mark.slow
 def test_a_new_group_that_does_not_come_leaves_the_old(
     ready: CourseCopy, index: PackageIndex
 ) -> None:
@@ -76,6 +80,7 @@ def test_a_new_group_that_does_not_come_leaves_the_old(
     assert (ready.run("check").code, ready.run("check").err) == (0, "")
 
 
+@pytest.mark.slow
 def test_a_folder_of_wheels_sets_up_without_a_network(
     online: CourseCopy, index: PackageIndex, tmp_path: Path
 ) -> None:
@@ -105,6 +110,7 @@ def test_wheels_says_what_it_needs(standing: CourseCopy, words: list[str], tmp_p
     assert "Traceback" not in outcome.err
 
 
+@pytest.mark.slow
 def test_an_empty_folder_of_wheels_is_named(course: CourseCopy, tmp_path: Path) -> None:
     """The stick was not filled, or its name is misspelt."""
     outcome = course.run("check", ROSLINGS_WHEELS=str(tmp_path / "nowhere"))

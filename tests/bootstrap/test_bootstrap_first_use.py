@@ -12,6 +12,7 @@ from course_copy import CourseCopy
 from pythons_here import find_python
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("minor", [10, 11, 12, 13])
 def test_makes_an_environment_with_each_python(
     make_course: Callable[..., CourseCopy], minor: int
@@ -56,6 +57,7 @@ def without_input(course: CourseCopy, folder: Path) -> subprocess.CompletedProce
     )
 
 
+@pytest.mark.slow
 def test_first_use_needs_no_home_and_no_input(course: CourseCopy, tmp_path: Path) -> None:
     """HOME may be unset; nothing is asked."""
     del course.environment["HOME"]
@@ -83,6 +85,7 @@ def test_plain_commands_need_no_environment(course: CourseCopy, words: list[str]
     assert not course.venv.exists()
 
 
+@pytest.mark.slow
 def test_ready_runs_nothing(course: CourseCopy) -> None:
     """An image or a computer room is made ready beforehand: for a command, and for labs."""
     (course.root / "labs/arm").mkdir(parents=True)
@@ -123,6 +126,7 @@ def test_a_students_folder_is_not_on_the_path(standing: CourseCopy, tmp_path: Pa
     assert standing.run("check").seen["path"][0] == str(standing.root / "src")
 
 
+@pytest.mark.slow
 def test_a_shim_that_does_not_run_is_passed_over(course: CourseCopy, tmp_path: Path) -> None:
     """A version manager's python3.12 that only complains is no Python."""
     shims = tmp_path / "shims"
@@ -143,6 +147,7 @@ def test_a_wrong_roslings_python_is_named(course: CourseCopy) -> None:
     assert "Next:" in outcome.err
 
 
+@pytest.mark.slow
 def test_without_any_python_the_next_step_is_said(course: CourseCopy, tmp_path: Path) -> None:
     """Only a shell is there."""
     tools = tmp_path / "tools"
@@ -154,6 +159,7 @@ def test_without_any_python_the_next_step_is_said(course: CourseCopy, tmp_path: 
     assert "apt install python3" in outcome.err
 
 
+@pytest.mark.slow
 def test_the_ros_libraries_go_first_and_python_starts_once(
     ready: CourseCopy,
 ) -> None:
@@ -169,6 +175,7 @@ def test_the_ros_libraries_go_first_and_python_starts_once(
     assert course.run("check", LD_LIBRARY_PATH=own).seen["libraries"] == own
 
 
+@pytest.mark.slow
 def test_settings_for_pip_that_lead_astray_do_not(ready: CourseCopy, tmp_path: Path) -> None:
     """PIP_TARGET and its like in a shell profile would put the packages elsewhere."""
     astray = {"PIP_TARGET": str(tmp_path / "astray"), "PIP_USER": "1", "PYTHONPATH": os.devnull}
@@ -176,6 +183,7 @@ def test_settings_for_pip_that_lead_astray_do_not(ready: CourseCopy, tmp_path: P
     assert not (tmp_path / "astray").exists()
 
 
+@pytest.mark.slow
 def test_a_lab_may_need_more_groups_than_its_command(ready: CourseCopy) -> None:
     """Its card says so; the check of another lab installs no more than before."""
     for lab, line in {"arm": "groups: [graph, ros2]  # both", "leg": "title: groups"}.items():
@@ -188,6 +196,7 @@ def test_a_lab_may_need_more_groups_than_its_command(ready: CourseCopy) -> None:
     assert ready.run("watch", "arm", "graph").err == ""
 
 
+@pytest.mark.slow
 def test_programs_find_what_stands_in_for_packages_of_ros(ready: CourseCopy) -> None:
     """Last on the path: a real package of the same name, of a sourced ROS, goes before it."""
     (seen,) = ready.venv.glob("lib/python3.*/site-packages/roslings.pth")

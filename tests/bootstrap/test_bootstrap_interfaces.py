@@ -48,6 +48,7 @@ def without_compiler(folder: Path) -> str:
     return str(tools)
 
 
+@pytest.mark.slow
 def test_without_a_compiler_the_next_step_is_said(arm: CourseCopy, tmp_path: Path) -> None:
     """Before anything is downloaded; what does not need one works all the same."""
     path = without_compiler(tmp_path)
@@ -59,6 +60,7 @@ def test_without_a_compiler_the_next_step_is_said(arm: CourseCopy, tmp_path: Pat
     assert arm.run("check", "leg", PATH=path).seen["has"] == ["ros_x", "col_x", "check_x"]
 
 
+@pytest.mark.slow
 def test_changed_types_are_built_again(arm: CourseCopy) -> None:
     """The script sees it by itself; a lab that asks for none is not held up."""
     assert arm.run("check", "arm").seen["has"] == ["ros_x", "col_x", "check_x", "bag_x"]
@@ -68,6 +70,7 @@ def test_changed_types_are_built_again(arm: CourseCopy) -> None:
     assert (stale.code, "numpy" in stale.err, "Next:" in stale.err) == (2, True, True)
 
 
+@pytest.mark.slow
 def test_tf_is_built_where_it_can_be(arm: CourseCopy, tmp_path: Path) -> None:
     """Without a compiler the rover runs all the same, and nobody waits for one."""
     path = without_compiler(tmp_path)

@@ -52,6 +52,7 @@ def test_the_machines_that_fit_pass(minor: int) -> None:
     assert this_machine().system == "Linux"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["a space", "a\ttab", 'a"quote', "a`tick", "no-break\u00a0space"])
 def test_a_path_that_breaks_scripts_is_refused(
     make_course: Callable[..., CourseCopy], name: str
@@ -63,6 +64,7 @@ def test_a_path_that_breaks_scripts_is_refused(
     assert "Next: Move this folder" in outcome.err
 
 
+@pytest.mark.slow
 def test_letters_of_any_language_are_fine(ready: CourseCopy, tmp_path: Path) -> None:
     """Refused is only what breaks."""
     ready.root = ready.root.rename(tmp_path / "Müller_日本_(1)")
@@ -71,6 +73,7 @@ def test_letters_of_any_language_are_fine(ready: CourseCopy, tmp_path: Path) -> 
     assert program.stdout == b"checked\n"
 
 
+@pytest.mark.slow
 def test_a_path_that_linux_would_cut_is_refused(make_course: Callable[..., CourseCopy]) -> None:
     """The kernel reads no more of a script's first line."""
     outcome = make_course("/".join(["a" * 60] * 4)).run("check")
@@ -91,6 +94,7 @@ def in_namespace(script: str, course: CourseCopy) -> subprocess.CompletedProcess
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("room_kb", [4, 200, 6000])
 def test_a_full_disk_is_named(course: CourseCopy, tmp_path: Path, room_kb: int) -> None:
     """Whether it fills while the environment is made, or while packages come."""
@@ -111,6 +115,7 @@ def test_a_full_disk_is_named(course: CourseCopy, tmp_path: Path, room_kb: int) 
     assert ".venv\n" not in done.stdout
 
 
+@pytest.mark.slow
 def test_a_folder_that_cannot_be_written_is_named(course: CourseCopy) -> None:
     """A course on a read-only disk."""
     done = in_namespace(
@@ -130,6 +135,7 @@ def test_a_place_is_judged_without_making_anything(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow
 def test_a_python_without_venv_is_named(
     course: CourseCopy, bare_python: Callable[..., str]
 ) -> None:

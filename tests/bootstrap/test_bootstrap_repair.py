@@ -14,6 +14,8 @@ from tiny_wheels import make_wheel
 
 from roslings.bootstrap.packages import forget_damaged, installed
 
+pytestmark = pytest.mark.slow
+
 MANY = 3000
 
 

@@ -16,6 +16,8 @@ from skips import skip_without
 from roslings.bootstrap import seeds
 from roslings.bootstrap.errors import Trouble
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture
 def bare(bare_python: Callable[..., str]) -> str:
@@ -101,7 +103,6 @@ def test_without_any_pip_the_next_step_is_said(bare: str, tmp_path: Path) -> Non
     assert "ROSLINGS_WHEELS" in trouble.value.steps[1]
 
 
-@pytest.mark.slow
 @pytest.mark.usefixtures("alone")
 def test_apt_gives_pip_without_root(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """`apt-get download` needs no sudo, and its pip fits the Python that apt installed."""

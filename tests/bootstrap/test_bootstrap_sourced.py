@@ -24,6 +24,8 @@ from roslings.bootstrap.packages import installed
 from roslings.bootstrap.virtual import Virtual
 from roslings.errors import INCONCLUSIVE
 
+pytestmark = pytest.mark.slow
+
 NEEDED_BY_ROS = ("numpy", "pyyaml", "lark-parser")
 
 

@@ -100,6 +100,7 @@ def a_talker(home: Path) -> Iterator[int]:
             node.kill()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("place", ["roslings_ws/src", "elsewhere"])
 def test_one_command_saves_the_picture_that_a_lab_wants(tmp_path: Path, place: str) -> None:
     """Into the package, wherever it lies; the folder is made, and an older one is kept."""

@@ -141,6 +141,7 @@ def wait_until(condition: Callable[[], bool]) -> None:
 # --- packages ----------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_students_files_stay_as_they_are(package: Path, tmp_path: Path) -> None:
     """Spaces and letters of other alphabets in the path, an old build, a read-only folder."""
     place = tmp_path / "my wörkspace 工作/src/chatter"
@@ -157,6 +158,7 @@ def test_the_students_files_stay_as_they_are(package: Path, tmp_path: Path) -> N
     assert fingerprint(place) == before
 
 
+@pytest.mark.slow
 def test_windows_line_ends_are_no_fault(package: Path, tmp_path: Path) -> None:
     """A package that was edited on Windows."""
     for path in package.rglob("*"):
@@ -193,6 +195,7 @@ def test_what_is_no_package_is_said(
     assert len(ran.stderr.splitlines()) <= 8
 
 
+@pytest.mark.slow
 def test_a_build_that_fails_shows_why(tmp_path: Path) -> None:
     """The last words of colcon stand in the verdict."""
     place = injured(tmp_path, edit("setup(\n", "raise SystemExit('no glue')\nsetup(\n", "setup.py"))
@@ -205,12 +208,14 @@ def test_a_build_that_fails_shows_why(tmp_path: Path) -> None:
 # --- nodes -------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_node_that_never_starts_is_given_up(tmp_path: Path) -> None:
     """It hangs before it makes a node."""
     place = injured(tmp_path, at_start("import time\ntime.sleep(10000)"))
     assert faults(verdict(tmp_path, place)) == {"talker_runs": "DidNotComeUp"}
 
 
+@pytest.mark.slow
 def test_a_flood_of_output_is_survived(tmp_path: Path) -> None:
     """Endless output beside the right one is told as such; the other node is judged."""
     flood = (
@@ -222,6 +227,7 @@ def test_a_flood_of_output_is_survived(tmp_path: Path) -> None:
     assert next(c for c in found["checks"] if c["id"] == "hears")["outcome"] == "pass"
 
 
+@pytest.mark.slow
 def test_a_daemon_is_found_and_ended(tmp_path: Path) -> None:
     """A process that the node leaves behind."""
     daemon = "import subprocess\nsubprocess.Popen(['sleep', '10000'], start_new_session=True)"
@@ -229,6 +235,7 @@ def test_a_daemon_is_found_and_ended(tmp_path: Path) -> None:
     assert faults(found) == {"ends": "LeavesProcesses"}
 
 
+@pytest.mark.slow
 def test_bytes_that_are_no_text_harm_nobody(tmp_path: Path) -> None:
     """They are shown as such, and the verdict is the same."""
     noise = "import sys\nsys.stdout.buffer.write(bytes(range(256)) * 10)"
@@ -238,6 +245,7 @@ def test_bytes_that_are_no_text_harm_nobody(tmp_path: Path) -> None:
 # --- machines ----------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("wall", ["domain", "auto"])
 def test_the_solution_passes_behind_both_walls(package: Path, tmp_path: Path, wall: str) -> None:
     """With namespaces and without, the verdict is the same."""
@@ -246,6 +254,7 @@ def test_the_solution_passes_behind_both_walls(package: Path, tmp_path: Path, wa
     assert wall == "auto" or found["environment"]["isolation"] == "domain"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("wall", ["domain", "auto"])
 def test_the_solution_passes_on_a_platform(package: Path, tmp_path: Path, wall: str) -> None:
     """Unobserved as well; without namespaces nodes share memory, and no packet is to be seen."""
@@ -255,6 +264,7 @@ def test_the_solution_passes_on_a_platform(package: Path, tmp_path: Path, wall: 
     assert found.verdict["score"] == 100
 
 
+@pytest.mark.slow
 def test_a_parent_that_ignores_ctrl_c_changes_nothing(package: Path, tmp_path: Path) -> None:
     """A background job, or CI."""
     file = tmp_path / "verdict.json"
@@ -264,6 +274,7 @@ def test_a_parent_that_ignores_ctrl_c_changes_nothing(package: Path, tmp_path: P
     assert json.loads(file.read_text())["score"] == 100
 
 
+@pytest.mark.slow
 def test_an_ordinary_user_gets_the_same_verdict(package: Path, tmp_path: Path) -> None:
     """Without a single capability, as user 1000."""
     skip_without("root", "user without rights")
@@ -274,6 +285,7 @@ def test_an_ordinary_user_gets_the_same_verdict(package: Path, tmp_path: Path) -
     assert json.loads(file.read_text())["score"] == 100
 
 
+@pytest.mark.slow
 def test_two_at_once_do_not_meet(package: Path, tmp_path: Path) -> None:
     """Two gradings on one machine, without namespaces: neither hears the other."""
     files = [tmp_path / f"{number}.json" for number in range(2)]
@@ -298,6 +310,7 @@ if {once}not deaf.exists():
 """
 
 
+@pytest.mark.slow
 def test_a_run_without_a_working_middleware_is_made_again(tmp_path: Path) -> None:
     """As it was seen on a busy machine: the node runs, and nobody can see it."""
     deaf = at_start(DEAF.format(flag=str(tmp_path / "flag"), once="") + "\n")
@@ -305,6 +318,7 @@ def test_a_run_without_a_working_middleware_is_made_again(tmp_path: Path) -> Non
     assert (tmp_path / "flag").exists() and found["score"] == 100, faults(found)
 
 
+@pytest.mark.slow
 def test_a_middleware_that_never_works_is_not_held_against_the_student(tmp_path: Path) -> None:
     """No verdict on that node, and the reason."""
     deaf = at_start(DEAF.format(flag=str(tmp_path / "flag"), once="True or ") + "\n")
@@ -316,6 +330,7 @@ def test_a_middleware_that_never_works_is_not_held_against_the_student(tmp_path:
     assert "middleware could not open a port" in json.dumps(runs)
 
 
+@pytest.mark.slow
 def test_a_full_disk_is_said(package: Path, tmp_path: Path) -> None:
     """A temporary folder without room: the machine's fault, so no verdict."""
     small = tmp_path / "small"
@@ -346,6 +361,7 @@ def started(package: Path, tmp_path: Path) -> subprocess.Popen[str]:
     return running
 
 
+@pytest.mark.slow
 def test_ctrl_c_ends_all_at_once(package: Path, tmp_path: Path) -> None:
     """The nodes, the probe and the guardian end; the message is one line."""
     running = started(package, tmp_path)
@@ -357,6 +373,7 @@ def test_ctrl_c_ends_all_at_once(package: Path, tmp_path: Path) -> None:
     assert processes_of(tmp_path) == []
 
 
+@pytest.mark.slow
 def test_a_killed_check_leaves_nothing_that_runs(package: Path, tmp_path: Path) -> None:
     """The kernel ends the nodes; the next check removes the folder."""
     running = started(package, tmp_path)
@@ -382,6 +399,7 @@ with module.run_folder() as folder:
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "when",
     [

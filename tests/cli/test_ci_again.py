@@ -13,6 +13,8 @@ from test_unsteady import read
 
 from roslings.course import root
 
+pytestmark = pytest.mark.slow
+
 AGAIN = root() / ".ci" / "again.py"
 EARLIER = {"test": "tests/a.py::test_old", "outcome": "failed"}
 STEADY = {"test": "tests/a.py::test_steady", "outcome": "passed"}

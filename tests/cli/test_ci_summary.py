@@ -20,6 +20,8 @@ from needed.left_out import UNDRAWN
 from roslings.authoring.proofs.kept import kept_here
 from roslings.course import all_labs, root
 
+pytestmark = pytest.mark.slow
+
 SUMMARY = root() / ".ci/summary.py"
 MUTANTS = [f"{lab.name}-{each.name}" for lab in all_labs() for each in lab.mutants()]
 KEPT_ONES = {

@@ -316,6 +316,7 @@ def test_a_hint_has_no_evidence(solution: Kept, tmp_path: Path) -> None:
     assert not (tmp_path / "kept").exists()
 
 
+@pytest.mark.slow
 def test_ctrl_c_leaves_no_half_folder(tmp_path: Path) -> None:
     """Nor any other trace."""
     words = [sys.executable, "-m", "roslings", "check", "topics", "--solution"]
@@ -339,6 +340,7 @@ def wait_until(condition: Callable[[], bool]) -> None:
         time.sleep(0.02)
 
 
+@pytest.mark.slow
 def test_a_page_alone_needs_no_folder(tmp_path: Path) -> None:
     """`--html FILE`, also for a package that cannot be built."""
     package = mutant(

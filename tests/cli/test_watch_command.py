@@ -12,9 +12,12 @@ from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 
+import pytest
 from until_told import OPEN, until_told
 
 from roslings.course import lab
+
+pytestmark = pytest.mark.slow
 
 TOPICS = lab("topics")
 WAITS = "Watching. Save a file to check again; Ctrl-C ends it."

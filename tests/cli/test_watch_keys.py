@@ -42,6 +42,7 @@ def with_editor(home: Path) -> Path:
     return home
 
 
+@pytest.mark.slow
 def test_without_a_name_todays_drill_is_opened_and_then_the_next(tmp_path: Path) -> None:
     """The program that is mended makes place for the next one, by itself."""
     first, second = all_drills()[:2]
@@ -62,6 +63,7 @@ def test_without_a_name_todays_drill_is_opened_and_then_the_next(tmp_path: Path)
         watch.press("q")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [all_drills()[0].name, "nodes"])
 def test_plain_is_lines_only(name: str, tmp_path: Path) -> None:
     """On a terminal, too: no colours, no keys, nothing that moves; Ctrl-C ends it well."""
@@ -72,6 +74,7 @@ def test_plain_is_lines_only(name: str, tmp_path: Path) -> None:
         watch.process.send_signal(signal.SIGINT)
 
 
+@pytest.mark.slow
 def test_a_labs_starter_is_put_there(tmp_path: Path) -> None:
     """The keys tell more, and the editor's save is checked."""
     with watching(with_editor(tmp_path), "nodes") as watch:
@@ -99,6 +102,7 @@ def test_a_labs_starter_is_put_there(tmp_path: Path) -> None:
     assert "# edited" in (package / "rover_status" / "minimal_publisher.py").read_text("utf-8")
 
 
+@pytest.mark.slow
 def test_who_is_done_goes_on_with_what_is_next(tmp_path: Path) -> None:
     """The graph is that of the check; then comes what was left out: here the day's drills."""
     nodes = lab("nodes")

@@ -8,8 +8,8 @@ import subprocess
 import sys
 from ast import literal_eval
 from pathlib import Path
+from typing import Any
 
-import nbformat
 import pytest
 import yaml
 from lesson_runs import lessons, walked
@@ -79,6 +79,7 @@ def meant(claim: Claim, code: str, tags: tuple[str, ...] | list[str] | set[str])
     return claim.cell in code and "change" not in tags
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("claim", TYPED, ids=named(TYPED))
 def test_a_terminal_shows_what_is_claimed(claim: Claim, tmp_path: Path) -> None:
     """Typed in the roslings folder, with ROS made ready and an empty home."""
@@ -114,6 +115,8 @@ def ready(home: Path, domain: int) -> dict[str, str]:
 )
 def test_a_cell_shows_what_is_claimed(claim: Claim, shared_folder: Path) -> None:
     """In the one execution of the lesson that all tests share."""
+    import nbformat
+
     lesson: Lesson = LESSONS[claim.day]
     book = nbformat.reads(walked(shared_folder, lesson).executed, as_version=4)
     cells = [
@@ -123,11 +126,12 @@ def test_a_cell_shows_what_is_claimed(claim: Claim, shared_folder: Path) -> None
     claim.must_hold(ESCAPES.sub("", written(cells[0])))
 
 
-def written(cell: nbformat.NotebookNode) -> str:
+def written(cell: Any) -> str:
     """All that a cell has printed."""
     return "".join(out.get("text", "") for out in cell.outputs)
 
 
+@pytest.mark.slow
 def test_the_page_about_the_cable_says_what_its_program_prints(tmp_path: Path) -> None:
     """Nonsense at the wrong speed, the word at the right one."""
     wrong, right = printed_by("def listen", tmp_path)
@@ -136,6 +140,7 @@ def test_the_page_about_the_cable_says_what_its_program_prints(tmp_path: Path) -
     assert len(literal_eval(wrong)) < len("HELLO")
 
 
+@pytest.mark.slow
 def test_lines_that_nobody_reads_are_lost_but_for_a_third_and_a_thread_loses_none(
     tmp_path: Path,
 ) -> None:

@@ -10,16 +10,16 @@ import copy
 import re
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import nbformat
 import pytest
 from lesson_runs import lessons, walked
-from lessons_as_tests import SANITIZER, LessonCell, LessonFile
-from nbval.plugin import get_sanitize_patterns
 
 from roslings.lessons.rules import Lesson
 from roslings.lessons.rules.form import COMPARED, LEAST_COMPARED
+
+if TYPE_CHECKING:  # nbval loads for seconds; only who runs these tests pays for it
+    from lessons_as_tests import LessonCell
 
 WORD = re.compile(r"\w+")
 OTHER = "changed"
@@ -38,6 +38,8 @@ def _as_typed(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -
 
 def compared(lesson: Lesson, parent: pytest.Session) -> list[LessonCell]:
     """The cells whose outputs a lesson promises, as nbval reads them."""
+    from lessons_as_tests import LessonFile
+
     file = LessonFile.from_parent(parent, path=lesson.path)
     file.setup_sanitize_files()
     return [cell for cell in file.cells if COMPARED in cell.tags]
@@ -78,6 +80,8 @@ def test_a_changed_word_is_found_when_the_lesson_runs(
     lesson: Lesson, shared_folder: Path, request: pytest.FixtureRequest
 ) -> None:
     """All tests of a lesson share the execution that it is compared with."""
+    import nbformat
+
     book = nbformat.reads(walked(shared_folder, lesson).executed, as_version=4)
     now = {cell.id: cell.outputs for cell in book.cells if cell.cell_type == "code"}
     for cell in compared(lesson, request.session):
@@ -106,6 +110,9 @@ KEPT = {
 
 def sanitized(text: str) -> str:
     """As nbval compares it."""
+    from lessons_as_tests import SANITIZER
+    from nbval.plugin import get_sanitize_patterns
+
     for pattern, other in get_sanitize_patterns(SANITIZER.read_text("utf-8")):
         text = re.sub(pattern, other, text)
     return text

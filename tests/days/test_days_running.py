@@ -5,8 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+import pytest
 from lesson_runs import run_lesson, walk
 from tiny_course import CELLS, DAY, Cell, printed, with_cell, write_course
+
+pytestmark = pytest.mark.slow
 
 
 def changed(cells: tuple[Cell, ...], **texts: str) -> tuple[Cell, ...]:

@@ -53,6 +53,7 @@ def test_one_command_makes_it_move_and_it_stops_by_itself(
     assert not (tmp_path / ".ros").exists()
 
 
+@pytest.mark.slow
 def test_its_topics_have_the_usual_names_and_types(
     rover: Program, terminal: dict[str, str], tmp_path: Path
 ) -> None:
@@ -71,6 +72,7 @@ def test_its_topics_have_the_usual_names_and_types(
     assert "/tf" not in "\n".join(rover.lines)
 
 
+@pytest.mark.slow
 def test_asked_to_it_publishes_tf(terminal: dict[str, str], tmp_path: Path) -> None:
     """20 times a second, beside /odom, and from one to the other."""
     imported("tf2_msgs")
@@ -94,6 +96,7 @@ def test_asked_to_it_publishes_tf(terminal: dict[str, str], tmp_path: Path) -> N
     assert abs(counts["/tf"] - counts["/odom"]) <= 2 and counts["/tf"] > 2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("distro", "step"), [
     ("", "sudo apt install g++"), ("jazzy", "sudo apt install ros-jazzy-tf2-msgs"),
 ])  # fmt: skip
@@ -109,6 +112,7 @@ def test_where_tf_has_no_type_the_next_step_is_on_the_screen(
     assert about_tf(RoverNode(Rover())) == ("(with /tf: rover --tf)",)
 
 
+@pytest.mark.slow
 def test_a_command_that_is_no_number_is_told_and_not_followed(
     rover: Program, terminal: dict[str, str], tmp_path: Path
 ) -> None:
@@ -121,6 +125,7 @@ def test_a_command_that_is_no_number_is_told_and_not_followed(
     assert not [line for line in rover.lines if "moving" in line]
 
 
+@pytest.mark.slow
 def test_a_second_rover_is_told(rover: Program, terminal: dict[str, str], tmp_path: Path) -> None:
     """Two on one domain would both move."""
     with running(["rover", "--view", "lines"], terminal, tmp_path) as second:
@@ -176,6 +181,7 @@ def test_the_map_shows_what_there_is() -> None:
     assert "^" in "".join(text_map(rover, 42, 22, ASCII))
 
 
+@pytest.mark.slow
 def test_a_notebook_sees_the_map_and_ends_the_node(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:

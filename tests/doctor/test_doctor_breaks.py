@@ -108,6 +108,7 @@ STATIC = [
 ]
 
 
+@pytest.mark.slow
 def test_the_exercise_of_the_old_build_is_built_for_real(tmp_path: Path) -> None:
     exercise = EXERCISES[6]
     machine = replace(REAL, env={**REAL.env, "ROSLINGS_BREAKS": str(tmp_path)})

@@ -52,6 +52,7 @@ def test_without_ros_there_is_no_talk(clinic: Clinic) -> None:
     assert_absent(clinic.look("qos"))
 
 
+@pytest.mark.slow
 @with_ros
 def test_ill_talk(machine: Machine) -> None:
     """A middleware that is not installed ends each node; the check repeats what it said."""
@@ -59,12 +60,14 @@ def test_ill_talk(machine: Machine) -> None:
     assert_ill(look(ill, "talk"), "fault", "ended with an error")
 
 
+@pytest.mark.slow
 def test_ill_talk__messages_are_missing(clinic: Clinic) -> None:
     error = "ModuleNotFoundError: No module named 'std_msgs'"
     clinic.program("python", f'echo "{error}" >&2; exit 1', folder="/course/.venv/bin")
     assert_ill(clinic.look("talk"), "fault", "standard messages", "./roslings check")
 
 
+@pytest.mark.slow
 def test_ill_talk__nothing_arrives(clinic: Clinic, monkeypatch: pytest.MonkeyPatch) -> None:
     """Two programs that run and say nothing, as where the network swallows every message."""
     monkeypatch.setattr("roslings.doctor.checks.live.SPEAKING_FOR_S", 0.3)
@@ -121,6 +124,7 @@ def node(ros: Ros, machine: Machine, kind: str, logs: Path) -> Iterator[None]:
         running.stdout.close()
 
 
+@pytest.mark.slow
 @with_ros
 def test_ill_qos(machine: Machine, tmp_path: Path) -> None:
     assert ROS is not None
@@ -129,6 +133,7 @@ def test_ill_qos(machine: Machine, tmp_path: Path) -> None:
     assert_ill(finding, "warning", "On /scan, eager_listener cannot hear eager_talker", "sensor")
 
 
+@pytest.mark.slow
 @with_ros
 def test_well_qos(machine: Machine, tmp_path: Path) -> None:
     assert ROS is not None
@@ -136,12 +141,14 @@ def test_well_qos(machine: Machine, tmp_path: Path) -> None:
         assert_well(look(machine, "qos"))
 
 
+@pytest.mark.slow
 def test_an_observer_that_fails_is_not_guessed(clinic: Clinic) -> None:
     hold_ports(clinic, 7410)
     clinic.program("python", "exit 1", folder="/course/.venv/bin")
     assert clinic.look("qos").status == Status.UNKNOWN
 
 
+@pytest.mark.slow
 @with_ros
 def test_nothing_is_left_behind(machine: Machine, tmp_path: Path) -> None:
     """No process and no file remains of a proof. Its processes are known by their HOME."""
@@ -158,6 +165,7 @@ def _environ(process: Path) -> str:
         return ""
 
 
+@pytest.mark.slow
 def test_the_leash_ends_a_program_that_does_not_want_to_end(clinic: Clinic) -> None:
     """A stubborn program is ended by force when the block is left."""
     ros = find_ros(clinic.machine)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -22,6 +23,7 @@ def test_every_known_trouble_of_beginners_has_a_check() -> None:
     assert {row for check in CHECKS for row in check.rows} == set(ROWS)
 
 
+@cache
 def written_tests() -> set[str]:
     names: set[str] = set()
     for path in HERE.glob("test_*.py"):

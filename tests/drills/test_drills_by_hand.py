@@ -207,6 +207,7 @@ SHELL = [one for one in all_drills() if one.suffix == ".sh"]
 REST = [one for one in all_drills() if one.suffix != ".sh"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("one", [*SHELL, drill("which_first")], ids=lambda one: one.name)
 def test_a_script_runs_by_hand(one: Drill, terminal: Terminal) -> None:
     """Those that set up a terminal, and those that write files."""
@@ -247,6 +248,7 @@ def test_what_runs_beside_comes_along_and_is_told(one: Drill, tmp_path: Path) ->
     assert {(each.folder / name).read_bytes() for each in twins} == {theirs.read_bytes()}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("domain", "outcome"),
     [("88", "pass"), ("0", "pass"), ("101", "pass"), ("eight", "fail")],

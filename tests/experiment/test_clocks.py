@@ -90,6 +90,7 @@ def test_correct_nodes_of_every_style_are_right(style: Path, clock: Clock) -> No
     assert settled(style, clock, "right") == "right"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", FOLLOW_THE_CLOCK)
 def test_what_follows_the_clock_is_judged_by_it(name: str) -> None:
     """At once, and exactly."""

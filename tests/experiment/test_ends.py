@@ -13,6 +13,8 @@ from roslings.judge import end_within, exit_cleanly
 from roslings.judge.faults import Inconclusive, UncleanExit
 from roslings.judge.views import ExperimentView, ProcessView
 
+pytestmark = pytest.mark.slow
+
 ENDS_WITHIN_S = 2.0
 
 

@@ -49,6 +49,7 @@ def test_a_python_launch_file_is_carried_out(tmp_path: Path) -> None:
     assert len(ended) == 2, lines
 
 
+@pytest.mark.slow
 def test_a_python_launch_file_that_misses_a_node(tmp_path: Path) -> None:
     """The hint speaks Python, too."""
     with pytest.raises(LaunchMissesNode) as caught:
@@ -56,6 +57,7 @@ def test_a_python_launch_file_that_misses_a_node(tmp_path: Path) -> None:
     assert "Node(package=..., executable=...)" in caught.value.hint
 
 
+@pytest.mark.slow
 def test_a_python_launch_file_with_a_fault(tmp_path: Path) -> None:
     """It fails, and the last lines name file and line."""
     with pytest.raises(LaunchFailed) as caught:
@@ -63,6 +65,7 @@ def test_a_python_launch_file_with_a_fault(tmp_path: Path) -> None:
     assert any("two.launch.py, line 11: Node has no 'pkg'" in line for line in caught.value.log)
 
 
+@pytest.mark.slow
 def test_a_launch_file_for_the_full_ros_is_no_fault(tmp_path: Path) -> None:
     """What it asks for is named."""
     asked = "from launch_ros.actions import Node"

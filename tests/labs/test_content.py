@@ -11,6 +11,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from few import few_labs
 
 from roslings.bootstrap.groups import names
 from roslings.course import Lab, Mutant, all_labs, lab, root
@@ -164,7 +165,7 @@ def test_the_starter_holds_no_line_of_the_answer(each: Lab) -> None:
             assert not (topic.text and topic.text.partition("{")[0] in statements)
 
 
-@every_lab
+@few_labs("each")
 @pytest.mark.parametrize("kind", ["starter", "solution"])
 def test_it_builds_with_colcon(each: Lab, kind: str, tmp_path: Path) -> None:
     """In a workspace of its own; the solution then has every executable."""

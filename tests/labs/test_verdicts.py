@@ -1,7 +1,7 @@
 """Every lab, graded for real: solution, starter and mutants, each with the verdict it must get.
 
-    ./roslings test tests/labs                              the solutions and the starters
-    ./roslings test tests/labs -m slow                      every mutant of every lab
+    ./roslings test tests/labs                              one solution and one starter
+    ./roslings test tests/labs -m slow                      all, and every mutant of every lab
     ./roslings test tests/labs -m slow -k "topics and rate" some of them
 
 What must hold of a mutant, `roslings prove` knows; nothing here judges it a second time.
@@ -20,6 +20,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
+from few import few_labs
 from nothing import Nothing
 from once import once
 from skips import skip_without
@@ -36,7 +37,8 @@ TIMES_ALONE, MOST_UNSTEADY = 2, 12
 CLOCKED = "topics"
 """The lab whose experiments run by either clock."""
 LABS = {lab.name: lab for lab in all_labs()}
-each_lab = pytest.mark.parametrize("lab", LABS.values(), ids=LABS)
+each_lab = few_labs("lab", twice=True)
+"""`prove --due` measures every solution and every starter at each landing."""
 
 
 # --- by the command that a student types -------------------------------------------------------

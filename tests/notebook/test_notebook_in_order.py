@@ -5,7 +5,10 @@ from __future__ import annotations
 import subprocess
 import sys
 
+import pytest
 from skips import imported
+
+pytestmark = pytest.mark.slow
 
 imported("rclpy")
 

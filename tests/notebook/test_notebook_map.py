@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from typing import Any
 
+import pytest
+
 from roslings.devices.rover.moving_map import moving_map
 from roslings.devices.rover.rover import Moment
 from roslings.models.differential_drive import Body, Pose
 from roslings.models.world import default_world
 from roslings.notebook.picture import Picture
+
+pytestmark = pytest.mark.slow
 
 ALIKE = 10
 TRIES = 5

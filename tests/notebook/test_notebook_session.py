@@ -7,6 +7,7 @@ import re
 import signal
 from pathlib import Path
 
+import pytest
 from kernels import Kernel, kernel
 
 LEFT = """
@@ -251,6 +252,7 @@ with session() as ros:
     assert ran.error == "SessionEnded"
 
 
+@pytest.mark.slow
 def test_fifty_sessions_leave_nothing(cells: Kernel) -> None:
     """No thread and no file descriptor more."""
     ran = cells.run("""
@@ -289,6 +291,7 @@ with session() as ros:
     assert cells.run(HEARD).error == ""
 
 
+@pytest.mark.slow
 def test_two_notebooks_do_not_hear_each_other(cells: Kernel, tmp_path: Path) -> None:
     """The second takes another domain, and says what a terminal must type."""
     usual = cells.run("import os; print(os.environ['ROS_DOMAIN_ID'])").text.strip()
@@ -300,6 +303,7 @@ def test_two_notebooks_do_not_hear_each_other(cells: Kernel, tmp_path: Path) -> 
     assert "export" not in cells.run("with session() as ros:\n    pass").text
 
 
+@pytest.mark.slow
 def test_a_killed_kernel_leaves_no_program(tmp_path: Path) -> None:
     """Restart Kernel is a kill where the kernel hangs."""
     with kernel(tmp_path) as doomed:

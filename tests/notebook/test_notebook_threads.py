@@ -5,6 +5,8 @@ from __future__ import annotations
 import pytest
 from kernels import Kernel
 
+pytestmark = pytest.mark.slow
+
 BUSY = """
 class Busy(Node):
     def __init__(self):

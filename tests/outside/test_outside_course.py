@@ -71,6 +71,7 @@ def test_its_task_says_what_its_card_says(installed: dict[str, str]) -> None:
     assert "| asked to activate | its state is then `active` |" in task
 
 
+@pytest.mark.slow
 def test_its_lab_is_checked(installed: dict[str, str], tmp_path: Path) -> None:
     """100 for the solution, as its README says it: the course and the rest from the folder here.
 

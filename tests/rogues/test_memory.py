@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
 from peaks import grade
 from rogue import LAB, attempts
 
 from roslings.probe.budget import GRADING_BYTES
+
+pytestmark = pytest.mark.slow
 
 MOST_BYTES = 400 * 10**6
 """Promised for each of our processes."""

@@ -62,6 +62,7 @@ def test_a_rogue_is_a_package(entry: Attempt, tmp_path: Path) -> None:
     assert (package / "chatter/attack.py").exists() == bool(entry.rogue.attack)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("parcel", PARCELS, ids=lambda parcel: parcel.name)
 def test_a_hostile_parcel_is_refused(parcel: Parcel, tmp_path: Path) -> None:
     """With its reason, when it is unpacked or read; what it writes stays in the folder for it."""
@@ -88,6 +89,7 @@ def test_the_wild_come_in_turns() -> None:
         assert not ours & {next_to(entry) for entry in wild if entry not in few}
 
 
+@pytest.mark.slow
 @needs_sandbox
 def test_a_few_are_contained() -> None:
     """Those that harm nobody, for every run of the tests."""

@@ -22,6 +22,8 @@ from rosbags.interfaces import (
 from rosbags.rosbag2 import StoragePlugin
 from terminal import Running, Shell, eventually
 
+pytestmark = pytest.mark.slow
+
 HEAR = """
 import sys, rclpy
 from rclpy.node import Node

@@ -16,6 +16,8 @@ from terminal import Running, Shell, eventually
 
 from roslings.ros2.commands.bag import ABSENT
 
+pytestmark = pytest.mark.slow
+
 TALK = """
 import sys, rclpy
 from rclpy.node import Node

@@ -17,6 +17,8 @@ from terminal import Ran, Shell
 
 from roslings.ros2.qos import mismatches
 
+pytestmark = pytest.mark.slow
+
 STRING = "std_msgs/msg/String"
 NO_FIELDS = "The passed value needs to be a dictionary in YAML format"
 

@@ -7,6 +7,8 @@ import sys
 import pytest
 from terminal import Shell
 
+pytestmark = pytest.mark.slow
+
 NODES = ("talker", "listener")
 MIDDLEWARE = "rmw_fastrtps_ccp"
 

@@ -13,6 +13,8 @@ from terminal import Shell, eventually
 
 from roslings.exits import NOT_READ_HERE
 
+pytestmark = pytest.mark.slow
+
 GOOD = """\
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, LogInfo

@@ -12,6 +12,8 @@ from terminal import Shell
 
 from roslings.workspace.manifest import read_manifest
 
+pytestmark = pytest.mark.slow
+
 CREATED = """\
 going to create a new package
 package name: chatter

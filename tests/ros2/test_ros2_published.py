@@ -127,6 +127,7 @@ for one in LOOKING:
     shown_by_looking(one)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("verb", LOOKING)
 def test_how_to_look_changes_nothing_in_what_is_seen(stage: Shell, verb: str) -> None:
     """There is no daemon to leave out, and a look ends when it is complete."""
@@ -150,6 +151,7 @@ def test_spin_time_is_the_least_that_a_look_takes(monkeypatch: pytest.MonkeyPatc
     assert next(now_s) - 100.0 > 5.0 + len(looks[looks.index(True) + 1 :])
 
 
+@pytest.mark.slow
 @shows("node list", "--all", "--count-nodes")
 @shows("node info", "--include-hidden")
 @shows("action list", "--show-types", "--count-actions")
@@ -200,6 +202,7 @@ def test_what_an_option_of_looking_shows(stage: Shell, words: str, shown: str) -
     assert shown not in without.out
 
 
+@pytest.mark.slow
 @shows("lifecycle get", "--include-hidden-nodes")
 @shows("lifecycle set", "--include-hidden-nodes", *LOOK)
 @shows("lifecycle list", "--include-hidden-nodes")

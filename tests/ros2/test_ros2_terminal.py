@@ -12,6 +12,8 @@ from terminal import Shell
 from roslings.arena import QUICK_DISCOVERY
 from roslings.course import root
 
+pytestmark = pytest.mark.slow
+
 PRESS_TAB = """
 source "$1"
 complete -p ros2 >/dev/null || exit 1

@@ -7,8 +7,11 @@ import signal
 import sys
 from pathlib import Path
 
+import pytest
 from launch_shop import is_gone
 from terminal import HERE, Shell, eventually
+
+pytestmark = pytest.mark.slow
 
 SUITE = """
 import os, sys, time

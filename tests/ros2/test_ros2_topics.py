@@ -17,6 +17,8 @@ from roslings.ros2 import qos
 from roslings.ros2.cli import parser_for
 from roslings.ros2.measuring import Ages, Arrival, delay_lines, few_rate
 
+pytestmark = pytest.mark.slow
+
 
 def echo(shell: Shell, *words: str) -> str:
     """What `ros2 topic echo --once WORD...` prints."""

@@ -16,6 +16,8 @@ from terminal import HERE, Shell, surroundings
 
 from roslings.arena.isolation import choose_isolation
 
+pytestmark = pytest.mark.slow
+
 BEHIND_A_WALL = HERE / "nodes" / "behind_a_wall.py"
 
 

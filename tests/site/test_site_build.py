@@ -6,6 +6,7 @@ import json
 import re
 from pathlib import Path
 
+import pytest
 from site_rules import HEAVIEST_BYTES, weight_bytes
 from two_days_site import build
 
@@ -30,6 +31,7 @@ WRONG = {
 }
 
 
+@pytest.mark.slow
 def test_each_wrong_thing_on_a_page_ends_the_build(course: Path) -> None:
     """All are told at once, with the name of the file that the author knows."""
     change_lesson(course, "# Day 1\n\n" + "\n\n".join(WRONG))
@@ -40,6 +42,7 @@ def test_each_wrong_thing_on_a_page_ends_the_build(course: Path) -> None:
     assert str(course / "out" / "source") not in done.stderr
 
 
+@pytest.mark.slow
 def test_a_failing_notebook_ends_the_build(course: Path) -> None:
     """What the page shows must have happened."""
     change_lesson(course, "print(1 / 0)", cell=2)
@@ -59,6 +62,7 @@ def test_a_wrong_quiz_ends_the_build_before_sphinx(course: Path) -> None:
     assert "Traceback" not in done.stderr
 
 
+@pytest.mark.slow
 def test_links_to_other_sites_are_listed(course: Path) -> None:
     """On request, with the pages that name them."""
     done = build(course, "--links")

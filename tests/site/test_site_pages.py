@@ -15,6 +15,8 @@ from roslings.course import root
 from roslings.lessons.document import read
 from roslings.lessons.path import Path as DayPath
 
+pytestmark = pytest.mark.slow
+
 Axe = imported("axe_playwright_python.sync_playwright").Axe
 
 COVERS_THE_FIRST_LINE = """button => {

@@ -10,6 +10,8 @@ from two_days_site import Visit
 
 from roslings.lessons.qos import RULES, broken_rules
 
+pytestmark = pytest.mark.slow
+
 Axe = imported("axe_playwright_python.sync_playwright").Axe
 PAGE = "reference/qos.html"
 

@@ -15,6 +15,8 @@ from roslings.lessons.quiz import Chosen
 from roslings.notebook.quiz_text import as_text, without_links
 from roslings.notebook.quiz_widgets import drawn
 
+pytestmark = pytest.mark.slow
+
 QUIZ_1, QUIZ_3 = "days/01-install/quiz.html", "days/03-topics/quiz.html"
 RIGHT, WRONG = "Nothing", "All of it"
 """Of the question about one terminal."""

@@ -12,6 +12,8 @@ from two_days_site import Visit
 
 from roslings.course import root
 
+pytestmark = pytest.mark.slow
+
 SHEETS = ("pygments.css", "styles/furo.css", "mystnb.*.css", "styles/furo-extensions.css")
 OURS = "course.css"
 SEEN = (

@@ -19,6 +19,8 @@ from roslings.workspace import progress
 sys.path.append(str(root() / "site"))
 from course_site.yours import tell
 
+pytestmark = pytest.mark.slow
+
 DAY = "03-topics"
 
 

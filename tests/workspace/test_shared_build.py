@@ -9,9 +9,10 @@ from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
+from few import few_labs
 
 from roslings.arena import Installed, Place, choose_isolation
-from roslings.course import all_labs, lab
+from roslings.course import Lab, lab
 from roslings.evidence import BuildSeen
 from roslings.workspace import shared_build as building
 from roslings.workspace.kin import family_of, modules_of
@@ -94,10 +95,9 @@ def compiled(folder: Path) -> set[str]:
     return {path.name.partition(".")[0] for path in folder.rglob("*.pyc")}
 
 
-@pytest.mark.parametrize("name", [each.name for each in all_labs()])
-def test_kin_is_installed_as_colcon_does(name: str, tmp_path: Path) -> None:
+@few_labs("one")
+def test_kin_is_installed_as_colcon_does(one: Lab, tmp_path: Path) -> None:
     """Another module, no colcon: each file is what colcon would have installed."""
-    one = lab(name)
     package = one.card.package
     first = tmp_path / "first" / package
     shutil.copytree(one.solution, first)

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from few import few
 
 from roslings.batch.errors import Refused
 from roslings.batch.unpack import package_in
@@ -20,6 +21,9 @@ from roslings.workspace.student import diff, pack, package_of
 LABS = [each.name for each in all_labs()]
 NAMES = ("package.xml", "<name>", "setup.cfg", "resource/")
 """What is said of a name; to who has not begun, it means: rename the other lab's package."""
+
+each_lab = few("name", [(name, name) for name in LABS], "topics", "serial-bridge")
+"""The rules are the same for all. CI tries each pair of labs."""
 
 
 def finish(workspace: Path, *names: str) -> None:
@@ -39,7 +43,7 @@ def says_start(told: str, name: str) -> bool:
     return f"./roslings start {name}" in told and not any(word in told for word in NAMES)
 
 
-@pytest.mark.parametrize("name", LABS)
+@each_lab
 def test_each_lab_beside_each_other_one(workspace: Path, name: str) -> None:
     """The search through the workspace, its folder as a path, and the other package as a path."""
     for other in others(name):
@@ -52,7 +56,7 @@ def test_each_lab_beside_each_other_one(workspace: Path, name: str) -> None:
             assert says_start(str(told.value), name), told.value
 
 
-@pytest.mark.parametrize("name", [*LABS, "example"])
+@few("name", [(name, name) for name in (*LABS, "example")], "topics", "example")
 @pytest.mark.parametrize(
     "words",
     [
@@ -76,7 +80,7 @@ def test_each_command_says_how_to_begin(
     assert told.out == "" and sorted(workspace.rglob("*")) == before
 
 
-@pytest.mark.parametrize("name", LABS)
+@each_lab
 @pytest.mark.parametrize("done", ["none", "all others"])
 def test_the_check_of_a_cell_says_it_in_one_line(
     workspace: Path, name: str, done: str, capsys: pytest.CaptureFixture[str]
@@ -89,7 +93,7 @@ def test_the_check_of_a_cell_says_it_in_one_line(
     assert told.count("\n") == 1 and says_start(told, name), told
 
 
-@pytest.mark.parametrize("name", LABS)
+@each_lab
 def test_what_is_next_is_to_start_it(
     workspace: Path, name: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -165,7 +169,7 @@ def forget_the_name(package: Path) -> None:
     rename(package, other.outline.package)
 
 
-@pytest.mark.parametrize("name", LABS)
+@each_lab
 @pytest.mark.parametrize(
     "spoil", [misspell, put_a_hyphen, call_it_otherwise, forget_the_name]
 )  # fmt: skip

@@ -44,6 +44,7 @@ def test_the_solution_passes_however_it_writes_its_lines(way: str, bags: Bags) -
     assert not failed(bags.verdict_on(SOLUTION, way=way))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize("name", ["duration_twice", "no_bag_code_zero", "rate_is_a_mean"])
 def test_a_mutant_is_caught_however_it_writes_its_lines(
@@ -55,6 +56,7 @@ def test_a_mutant_is_caught_however_it_writes_its_lines(
     assert failed(bags.verdict_on(package, way=way)) == set(mutant.fails)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", MUTANTS)
 def test_each_mutant_is_caught_where_it_says(name: str, bags: Bags, tmp_path: Path) -> None:
     """And nowhere else."""

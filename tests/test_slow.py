@@ -1,0 +1,62 @@
+"""What README's command leaves to CI is listed, has its stage there, and leaves no room empty."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+from few import FIRST
+from slow import LIST, ROW, TESTS, is_slow_whole, slow_files
+
+from roslings.course import all_labs, root
+
+GATE = (root() / ".ci/run").read_text("utf-8")
+STAGES = set(re.findall(r'^(?:stage|trial) "([^"$]+)"', GATE, re.MULTILINE))
+OF_LABS = "By the wall's clock, and with nothing in them"
+ROWS = [match.groupdict() for match in ROW.finditer(LIST.read_text("utf-8"))]
+MARKED = {
+    "all": "import pytest\n\npytestmark = [\n    pytest.mark.slow,\n]\n\ndef test_it(): pass\n",
+    "some": "from few import few_labs\n\n\n@few_labs('lab')\ndef test_it(lab):\n    pass\n",
+}  # fmt: skip
+
+
+def test_the_list_has_each_file_with_slow_tests() -> None:
+    """And no other; a row whose form is wrong is no row."""
+    assert {row["file"]: row["how_many"] for row in ROWS} == dict(slow_files())
+    assert len(ROWS) == LIST.read_text("utf-8").count("\n| `")
+
+
+@pytest.mark.parametrize("how_many", MARKED)
+def test_a_mark_of_each_form_is_seen(how_many: str, tmp_path: Path) -> None:
+    """A file that is marked and not listed would be found."""
+    (tmp_path / "test_it.py").write_text(MARKED[how_many], "utf-8")
+    (tmp_path / "test_quick.py").write_text("def test_it():\n    'pytest.mark.slow'\n", "utf-8")
+    assert list(slow_files(tmp_path)) == [("test_it.py", how_many)]
+
+
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: row["file"])
+def test_each_has_its_stage(row: dict[str, str]) -> None:
+    """One that there is; the tests of labs have a stage of their own."""
+    stages = row["stage"].split("; ")
+    assert set(stages) <= STAGES
+    assert (OF_LABS in stages) == row["file"].startswith("labs/")
+
+
+def test_the_stages_run_slow_tests() -> None:
+    """Those of labs in one, all others in two."""
+    assert "--ignore=tests/labs" in GATE
+    for words in ('-m "$slow and not alone"', '-m "$slow and alone"', 'tests/labs -m "$slow"'):
+        assert words in GATE
+
+
+def test_no_room_is_left_without_a_test() -> None:
+    """Who breaks a room hears it from README's command."""
+    rooms = {file.parent for file in TESTS.rglob("test_*.py")}
+    quick = {file.parent for file in TESTS.rglob("test_*.py") if not is_slow_whole(file)}
+    assert rooms == quick
+
+
+def test_the_lab_that_stays_is_there() -> None:
+    """Else every lab would be slow."""
+    assert FIRST in {lab.name for lab in all_labs()}
