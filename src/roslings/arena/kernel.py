@@ -20,6 +20,12 @@ BYTES_A_FILE = 16384
 _PR_SET_PDEATHSIG = 1
 _SIGKILL = 9
 _PR_SET_DUMPABLE = 4
+_PR_SET_SECCOMP = 22
+_SECCOMP_MODE_FILTER = 2
+_KEYCTL = {"x86_64": 250, "aarch64": 219}
+_JOIN_SESSION_KEYRING, _CLEAR_KEYRING = 1, 7
+_OWN_KEYRINGS = (-4, -5)
+"""A user's, and that of a user's sessions: keyctl(2)."""
 _PR_SET_CHILD_SUBREAPER = 36
 _PR_SET_NO_NEW_PRIVS = 38
 _MS_NOSUID_NODEV = 0x2 | 0x4
@@ -31,6 +37,15 @@ _IFF_UP_LOOPBACK_RUNNING_MULTICAST = 0x1 | 0x8 | 0x40 | 0x1000
 _RTF_UP = 0x1
 
 _libc = ctypes.CDLL(None, use_errno=True)
+
+
+class _Filter(ctypes.Structure):
+    """`struct sock_fprog` of <linux/filter.h>."""
+
+    _fields_ = (("lines", ctypes.c_ushort), ("program", ctypes.c_char_p))
+
+
+_BYTES_A_LINE = 8
 
 
 class _Route(ctypes.Structure):
@@ -158,6 +173,37 @@ def become_user(uid: int) -> None:
     os.setresgid(uid, uid, uid)
     os.setresuid(uid, uid, uid)
     _call("prctl", _PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0)
+
+
+def refuse_calls(program: bytes) -> None:
+    """Have the kernel judge each system call of this process by a filter, for good: seccomp(2).
+
+    Raises OSError where the kernel has none.
+    """
+    _call("prctl", _PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0)
+    filter_ = _Filter(len(program) // _BYTES_A_LINE, program)
+    _call("prctl", _PR_SET_SECCOMP, _SECCOMP_MODE_FILTER, ctypes.byref(filter_), 0, 0)
+
+
+def leave_keys() -> None:
+    """Leave the keys of whoever began this process: its session has a new, empty keyring.
+
+    Raises OSError where there are no keys, or a container keeps all from them.
+    """
+    _keyctl(_JOIN_SESSION_KEYRING, None, 0)
+
+
+def forget_keys() -> None:
+    """Clear what this process's user keeps for all of its processes. Raises OSError."""
+    for keyring in _OWN_KEYRINGS:
+        _keyctl(_CLEAR_KEYRING, keyring, 0)
+
+
+def _keyctl(*words: object) -> None:
+    """libc has no such function. Raises OSError."""
+    number = _KEYCTL.get(os.uname().machine)
+    if number is not None:
+        _call("syscall", number, *words)
 
 
 def die_with_parent() -> None:

@@ -31,7 +31,16 @@ OWN_SETTINGS = {name: HERE / "etc" / name for name in ("passwd", "group")}
 GUARDIAN = (HERE / "guardian.py", HERE / "kernel.py")
 STAND_INS = tuple(HERE.parent / name for name in ("__init__.py", "rosbag2", "stand_ins"))
 """Of the engine: packages of ROS that no wheel brings, and what they stand on."""
-KERNEL_SETTINGS = Path("/proc/sys")
+KERNEL_SETTINGS = (
+    "sys", "irq", "bus", "acpi", "fs", "scsi", "tty", "pressure", "sysrq-trigger", "mtrr",
+)  # fmt: skip
+"""Of /proc; what is written there holds for the whole machine."""
+COVERED = (
+    "keys", "key-users", "kcore", "kmsg", "kpagecgroup", "kpagecount", "kpageflags", "pagetypeinfo",
+    "sched_debug", "slabinfo", "timer_list", "vmallocinfo",
+)  # fmt: skip
+"""Of /proc; keys of whoever runs the command, and what only root reads."""
+PROC = Path("/proc")
 SHARED_MEMORY_BYTES = 64 * MB
 LISTS_OF_FOLDERS = ("AMENT_PREFIX_PATH", "LD_LIBRARY_PATH", "PYTHONPATH")
 
@@ -82,7 +91,7 @@ class Sandbox:
 
     def _view(self) -> Iterator[str]:
         """The mounts, in their order: what comes later lies over what comes earlier."""
-        yield from ("--proc", "/proc", *_read_only_settings(), "--dev", "/dev")
+        yield from ("--proc", "/proc", *_settings_and_keys(), "--dev", "/dev")
         if self.terminals:
             yield from ("--dev-bind", "/dev/pts", "/dev/pts")
         yield from _empty(Path("/dev/shm"), SHARED_MEMORY_BYTES)
@@ -100,14 +109,18 @@ class Sandbox:
         yield from ("--remount-ro", "/dev", "--remount-ro", "/")
 
 
-def _read_only_settings() -> tuple[str, ...]:
-    """The kernel's settings are the whole machine's, and can be read.
+def _settings_and_keys() -> Iterator[str]:
+    """The kernel's settings are the whole machine's, and can be read; what is root's is empty.
 
     Where root grades, the kernel takes the process for root as soon as it opens one of them: its
     rights, of which it has none, are not asked (sysctl_perm), only its user. bubblewrap leaves
-    this folder open, for the folder itself nobody can write. A kernel may be built without it.
+    these folders open, for the folders themselves nobody can write. A kernel may be built without.
     """
-    return "--ro-bind-try", str(KERNEL_SETTINGS), str(KERNEL_SETTINGS)
+    for name in KERNEL_SETTINGS:
+        yield from ("--ro-bind-try", str(PROC / name), str(PROC / name))
+    for path in (PROC / name for name in COVERED):
+        if path.exists():
+            yield from ("--ro-bind", os.devnull, str(path))
 
 
 def _empty(place: Path, most_bytes: int) -> Iterator[str]:
