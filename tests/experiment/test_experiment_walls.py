@@ -48,3 +48,43 @@ def test_others_work_that_everybody_can_read_is_no_wall(task: Lab, open_folder: 
 def test_a_folder_that_is_not_there_yet_is_closed(task: Lab, tmp_path: Path) -> None:
     """The gradebook's, before the first grading."""
     assert insist_on_wall(task, tmp_path / "grades").wall == "user"
+
+
+@pytest.fixture
+def open_clone(open_folder: Path) -> Path:
+    """Another copy of the course, which everybody may read."""
+    (open_folder / "labs/actions/solution").mkdir(parents=True)
+    return open_folder
+
+
+def test_another_copy_with_answers_is_no_wall(
+    open_clone: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of another lab, too: the refusal names it, unless it is closed, or without answers."""
+    monkeypatch.setattr(walls, "isolation_for_strangers", lambda: Isolation("user"))
+    answers = open_clone / "labs/actions/solution"
+
+    def refusal() -> str:
+        try:
+            insist_on_wall(lab("topics"))
+        except NoWall as told:
+            return told.next_step
+        return ""
+
+    assert str(answers) in refusal()
+    answers.chmod(CLOSED)
+    assert str(answers) not in refusal()
+    answers.chmod(SHOWN)
+    open_clone.chmod(CLOSED)
+    assert str(answers) not in refusal()
+
+
+def test_the_answers_of_every_lab_are_looked_at(
+    open_clone: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where the kernel cannot keep a user from them."""
+    monkeypatch.setattr(walls, "root", lambda: open_clone)
+    monkeypatch.setattr(walls, "copies_of_the_course", lambda: iter(()))
+    (open_clone / "labs/topics/mutants").mkdir(parents=True)
+    found = {*walls._answers(lab("topics"))}
+    assert found == {open_clone / "labs/actions/solution", open_clone / "labs/topics/mutants"}

@@ -89,7 +89,7 @@ class Arena:
             folder=self._place.home,
             namespaces=self._place.wall == "namespace",
             sandbox=self._place.around(self._installed, shown),
-            user=self._place.user,
+            user=self._place.user and self._place.user.showing(self._installed.folder, *shown),
         )
         with ExitStack() as stack:
             with host.entered() if host else nullcontext():

@@ -69,17 +69,19 @@ class Order:
         watch: dict[str, int],
         user: int | None,
         filter: bytes,
+        reach: dict[str, object] | None,
     ) -> None:
         """What the names of each dictionary mean: `Spout`, `Flood`, the module `resource`, these.
 
         `watch`: the most of `memory`, in bytes, of `pids`, threads too, and of `files`.
         `user`: who the process becomes; None where it stays who the guardian is.
         `filter`: of its system calls; empty where none is refused.
+        `reach`: the words of kernel.confine(); None where it reaches what its user may.
         """
         self.command, self.environment = command, environment
         self.folder, self.walls = folder, walls
         self.output, self.flood, self.limits, self.watch = output, flood, limits, watch
-        self.user, self.filter = user, filter
+        self.user, self.filter, self.reach = user, filter, reach
 
 
 class Spout:
@@ -394,6 +396,8 @@ def become(order: Order) -> None:
         signal.pthread_sigmask(signal.SIG_SETMASK, [])
         limit(order.limits)
         hold_no_keys()
+        if order.reach:
+            kernel.confine(**order.reach)
         if order.user is not None:
             give_up_all_rights(order.user)
         os.chdir(order.folder)

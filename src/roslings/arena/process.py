@@ -76,6 +76,7 @@ class Launch:
             "limits": {**bounds, **self.limits},
             "watch": watch,
             "user": self.user.uid if self.user else None,
+            "reach": self.user.reach if self.user else None,
             "filter": filter_of_calls() if self.sandbox or self.user else b"",
         }
         order = marshal.dumps(words)

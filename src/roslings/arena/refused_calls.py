@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from functools import cache
 
 NAMESPACES = 0x7E020000
-"""All flags of clone(2) that make a namespace; clone3(2), whose flags no filter sees, is not there."""
+"""All flags of clone(2) that make a namespace. No filter sees those of clone3(2): it is missing."""
 
 LOAD, EQUAL, AT_LEAST, ANY_BIT, ANSWER = 0x20, 0x15, 0x35, 0x45, 0x06
 NUMBER, ARCHITECTURE, FIRST_ARGUMENT = 0, 4, 16

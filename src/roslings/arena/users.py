@@ -19,27 +19,31 @@ import tempfile
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
 from typing import IO
 
-from roslings.arena import cgroup
+from roslings.arena import cgroup, reach
 from roslings.arena.bounds import Bounds
 from roslings.arena.environment import HERE, base_environment
 from roslings.errors import INCONCLUSIVE, RoslingsError
 
-USERS = range(64200, 64456)
+USERS = range(64200, 65000)
 """Below 65536, for containers have no more; and of nobody: 60000 to 64999 are given on demand
-(Debian Policy 9.2.2)."""
+(Debian Policy 9.2.2). Whose turn was longest ago comes first: no class meets one of them twice."""
 LEASES = Path("/run/roslings-users")
 PREFIX = "roslings-user-"
-OPEN_TO_ALL = ("/tmp", "/var/tmp", "/dev/shm", "/dev/mqueue", "/run/lock")
-"""Where every user may leave files."""
 TRIED_WITHIN_S = 60
 GONE_WITHIN_S = 10.0
 BARE = (sys.executable, "-I", "-S")
 END_ALL = "import os; os.kill(-1, 9)"
+FORGET_KEYS = f"""
+import sys
+sys.path.insert(0, {str(HERE)!r})
+import kernel
+kernel.forget_keys()
+"""
 KEYS = {"shm": "-m", "msg": "-q", "sem": "-s"}
 """System V's shared memory, queues and semaphores: proc(5), and what ipcrm(1) calls them."""
 
@@ -70,6 +74,23 @@ class User:
     """Root's own; in it lie the user's folders."""
     trees: tuple[cgroup.Tree, ...] = ()
     bounds: Bounds = field(default_factory=Bounds)
+    shown: tuple[Path, ...] = ()
+
+    def showing(self, *paths: Path) -> User:
+        """The same, with more to be read."""
+        return replace(self, shown=(*self.shown, *paths))
+
+    @property
+    def reach(self) -> dict[str, object] | None:
+        """What it may reach of the disk, in the words of kernel.confine(); None: all that is open.
+
+        Neither the course nor another copy of it is among it, whoever may read those.
+        """
+        if not (rules := reach.rules(self.folder, self.shown)):
+            return None
+        version = reach.landlock_version()
+        scopes = reach.SCOPES if version >= reach.SCOPES_SINCE else 0
+        return {"rules": rules, "rights": reach.everything(version), "scopes": scopes}
 
     @property
     def watch(self) -> dict[str, int]:
@@ -117,14 +138,22 @@ def leased_user() -> Iterator[User]:
 def _lease() -> Iterator[int]:
     """The lock is the kernel's: it ends with those who hold it, however they end."""
     LEASES.mkdir(mode=0o700, exist_ok=True)
-    for uid in USERS:
+    for uid in sorted(USERS, key=_leased_ns):
         if _is_somebody(uid):
             continue
         with (LEASES / str(uid)).open("w") as lock:
             if _taken(lock) and _ended(uid):  # a grading that was killed could not end it
+                os.utime(lock.fileno())
                 yield uid
                 return
     raise NoFreeUser
+
+
+def _leased_ns(uid: int) -> int:
+    """When it was leased last; 0 where it never was."""
+    with suppress(OSError):
+        return (LEASES / str(uid)).stat().st_mtime_ns
+    return 0
 
 
 def _taken(lock: IO[str]) -> bool:
@@ -149,16 +178,34 @@ def _is_somebody(uid: int) -> bool:
 def _leave_nothing(uid: int) -> None:
     """End all that the user runs, and remove all that it left where everybody may."""
     _ended(uid)
-    for place in OPEN_TO_ALL:
-        with suppress(OSError):
-            for entry in os.scandir(place):
-                if entry.stat(follow_symlinks=False).st_uid == uid:
-                    _remove(Path(entry.path))
+    for place in reach.OPEN_TO_ALL:
+        for path in _files_of(uid, place):
+            _remove(path)
     for folder in Path(tempfile.gettempdir()).glob(f"{PREFIX}{uid}-*"):
         _remove(folder)
     for kind, option in KEYS.items():
         for number in _keys_of(kind, uid):
             subprocess.run(["ipcrm", option, number], check=False, capture_output=True)
+    with suppress(OSError, subprocess.SubprocessError):
+        _run_as(uid, [*BARE, "-c", FORGET_KEYS])
+
+
+def _files_of(uid: int, place: str) -> Iterator[Path]:
+    """All that the user left there, in folders of others too, whole folders as one."""
+    try:
+        entries = [*os.scandir(place)]
+    except OSError:
+        return
+    for entry in entries:
+        with suppress(OSError):
+            if entry.stat(follow_symlinks=False).st_uid == uid:
+                yield Path(entry.path)
+            elif entry.is_dir(follow_symlinks=False) and _lets_others_in(entry):
+                yield from _files_of(uid, entry.path)
+
+
+def _lets_others_in(folder: os.DirEntry[str]) -> bool:
+    return bool(folder.stat(follow_symlinks=False).st_mode & stat.S_IXOTH)
 
 
 def _ended(uid: int) -> bool:
