@@ -394,6 +394,7 @@ NEEDS = (
     Need("limit one level down", runs("unshare", "--user", "--map-current-user", "sh", "-c",
                                       LIMITS)),
     Need("bubblewrap", runs("bwrap", "--unshare-all", "--ro-bind", "/", "/", "true")),
+    Need("setpriv", runs("/usr/bin/setpriv", "--version")),
     Need("bounded processes", bounded_processes),
     Need("control group for memory", control_group("memory")),
     Need("root", root),

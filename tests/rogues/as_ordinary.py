@@ -43,16 +43,19 @@ def show(folders: list[Path]) -> None:
 
 
 def _replace(home: Path, inside: list[Path]) -> None:
-    with tempfile.TemporaryDirectory() as name:
-        held = [Path(name, str(number)) for number in range(len(inside))]
-        for folder, place in zip(inside, held):  # noqa: B905
-            place.mkdir()
-            mount(str(folder), str(place), None, MS_BIND | MS_REC)
-        mount("tmpfs", str(home), "tmpfs", 0, "mode=0755")
-        for folder, place in zip(inside, held):  # noqa: B905
-            folder.mkdir(parents=True, exist_ok=True)
-            mount(str(place), str(folder), None, MS_BIND | MS_REC)
-            libc.umount2(str(place).encode(), 2)
+    """What is tidied in the end is empty folders, one by one: never what is mounted there."""
+    name = Path(tempfile.mkdtemp())
+    held = [name / str(number) for number in range(len(inside))]
+    for folder, place in zip(inside, held):  # noqa: B905
+        place.mkdir()
+        mount(str(folder), str(place), None, MS_BIND | MS_REC)
+    mount("tmpfs", str(home), "tmpfs", 0, "mode=0755")
+    for folder, place in zip(inside, held):  # noqa: B905
+        folder.mkdir(parents=True, exist_ok=True)
+        mount(str(place), str(folder), None, MS_BIND | MS_REC)
+        libc.umount2(str(place).encode(), 2)
+        place.rmdir()
+    name.rmdir()
 
 
 def main(uid: int, words: list[str], command: list[str]) -> None:

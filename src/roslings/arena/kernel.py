@@ -34,6 +34,11 @@ _PR_SET_NO_NEW_PRIVS = 38
 _MS_NOSUID_NODEV = 0x2 | 0x4
 _MS_NOSUID_NOEXEC = 0x2 | 0x8
 _MS_REC_PRIVATE = 0x4000 | 0x40000
+_MS_BIND_REC = 0x1000 | 0x4000
+_MS_REMOUNT_BIND_READ_ONLY = 0x20 | 0x1000 | 0x1
+_MOUNT_FLAGS = 0x1 | 0x2 | 0x4 | 0x8 | 0x400 | 0x800
+"""Read-only, nosuid, nodev, noexec, noatime, nodiratime: the same numbers in statvfs(3)."""
+_VIEW = b"size=1m,nr_inodes=1k,mode=0711"
 _SIOCSIFFLAGS = 0x8914
 _SIOCADDRT = 0x890B
 _IFF_UP_LOOPBACK_RUNNING_MULTICAST = 0x1 | 0x8 | 0x40 | 0x1000
@@ -78,23 +83,79 @@ def _call(name: str, *arguments: object) -> None:
         raise OSError(code, f"{name}: {os.strerror(code)}")
 
 
-def enter(besides: int = 0) -> None:
+def enter(besides: int = 0, other: int | None = None) -> None:
     """Take a user and a network namespace of one's own, and `besides`. Raises OSError.
 
-    A process with threads may not.
+    A process with threads may not. There, one is who one was, and can be the user `other` too,
+    which only root may ask for.
     """
-    uid, gid = os.getuid(), os.getgid()
-    unshare(CLONE_NEWUSER | CLONE_NEWNET | besides)
-    map_identity(uid, gid)
+    flags = CLONE_NEWUSER | CLONE_NEWNET | besides
+    if other is None:
+        uid, gid = os.getuid(), os.getgid()
+        unshare(flags)
+        map_identity(uid, gid)
+    else:
+        unshare_with(flags, other)
     raise_loopback()
 
 
-def enter_with_room(folder: str, most_bytes: int) -> None:
-    """Besides: a mount namespace, with a room for what strangers build. Raises OSError."""
-    enter(CLONE_NEWNS)
+def enter_with_room(
+    folder: str, most_bytes: int, other: int | None = None, view: str | None = None
+) -> None:
+    """Besides: a mount namespace, with a room for what strangers build. Raises OSError.
+
+    `view` is a folder in which `other` will be shown what lies where only root may go.
+    """
+    enter(CLONE_NEWNS, other)
     keep_mounts_private()
     mount_terminals()
     mount_room(folder, most_bytes, most_bytes // BYTES_A_FILE)
+    if view is not None:
+        _call("mount", b"tmpfs", view.encode(), b"tmpfs", _MS_NOSUID_NODEV, _VIEW)
+
+
+def show(source: str, target: str, writable: bool = False) -> None:
+    """Let a folder or file be seen at another place as well, to be read only. Raises OSError."""
+    if os.path.isdir(source):  # noqa: PTH112
+        os.mkdir(target)  # noqa: PTH102
+    else:
+        os.close(os.open(target, os.O_CREAT | os.O_EXCL, 0o644))
+    _call("mount", source.encode(), target.encode(), None, _MS_BIND_REC, None)
+    if not writable:
+        kept = os.statvfs(target).f_flag & _MOUNT_FLAGS  # a mount from outside cannot lose these
+        _call("mount", None, target.encode(), None, _MS_REMOUNT_BIND_READ_ONLY | kept, None)
+
+
+def unshare_with(flags: int, other: int) -> None:
+    """Leave namespaces, that of users too; root stays root, and `other` is there. Raises OSError.
+
+    The two are named by a child that has stayed outside: who has left can name but itself.
+    """
+    left, leaves = os.pipe()
+    child = os.fork()
+    if child == 0:
+        os.close(leaves)
+        os._exit(_named_from_outside(os.getppid(), other, left))
+    os.close(left)
+    try:
+        unshare(flags)
+        os.write(leaves, b"!")
+    finally:
+        os.close(leaves)
+        _, status = os.waitpid(child, 0)
+    if code := os.waitstatus_to_exitcode(status):
+        raise OSError(code, f"uid_map: {os.strerror(code)}")
+
+
+def _named_from_outside(parent: int, other: int, left: int) -> int:
+    """In the child: wait until the parent has left; the number of what went wrong."""
+    try:
+        if os.read(left, 1):
+            for name in ("uid_map", "gid_map"):
+                _write(f"/proc/{parent}/{name}", f"0 0 1\n{other} {other} 1\n")
+    except OSError as error:
+        return error.errno or 1
+    return 0
 
 
 def unshare(flags: int) -> None:

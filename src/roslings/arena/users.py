@@ -10,6 +10,7 @@ from __future__ import annotations
 import fcntl
 import os
 import pwd
+import re
 import shutil
 import socket
 import stat
@@ -34,6 +35,8 @@ USERS = range(64200, 65000)
 (Debian Policy 9.2.2). Whose turn was longest ago comes first: no class meets one of them twice."""
 LEASES = Path("/run/roslings-users")
 PREFIX = "roslings-user-"
+VIEW = "view"
+"""Of a sandbox's user: a folder in which it is shown what lies where only root may go."""
 TRIED_WITHIN_S = 60
 GONE_WITHIN_S = 10.0
 BARE = (sys.executable, "-I", "-S")
@@ -110,28 +113,42 @@ class User:
 
     def own(self, folder: Path) -> None:
         """Give a folder, and all that we put into it, to the user."""
-        for at, folders, files in os.walk(folder):
-            for name in (at, *(str(Path(at, each)) for each in (*folders, *files))):
-                os.chown(name, self.uid, self.uid, follow_symlinks=False)
-        folder.chmod(0o700)
+        give(folder, self.uid)
 
     def show(self, folder: Path) -> None:
         """Let the user enter a folder of ours, whose devices its group may use."""
-        os.chown(folder, -1, self.uid)
-        folder.chmod(0o710)
+        let_in(folder, self.uid)
+
+
+def give(folder: Path, uid: int) -> None:
+    """A folder, and all that we put into it, belongs to the user from now on."""
+    for at, folders, files in os.walk(folder):
+        for name in (at, *(str(Path(at, each)) for each in (*folders, *files))):
+            os.chown(name, uid, uid, follow_symlinks=False)
+    folder.chmod(0o700)
+
+
+def let_in(folder: Path, uid: int) -> None:
+    """The user may enter a folder of ours, whose devices its group may use."""
+    os.chown(folder, -1, uid)
+    folder.chmod(0o710)
 
 
 @contextmanager
-def leased_user() -> Iterator[User]:
-    """A user whom nobody else is, until the block ends. Raises NoFreeUser, OSError."""
+def leased_user(in_sandboxes: bool = False) -> Iterator[User]:
+    """A user whom nobody else is, until the block ends. Raises NoFreeUser, OSError.
+
+    Whose processes all live `in_sandboxes` leaves no file outside, and no keys.
+    """
+    sweep = _leave_no_process if in_sandboxes else _leave_nothing
     with _lease() as uid:
-        _leave_nothing(uid)
+        sweep(uid)
         folder = Path(tempfile.mkdtemp(prefix=f"{PREFIX}{uid}-"))
         try:
             folder.chmod(0o711)
             yield User(uid, folder, cgroup.trees())
         finally:
-            _leave_nothing(uid)
+            sweep(uid)
 
 
 @contextmanager
@@ -175,14 +192,27 @@ def _is_somebody(uid: int) -> bool:
 # --- nothing stays -----------------------------------------------------------------------------
 
 
+def _leave_no_process(uid: int) -> None:
+    """Nor the folders of ours that were made for the user, which are empty here.
+
+    In a grading's own mounts its view shows Python itself. So nothing but an empty folder is
+    taken away: whoever comes here from inside removes nothing.
+    """
+    _ended(uid)
+    for folder in Path(tempfile.gettempdir()).glob(f"{PREFIX}{uid}-*"):
+        for each in (folder / VIEW, folder):
+            with suppress(OSError):
+                each.rmdir()
+
+
 def _leave_nothing(uid: int) -> None:
     """End all that the user runs, and remove all that it left where everybody may."""
     _ended(uid)
+    for folder in Path(tempfile.gettempdir()).glob(f"{PREFIX}{uid}-*"):
+        _remove(folder)
     for place in reach.OPEN_TO_ALL:
         for path in _files_of(uid, place):
             _remove(path)
-    for folder in Path(tempfile.gettempdir()).glob(f"{PREFIX}{uid}-*"):
-        _remove(folder)
     for kind, option in KEYS.items():
         for number in _keys_of(kind, uid):
             subprocess.run(["ipcrm", option, number], check=False, capture_output=True)
@@ -194,18 +224,19 @@ def _files_of(uid: int, place: str) -> Iterator[Path]:
     """All that the user left there, in folders of others too, whole folders as one."""
     try:
         entries = [*os.scandir(place)]
+        may_write = os.stat(place).st_mode & stat.S_IWOTH  # noqa: PTH116
     except OSError:
         return
     for entry in entries:
         with suppress(OSError):
-            if entry.stat(follow_symlinks=False).st_uid == uid:
+            folder = entry.is_dir(follow_symlinks=False)
+            if not (folder or may_write):
+                continue
+            found = entry.stat(follow_symlinks=False)
+            if found.st_uid == uid:
                 yield Path(entry.path)
-            elif entry.is_dir(follow_symlinks=False) and _lets_others_in(entry):
+            elif folder and found.st_mode & stat.S_IXOTH:
                 yield from _files_of(uid, entry.path)
-
-
-def _lets_others_in(folder: os.DirEntry[str]) -> bool:
-    return bool(folder.stat(follow_symlinks=False).st_mode & stat.S_IXOTH)
 
 
 def _ended(uid: int) -> bool:
@@ -217,10 +248,28 @@ def _ended(uid: int) -> bool:
 
 
 def _remove(path: Path) -> None:
+    """Nothing where something is mounted below: to remove that would remove what it shows."""
+    if is_mounted_below(path):
+        return
     if path.is_dir() and not path.is_symlink():
         shutil.rmtree(path, ignore_errors=True)
     else:
         path.unlink(missing_ok=True)
+
+
+def is_mounted_below(path: Path) -> bool:
+    """Whether a mount of this process's lies there, or below; proc_pid_mountinfo(5)."""
+    try:
+        rows = Path("/proc/self/mountinfo").read_text("utf-8", "surrogateescape").splitlines()
+    except OSError:
+        return True
+    resolved = path.resolve()
+    return any(_unescaped(row.split()[4]).is_relative_to(resolved) for row in rows)
+
+
+def _unescaped(mounted_at: str) -> Path:
+    """The kernel writes a space, a tab, a line's end and a backslash as three octal digits."""
+    return Path(re.sub(r"\\([0-7]{3})", lambda found: chr(int(found[1], 8)), mounted_at))
 
 
 def _runs(uid: int) -> bool:
@@ -261,8 +310,7 @@ def lack_of_users() -> Lack | None:
     """Why strangers' code cannot be held by a user of its own here; None where it can."""
     if sys.platform != "linux" or os.geteuid() != 0:
         return Lack("only root can make one", "Run the command as root, in the platform's image.")
-    places = [HERE, Path(sys.prefix), Path(sys.base_prefix), _python().parent]
-    for place in dict.fromkeys(places):
+    for place in _needed():
         if lack := _lack_above(place) or _lack_within(place):
             return lack
     return _tried()
@@ -296,6 +344,30 @@ def _lack_within(place: Path) -> Lack | None:
             if mode & stat.S_IWOTH:
                 return _writable(Path(path))
             if not mode & stat.S_IROTH:
+                return _closed(Path(path))
+    return None
+
+
+def unreadable_to_others() -> str:
+    """A file of Python's, ROS's or ours that another user cannot read, however it comes there."""
+    for place in _needed():
+        if lack := _unreadable_within(place):
+            return lack.reason
+    return ""
+
+
+def _needed() -> list[Path]:
+    return [*dict.fromkeys([HERE, Path(sys.prefix), Path(sys.base_prefix), _python().parent])]
+
+
+def _unreadable_within(place: Path) -> Lack | None:
+    if place == Path("/usr"):
+        return None
+    for at, folders, files in os.walk(place):
+        for name in (*folders, *files):
+            path = os.path.join(at, name)  # noqa: PTH118
+            mode = os.lstat(path).st_mode
+            if not stat.S_ISLNK(mode) and not mode & stat.S_IROTH:
                 return _closed(Path(path))
     return None
 

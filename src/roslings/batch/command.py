@@ -16,7 +16,7 @@ from roslings.batch.errors import BatchError
 from roslings.batch.export import Settings, hand_out, keep
 from roslings.batch.gradebook import Gradebook, gradebook
 from roslings.batch.grades import LateRule
-from roslings.batch.messages import soak_line, standing_line, summary_lines
+from roslings.batch.messages import root_lines, soak_line, standing_line, summary_lines
 from roslings.batch.moodle_worksheet import read_worksheet
 from roslings.batch.roster import insist_on_owners
 from roslings.batch.scheduler import GradingRequest, Scheduler, Standing
@@ -87,8 +87,10 @@ def grade(choices: Choices) -> Report:
 
 def _graded(choices: Choices, lab: Lab, submissions: list[Submission]) -> Report:
     settings = _settings(choices, submissions)
+    lines: list[str] = []
     if not choices.dask and not choices.trust:
-        choices = _at_once(choices, insist_on_wall(lab, choices.submissions, choices.out))
+        wall = insist_on_wall(lab, choices.submissions, choices.out)
+        choices, lines = _at_once(choices, wall), [*root_lines(wall.as_root)]
     _make(choices)
     with alone_in(choices.out, AlreadyGrading), gradebook(choices.out, lab.name) as book:
         keep(book, settings)
@@ -97,7 +99,7 @@ def _graded(choices: Choices, lab: Lab, submissions: list[Submission]) -> Report
         latest = book.latest()
         unclear = sum(latest[name].word == "inconclusive" for name in names)
         lines = [
-            *summary_lines(book, names), soak_line(latest.values()),
+            *lines, *summary_lines(book, names), soak_line(latest.values()),
             *hand_out(book, lab, choices.out),
         ]  # fmt: skip
         return Report(lines, unclear)

@@ -106,9 +106,10 @@ def measuring_process(lab: str, choices: Choices) -> Iterator[Measuring]:
     It is a fork: begin before this process has threads.
     """
     walls = isolation_for_strangers() if choices.strangers else choose_isolation()
-    with run_folder() as folder, walls.user() as user:
+    with run_folder() as folder, walls.user() as leased:
+        user = leased if walls.wall == "user" else None
         assignment = Assignment(
-            lab=lab, seed=choices.seed, wall=walls.wall, sandbox=walls.sandbox,
+            lab=lab, seed=choices.seed, wall=walls.wall, sandbox=walls.sandbox_of(leased),
             clock=choices.clock, folder=folder, keeps_bags=choices.bags is not None,
             port=choices.port, hidden=choices.hidden, user=user,
             builds=None if user else choices.builds, builds_as_kin=choices.builds_as_kin,
