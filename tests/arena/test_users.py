@@ -153,6 +153,29 @@ def test_a_clone_that_is_open_is_out_of_its_reach(open_clone: Path) -> None:
     assert run(READS_IT, str(open_clone), NO_LANDLOCK)[0] == "the answer"
 
 
+CLOSED_TMP = """
+from roslings.arena import reach
+rules = reach.rules
+reach.rules = lambda own, shown, closed: rules(own, shown, ("/tmp", "/dev/shm"))
+"""
+
+
+@needs_users
+@needs("Landlock")
+def test_a_closed_place_is_out_of_its_reach() -> None:
+    """Its home is not, though it may lie there, and its terminal and /dev/null are not."""
+    source = """
+        import os
+        for place in ("/tmp", "/dev/shm", os.environ["HOME"], "/dev/null"):
+            try:
+                open(place if place == "/dev/null" else place + "/it", "w").close()
+                print("written")
+            except PermissionError:
+                print("closed")
+    """
+    assert run(source, without=CLOSED_TMP)[:4] == ["closed", "closed", "written", "written"]
+
+
 @needs_users
 @needs("Landlock")
 def test_it_can_do_what_nodes_do() -> None:

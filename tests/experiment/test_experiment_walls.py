@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from roslings.arena import Isolation
+from roslings.arena import Isolation, reach
 from roslings.course import Lab, lab
 from roslings.experiment import NoWall, insist_on_wall, walls
 
@@ -29,6 +29,7 @@ def task(monkeypatch: pytest.MonkeyPatch) -> Lab:
     """A lab behind the second wall, in a course without answers, as students have it."""
     monkeypatch.setattr(walls, "isolation_for_strangers", lambda: Isolation("user"))
     monkeypatch.setattr(walls, "_answers", lambda lab: iter(()))
+    monkeypatch.setattr(walls, "closed_places", tuple)  # whatever lies in this machine's /tmp
     return lab("topics")
 
 
@@ -57,11 +58,14 @@ def open_clone(open_folder: Path) -> Path:
     return open_folder
 
 
-def test_another_copy_with_answers_is_no_wall(
+def test_where_nothing_can_close_it_another_copy_with_answers_is_no_wall(
     open_clone: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Of another lab, too: the refusal names it, unless it is closed, or without answers."""
+    """An older kernel: the refusal names what lies open, of other labs too."""
     monkeypatch.setattr(walls, "isolation_for_strangers", lambda: Isolation("user"))
+    for module in (walls, reach):
+        monkeypatch.setattr(module, "landlock_version", lambda: 0)
+    monkeypatch.setattr(walls, "WHOLE_DISK", (str(open_clone.parent),))
     answers = open_clone / "labs/actions/solution"
 
     def refusal() -> str:
@@ -74,9 +78,17 @@ def test_another_copy_with_answers_is_no_wall(
     assert str(answers) in refusal()
     answers.chmod(CLOSED)
     assert str(answers) not in refusal()
-    answers.chmod(SHOWN)
-    open_clone.chmod(CLOSED)
-    assert str(answers) not in refusal()
+
+
+def test_a_place_with_an_open_copy_is_closed(
+    open_clone: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As long as everybody can read its answers: then nobody is refused."""
+    monkeypatch.setattr(walls, "OPEN_TO_ALL", (str(open_clone),))
+    monkeypatch.setattr(walls, "landlock_version", lambda: 1)
+    assert walls.closed_places() == (str(open_clone),)
+    (open_clone / "labs/actions/solution").chmod(CLOSED)
+    assert walls.closed_places() == ()
 
 
 def test_the_answers_of_every_lab_are_looked_at(

@@ -35,7 +35,8 @@ def landlock_version() -> int:
     """Of this kernel; 0 where it has none, or does not use it."""
     if sys.platform != "linux":
         return 0
-    return max(0, ctypes.CDLL(None).syscall(_VERSION_CALL, None, ctypes.c_size_t(0), _ASK_VERSION))
+    found: int = ctypes.CDLL(None).syscall(_VERSION_CALL, None, ctypes.c_size_t(0), _ASK_VERSION)
+    return max(0, found)
 
 
 def everything(version: int) -> int:
@@ -43,11 +44,15 @@ def everything(version: int) -> int:
     return sum(rights for since, rights in ALL_SINCE.items() if since <= version)
 
 
-def rules(own: Path, shown: Sequence[Path]) -> list[Rule]:
-    """For a user whose folders lie in `own`, and who is shown more. Empty without Landlock."""
+def rules(own: Path, shown: Sequence[Path], closed: Sequence[str] = ()) -> list[Rule]:
+    """For a user whose folders lie in `own`, and who is shown more. Empty without Landlock.
+
+    Of the places where every user may leave files, the `closed` ones are out of reach.
+    """
     if not (version := landlock_version()):
         return []
-    return [*_read(shown), *_written(own, everything(version))]
+    places = [place for place in OPEN_TO_ALL if place not in closed]
+    return [*_read(shown), *_written((*places, str(own)), everything(version), closed)]
 
 
 def _read(shown: Sequence[Path]) -> Iterator[Rule]:
@@ -63,17 +68,20 @@ def read_places() -> tuple[Path, ...]:
     return (*installations(base_environment(Path("/tmp"))), *engine)
 
 
-def _written(own: Path, most: int) -> Iterator[Rule]:
+def _written(places: Sequence[str], most: int, closed: Sequence[str]) -> Iterator[Rule]:
     in_devices = (READ_FILE | WRITE_FILE | READ_FOLDER | TRUNCATE) & most
-    yield "/dev", in_devices
-    for place in (*OPEN_TO_ALL, str(own)):
+    inside = [str(each) for each in Path("/dev").iterdir() if str(each) not in closed]
+    for device in inside if any(place.startswith("/dev/") for place in closed) else ["/dev"]:
+        yield device, in_devices if Path(device).is_dir() else in_devices & ~READ_FOLDER
+    for place in places:
         if Path(place).is_dir():
             yield place, most
 
 
-def within_reach(path: Path) -> bool:
+def within_reach(path: Path, closed: Sequence[str] = ()) -> bool:
     """Whether a leased user would see it, were it open to everybody."""
     if not landlock_version():
         return True
-    places = (*map(Path, SYSTEMS_OWN), *read_places(), *map(Path, OPEN_TO_ALL))
+    left_open = [Path(place) for place in OPEN_TO_ALL if place not in closed]
+    places = (*map(Path, SYSTEMS_OWN), *read_places(), *left_open)
     return any(path.is_relative_to(place.resolve()) for place in places)

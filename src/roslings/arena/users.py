@@ -78,6 +78,8 @@ class User:
     trees: tuple[cgroup.Tree, ...] = ()
     bounds: Bounds = field(default_factory=Bounds)
     shown: tuple[Path, ...] = ()
+    closed: tuple[str, ...] = ()
+    """Of the places where every user may leave files: those that it cannot reach."""
 
     def showing(self, *paths: Path) -> User:
         """The same, with more to be read."""
@@ -89,7 +91,7 @@ class User:
 
         Neither the course nor another copy of it is among it, whoever may read those.
         """
-        if not (rules := reach.rules(self.folder, self.shown)):
+        if not (rules := reach.rules(self.folder, self.shown, self.closed)):
             return None
         version = reach.landlock_version()
         scopes = reach.SCOPES if version >= reach.SCOPES_SINCE else 0

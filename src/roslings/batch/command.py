@@ -16,7 +16,13 @@ from roslings.batch.errors import BatchError
 from roslings.batch.export import Settings, hand_out, keep
 from roslings.batch.gradebook import Gradebook, gradebook
 from roslings.batch.grades import LateRule
-from roslings.batch.messages import root_lines, soak_line, standing_line, summary_lines
+from roslings.batch.messages import (
+    closed_lines,
+    root_lines,
+    soak_line,
+    standing_line,
+    summary_lines,
+)
 from roslings.batch.moodle_worksheet import read_worksheet
 from roslings.batch.roster import insist_on_owners
 from roslings.batch.scheduler import GradingRequest, Scheduler, Standing
@@ -26,6 +32,7 @@ from roslings.course import Lab
 from roslings.course.soak import soak_seconds
 from roslings.experiment import insist_on_wall
 from roslings.experiment.run_folder import LOCK, run_folder
+from roslings.experiment.walls import closed_places
 from roslings.report import Progress
 from roslings.workspace.errors import from_here
 
@@ -91,6 +98,8 @@ def _graded(choices: Choices, lab: Lab, submissions: list[Submission]) -> Report
     if not choices.dask and not choices.trust:
         wall = insist_on_wall(lab, choices.submissions, choices.out)
         choices, lines = _at_once(choices, wall), [*root_lines(wall.as_root)]
+        if wall.wall == "user":
+            lines.extend(closed_lines(closed_places()))
     _make(choices)
     with alone_in(choices.out, AlreadyGrading), gradebook(choices.out, lab.name) as book:
         keep(book, settings)

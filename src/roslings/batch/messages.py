@@ -99,3 +99,12 @@ def root_lines(why: str) -> Iterator[str]:
     """Where root's own number stands behind each sandbox; the sandboxes hold all the same."""
     if why:
         yield f"Sandboxes were root's own here, not another user's: {why}."
+
+
+def closed_lines(places: Sequence[str]) -> Iterator[str]:
+    """Where a node could not write as elsewhere: an open copy of the course lies there."""
+    if places:
+        yield (
+            f"No node could use {', '.join(places)}: a copy of the course with its solutions lies"
+            " there, and every user can read it."
+        )

@@ -19,6 +19,7 @@ SOLUTION = "solution"
 ANSWERS = f"labs/*/{SOLUTION}"
 CLONES_LIE_SO_DEEP = 5
 """As in /home/NAME/Documents/courses/roslings."""
+WHOLE_DISK = ("/",)
 NO_CLONE_IN = ("/proc", "/sys", "/dev", "/usr", "/etc", "/boot", "/lib", "/lib64", "/bin", "/sbin")
 
 
@@ -42,7 +43,8 @@ def wall_for(lab: Lab, *others_work: Path) -> Isolation:
     if wall.wall != "user" or wall.lack:
         return wall
     places = (*_answers(lab), *(path.resolve() for path in others_work if path.exists()))
-    seen = [path for path in places if within_reach(path) and _is_open(path)]
+    closed = closed_places()
+    seen = [path for path in places if within_reach(path, closed) and _is_open(path)]
     if not seen:
         return wall
     names = " ".join(map(str, seen))
@@ -74,13 +76,25 @@ def _answers_in(course: Path) -> Iterator[Path]:
     yield from filter(Path.exists, (*places, course / "tests", course / ".git"))
 
 
+def closed_places() -> tuple[str, ...]:
+    """Places like /tmp in which a copy of the course lies open: no leased user may go there."""
+    if not landlock_version():
+        return ()
+    return tuple(place for place in OPEN_TO_ALL if any(_open_copies_in(place)))
+
+
+def _open_copies_in(place: str) -> Iterator[Path]:
+    for course in _copies_below(Path(place), CLONES_LIE_SO_DEEP):
+        yield from filter(_is_open, _answers_in(course))
+
+
 def copies_of_the_course() -> Iterator[Path]:
     """Clones where another user could look, as far as they lie open.
 
     Where the kernel confines such a user, that is where every user may leave files; else the
     whole disk, down to where clones lie, and the system's own folders excepted.
     """
-    places = OPEN_TO_ALL if landlock_version() else ("/",)
+    places = OPEN_TO_ALL if landlock_version() else WHOLE_DISK
     for place in places:
         yield from _copies_below(Path(place), CLONES_LIE_SO_DEEP)
 
