@@ -227,6 +227,39 @@ def bounded_processes(environment: Environment) -> str:
     return control_group("pids")(environment)
 
 
+FILTERS_CALLS = """
+import ctypes, os, sys
+if os.uname().machine not in ("x86_64", "aarch64"):
+    sys.exit("no filter is known for " + os.uname().machine)
+libc = ctypes.CDLL(None, use_errno=True)
+class Filter(ctypes.Structure):
+    _fields_ = (("lines", ctypes.c_ushort), ("program", ctypes.c_char_p))
+libc.prctl(38, 1, 0, 0, 0)
+allowed = Filter(1, bytes.fromhex("060000000000ff7f"))
+if libc.prctl(22, 2, ctypes.byref(allowed), 0, 0):
+    sys.exit(os.strerror(ctypes.get_errno()))
+"""
+HAS_KEYS = """
+import ctypes, os, sys
+number = {"x86_64": 250, "aarch64": 219}.get(os.uname().machine)
+libc = ctypes.CDLL(None, use_errno=True)
+if number is None or libc.syscall(number, 1, None) < 0:
+    sys.exit(os.strerror(ctypes.get_errno()) if number else "no number of keyctl is known")
+"""
+CONFINES_FILES = """
+import ctypes, os, sys
+libc = ctypes.CDLL(None, use_errno=True)
+if libc.syscall(444, None, ctypes.c_size_t(0), 1) < 1:
+    sys.exit(os.strerror(ctypes.get_errno()))
+"""
+"""Landlock's version."""
+
+
+def bare(source: str) -> Probe:
+    """A script in a Python without site packages; what it exits with is why not."""
+    return runs(*BARE, source)
+
+
 def schedstat(_: Environment) -> str:
     """How long a thread has waited for a processor."""
     try:
@@ -361,10 +394,14 @@ NEEDS = (
     Need("limit one level down", runs("unshare", "--user", "--map-current-user", "sh", "-c",
                                       LIMITS)),
     Need("bubblewrap", runs("bwrap", "--unshare-all", "--ro-bind", "/", "/", "true")),
+    Need("setpriv", runs("/usr/bin/setpriv", "--version")),
     Need("bounded processes", bounded_processes),
     Need("control group for memory", control_group("memory")),
     Need("root", root),
     Need("other users", other_users),
+    Need("filter of system calls", bare(FILTERS_CALLS)),
+    Need("keys of the kernel", bare(HAS_KEYS)),
+    Need("Landlock", bare(CONFINES_FILES)),
     Need("/dev/net/tun", tun),
     Need("loopback with multicast", loopback_multicast),
     Need("packets of the loopback", packets),

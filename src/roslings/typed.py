@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from roslings.report.html import Own
     from roslings.report.typed import Typed
 
-FLAGS = ("solution", "trust")
+FLAGS = ("solution", "trust", "as_stranger")
 VALUES = ("hidden", "port")
 """Options of `check` that decide what is checked; what decides where it is written is not told."""
 
@@ -46,7 +46,7 @@ def own_page(options: argparse.Namespace) -> Own:
 
 def _options(options: argparse.Namespace) -> Iterator[str]:
     given = vars(options)
-    yield from (f"--{name}" for name in FLAGS if given.get(name))
+    yield from (f"--{name.replace('_', '-')}" for name in FLAGS if given.get(name))
     for name in VALUES:
         if value := given.get(name):
             yield f"--{name} {quoted_from_here(value)}"

@@ -5,9 +5,12 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+import tempfile
 import textwrap
+from collections.abc import Iterator
 from pathlib import Path
 
+import pytest
 from shown import shown
 from skips import needs
 
@@ -20,6 +23,8 @@ AS_STRANGER = """
     from pathlib import Path
     from roslings.arena import Launch, Process, base_environment
     from roslings.arena.users import leased_user
+    if sys.argv[3]:  # a wall is taken away
+        exec(sys.argv[3])
     with leased_user() as user:
         home = user.folder / "home"
         home.mkdir()
@@ -37,9 +42,10 @@ AS_STRANGER = """
 """
 
 
-def run(source: str, left: str = "") -> list[str]:
+def run(source: str, left: str = "", without: str = "") -> list[str]:
     """What a stranger's Python says, and the last line of the one that ran it."""
-    words = [sys.executable, "-c", textwrap.dedent(AS_STRANGER), textwrap.dedent(source), left]
+    script, source = textwrap.dedent(AS_STRANGER), textwrap.dedent(source)
+    words = [sys.executable, "-c", script, source, left, without]
     done = subprocess.run(shown(*words), capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     return done.stdout.splitlines()
@@ -116,6 +122,147 @@ def test_nothing_stays_of_it(tmp_path: Path) -> None:
     listing = ["ps", "-U", uid, "-o", "stat="]
     listed = subprocess.run(listing, capture_output=True, text=True, check=False)
     assert [state for state in listed.stdout.split() if not state.startswith("Z")] == []
+
+
+READS_IT = """
+    import os
+    try:
+        print(open(os.environ["LEFT"] + "/labs/topics/solution/it").read())
+    except OSError as error:
+        print(type(error).__name__)
+"""
+NO_LANDLOCK = "from roslings.arena import reach; reach.rules = lambda *words: []"
+
+
+@pytest.fixture
+def open_clone() -> Iterator[Path]:
+    """A copy of the course that every user may read, where clones lie: not in /tmp."""
+    with tempfile.TemporaryDirectory(dir="/srv", prefix="clone-") as name:
+        answers = Path(name, "labs/topics/solution")
+        answers.mkdir(parents=True)
+        (answers / "it").write_text("the answer")
+        Path(name).chmod(0o755)
+        yield Path(name)
+
+
+@needs_users
+@needs("Landlock")
+def test_a_clone_that_is_open_is_out_of_its_reach(open_clone: Path) -> None:
+    """The kernel lets it reach what is listed; without that, it reads what everybody may."""
+    assert run(READS_IT, str(open_clone))[0] == "PermissionError"
+    assert run(READS_IT, str(open_clone), NO_LANDLOCK)[0] == "the answer"
+
+
+CLOSED_TMP = """
+from roslings.arena import reach
+rules = reach.rules
+reach.rules = lambda own, shown, closed: rules(own, shown, ("/tmp", "/dev/shm"))
+"""
+
+
+@needs_users
+@needs("Landlock")
+def test_a_closed_place_is_out_of_its_reach() -> None:
+    """Its home is not, though it may lie there, and its terminal and /dev/null are not."""
+    source = """
+        import os
+        for place in ("/tmp", "/dev/shm", os.environ["HOME"], "/dev/null"):
+            try:
+                open(place if place == "/dev/null" else place + "/it", "w").close()
+                print("written")
+            except PermissionError:
+                print("closed")
+    """
+    assert run(source, without=CLOSED_TMP)[:4] == ["closed", "closed", "written", "written"]
+
+
+@needs_users
+@needs("Landlock")
+def test_it_can_do_what_nodes_do() -> None:
+    """Import ROS, write at home and in /tmp, make a link and a socket there, and run programs."""
+    lines = run(
+        """
+        import os, socket, subprocess, tempfile
+        import numpy, rclpy
+        rclpy.init(); rclpy.create_node("it"); rclpy.shutdown()
+        with tempfile.TemporaryDirectory() as own, tempfile.TemporaryDirectory(dir="/tmp") as other:
+            os.mkdir(own + "/a")
+            open(own + "/it", "w").close()
+            os.rename(own + "/it", own + "/a/it")
+            os.link(own + "/a/it", own + "/b")
+            os.symlink("b", own + "/c")
+            with socket.socket(socket.AF_UNIX) as ear:
+                ear.bind(own + "/ear")
+            open(other + "/it", "w").write("it")
+            os.truncate(other + "/it", 1)
+            open("/dev/null", "w").write("it")
+            print(subprocess.run(["sh", "-c", "ls /usr >/dev/null && echo $((6*7))"],
+                                 capture_output=True, text=True).stdout.strip())
+        """
+    )
+    assert lines[0] == "42"
+
+
+@needs_users
+def test_no_file_stays_in_a_folder_of_somebody_else() -> None:
+    """One below /tmp that everybody may write."""
+    with tempfile.TemporaryDirectory(dir="/tmp") as name:
+        Path(name, "shared").mkdir()
+        for folder in (Path(name), Path(name, "shared")):
+            folder.chmod(0o777)
+        source = """
+            import os
+            for place in ("", "/shared"):
+                open(os.environ["LEFT"] + place + "/from-a-stranger", "w").close()
+            os.mkdir(os.environ["LEFT"] + "/a-folder")
+            print(sorted(os.listdir(os.environ["LEFT"])))
+        """
+        assert run(source, name)[0] == "['a-folder', 'from-a-stranger', 'shared']"
+        assert [path.name for path in Path(name).rglob("*")] == ["shared"]
+
+
+ADDS_A_KEY = """
+import ctypes, os
+libc = ctypes.CDLL(None, use_errno=True)
+add, keyctl = {"x86_64": (248, 250), "aarch64": (217, 219)}[os.uname().machine]
+kind, name, user = ctypes.c_char_p(b"user"), ctypes.c_char_p(b"for-my-friend"), -4
+print("found" if libc.syscall(keyctl, 10, user, kind, name, 0) > 0 else "none")
+libc.syscall(add, kind, name, name, ctypes.c_size_t(6), user)
+"""
+
+
+@needs_users
+@needs("keys of the kernel")
+def test_no_key_stays_of_it() -> None:
+    """What a user has kept for all its processes is gone before its number is leased again."""
+    source = f"""
+        from roslings.arena import users
+        command, uid = [*users.BARE, "-c", {ADDS_A_KEY!r}], users.USERS[0]
+        first = users._run_as(uid, command).stdout.strip()
+        second = users._run_as(uid, command).stdout.strip()
+        users._leave_nothing(uid)
+        third = users._run_as(uid, command).stdout.strip()
+        users._leave_nothing(uid)
+        print(first, second, third)
+    """
+    words = shown(sys.executable, "-c", textwrap.dedent(source))
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    assert done.stdout == "none found none\n", done.stderr
+
+
+@needs_users
+def test_no_user_is_leased_twice_in_a_run() -> None:
+    """Whoever was leased longest ago comes next."""
+    source = """
+        from roslings.arena.users import leased_user
+        seen = []
+        for _ in range(4):
+            with leased_user() as user:
+                seen.append(user.uid)
+        print(len(set(seen)))
+    """
+    words = shown(sys.executable, "-c", textwrap.dedent(source))
+    assert subprocess.run(words, capture_output=True, text=True, check=True).stdout == "4\n"
 
 
 @needs_users

@@ -29,6 +29,7 @@ TALKER = "from roslings.ros2.demo_nodes_py.talker import main; main()"
         (["topics", "my/path"], "check topics my/path"),
         (["topics", "my path", "--html", "page.html"], "check topics 'my path'"),
         (["topics", "--solution", "--seed", "3"], "check topics --solution"),
+        (["topics", "my/path", "--as-stranger"], "check topics my/path --as-stranger"),
         (["topics", "--clock", "wall", "--port", "/dev/x"],
          "check topics --port /dev/x --clock wall"),
     ],

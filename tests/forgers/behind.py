@@ -66,8 +66,9 @@ class Behind(Stage):
 
     def close_answers(self) -> None:
         """As the second wall asks for."""
-        for answers in (LAB.solution.parent, LAB.folder / "mutants"):
-            (self.course / answers.relative_to(LAB.folder.parents[1])).chmod(0o700)
+        self.course.chmod(0o755)
+        for answers in (*self.course.glob("labs/*/solution"), *self.course.glob("labs/*/mutants")):
+            answers.chmod(0o700)
         self.home.chmod(0o700)
         self.submissions.chmod(0o700)
 

@@ -109,7 +109,7 @@ class Attempt:
         rogue = self.rogue
         hooks = (HOOKS[self.place],) if self.place in HOOKS else ()
         for edit in (*rogue.edits, *hooks):
-            _apply(edit, package / edit.file)
+            apply(edit, package / edit.file)
         for name in rogue.remove:
             (package / name).unlink()
         for name, content in rogue.write.items():
@@ -132,7 +132,8 @@ class Attempt:
             (package / "chatter/__init__.py").write_text(begin, "utf-8")
 
 
-def _apply(edit: Edit, path: Path) -> None:
+def apply(edit: Edit, path: Path) -> None:
+    """Make an edit, which fits exactly once."""
     text = path.read_text("utf-8")
     assert text.count(edit.find) == 1, f"{edit.find!r} must stand once in {edit.file}"
     path.write_text(text.replace(edit.find, edit.replace), "utf-8")

@@ -53,6 +53,18 @@ def test_is_hidden(package: PackageView) -> None:
     """A check that students do not have."""
     assert package.files.name
 '''
+WITH_A_KEY = """
+import ctypes, os, sys
+libc = ctypes.CDLL(None, use_errno=True)
+calls = {"x86_64": (248, 250), "aarch64": (217, 219)}.get(os.uname().machine)
+if calls:
+    add, keyctl = calls
+    libc.syscall(keyctl, 1, None)
+    name = ctypes.c_char_p(b"instructors-key")
+    libc.syscall(add, ctypes.c_char_p(b"user"), name, name, ctypes.c_size_t(3), -3)
+os.execv(sys.argv[1], sys.argv[1:])
+"""
+"""The instructor's session keeps a key in the kernel, where the kernel keeps any."""
 COURSE = ("src", "graders", "labs", "days", "glossary", "pyproject.toml")
 SHARED_PLACES = ("/tmp", "/var/tmp", "/dev/shm", "/", "/run", "/etc", "/opt", "/usr")
 
@@ -112,6 +124,7 @@ class Stage:
         card.write_text(f"{card.read_text('utf-8')}\nbuilds_within_s: {BUILDS_WITHIN_S}\n", "utf-8")
         (self.home / "secret.txt").write_text(SECRET)
         self.hidden.write_text(HIDDEN % SECRET)
+        self.course.chmod(0o700)  # an open copy of the course is no wall, for whoever tests beside
 
     def give_away(self) -> None:
         """Everything belongs to the ordinary user from now on."""
@@ -123,7 +136,17 @@ class Stage:
     def command(self, *more: str) -> list[str]:
         """`./roslings grade` of all submissions."""
         grade = ["grade", LAB.name, str(self.submissions), "--out", str(self.out), *more]
-        words = [sys.executable, "-m", "roslings", *grade]
+        words = [
+            sys.executable,
+            "-I",
+            "-S",
+            "-c",
+            WITH_A_KEY,
+            sys.executable,
+            "-m",
+            "roslings",
+            *grade,
+        ]
         return [*ordinary_user(), *words] if self.ordinary else words
 
     def environment(self) -> dict[str, str]:

@@ -16,7 +16,7 @@ from roslings.arena.lease import leased_domain
 from roslings.arena.process import Launch, Process
 from roslings.arena.sandbox import Sandbox
 from roslings.arena.shared_memory import swept_shared_memory
-from roslings.arena.users import User
+from roslings.arena.users import User, give, let_in
 
 
 @dataclass(frozen=True)
@@ -43,6 +43,23 @@ class Place:
     """Whether messages go through the network that are larger than its buffers."""
     user: User | None = None
     """Who the processes are; None where they are ourselves."""
+
+    @property
+    def other(self) -> int | None:
+        """The number of the leased user who the processes are outside, if there is one."""
+        if self.user:
+            return self.user.uid
+        return self.sandbox.other if self.sandbox else None
+
+    def give(self, folder: Path) -> None:
+        """Let the processes write what we have put into a folder."""
+        if self.other is not None:
+            give(folder, self.other)
+
+    def let_in(self, folder: Path) -> None:
+        """Let the processes use the devices in a folder of ours."""
+        if self.other is not None:
+            let_in(folder, self.other)
 
     def around(self, installed: Installed, shown: Sequence[Path]) -> Sandbox | None:
         """What stands around one process."""
@@ -89,7 +106,7 @@ class Arena:
             folder=self._place.home,
             namespaces=self._place.wall == "namespace",
             sandbox=self._place.around(self._installed, shown),
-            user=self._place.user,
+            user=self._place.user and self._place.user.showing(self._installed.folder, *shown),
         )
         with ExitStack() as stack:
             with host.entered() if host else nullcontext():
@@ -145,7 +162,6 @@ def opened(installed: Installed, place: Place) -> Iterator[Arena]:
         if place.wall == "domain":
             stack.enter_context(swept_shared_memory())
         devices = stack.enter_context(TemporaryDirectory(dir=place.devices))
-        if place.user:
-            place.user.show(Path(devices))
+        place.let_in(Path(devices))
         own = replace(place, devices=Path(devices))  # another arena may be open beside it
         yield Arena(installed, own, stack.enter_context(leased_domain()))

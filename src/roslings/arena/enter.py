@@ -5,6 +5,9 @@
     python -I -S enter.py --room FOLDER BYTES COMMAND ...
                                          become COMMAND inside, with terminals of its own, and a
                                          FOLDER that holds so much and is gone with the last process
+    python -I -S enter.py --room FOLDER BYTES --other UID VIEW [--show SOURCE TARGET]... COMMAND ...
+                                         besides, as root: the user UID is there too, and in VIEW
+                                         each TARGET shows what lies at SOURCE
 
 It runs in a bare interpreter, because a process with threads may not make a user namespace.
 """
@@ -26,8 +29,7 @@ def main(arguments: list[str]) -> None:
     """Enter, then try it or become the command."""
     try:
         if arguments[0] == "--room":
-            kernel.enter_with_room(arguments[1], int(arguments[2]))
-            arguments = arguments[3:]
+            arguments = enter_with_room(arguments[1], int(arguments[2]), arguments[3:])
         else:
             kernel.enter()
         if arguments == ["--try"]:
@@ -38,6 +40,19 @@ def main(arguments: list[str]) -> None:
         print(error.strerror or error, file=sys.stderr)
         sys.exit(REFUSED)
     os.execvp(arguments[0], arguments)
+
+
+def enter_with_room(folder: str, most_bytes: int, rest: list[str]) -> list[str]:
+    """Enter, and show what is to be seen; what is left of the words. Raises OSError."""
+    if rest[0] != "--other":
+        kernel.enter_with_room(folder, most_bytes)
+        return rest
+    kernel.enter_with_room(folder, most_bytes, int(rest[1]), rest[2])
+    rest = rest[3:]
+    while rest[0] == "--show":
+        kernel.show(rest[1], rest[2])
+        rest = rest[3:]
+    return rest
 
 
 def try_namespaces() -> None:

@@ -30,6 +30,7 @@ The modules of json, sockets, contexts, dataclasses and paths would double it.
 from __future__ import annotations
 
 import _signal as signal  # type: ignore[import-not-found]  # `signal` itself doubles our imports
+import errno
 import marshal
 import os
 import pty
@@ -67,16 +68,20 @@ class Order:
         limits: dict[str, int],
         watch: dict[str, int],
         user: int | None,
+        filter: bytes,
+        reach: dict[str, object] | None,
     ) -> None:
         """What the names of each dictionary mean: `Spout`, `Flood`, the module `resource`, these.
 
         `watch`: the most of `memory`, in bytes, of `pids`, threads too, and of `files`.
         `user`: who the process becomes; None where it stays who the guardian is.
+        `filter`: of its system calls; empty where none is refused.
+        `reach`: the words of kernel.confine(); None where it reaches what its user may.
         """
         self.command, self.environment = command, environment
         self.folder, self.walls = folder, walls
         self.output, self.flood, self.limits, self.watch = output, flood, limits, watch
-        self.user = user
+        self.user, self.filter, self.reach = user, filter, reach
 
 
 class Spout:
@@ -390,9 +395,13 @@ def become(order: Order) -> None:
         signal.set_wakeup_fd(-1)
         signal.pthread_sigmask(signal.SIG_SETMASK, [])
         limit(order.limits)
+        hold_no_keys()
+        if order.reach:
+            kernel.confine(**order.reach)
         if order.user is not None:
             give_up_all_rights(order.user)
         os.chdir(order.folder)
+        refuse_calls(order.filter)
         os.execvpe(order.command[0], order.command, order.environment)
     except OSError as error:
         os.write(2, f"{order.command[0]}: {error.strerror}\n".encode())
@@ -411,6 +420,24 @@ def give_up_all_rights(user: int) -> None:
                 continue
     os.umask(0o077)
     kernel.become_user(user)
+
+
+def hold_no_keys() -> None:
+    """In the child: of the kernel's keys, hold none that another process has."""
+    try:
+        kernel.leave_keys()
+    except OSError:  # who cannot leave them cannot reach them either
+        return
+
+
+def refuse_calls(program: bytes) -> None:
+    """In the child: what attacks begin with is refused, where the kernel can refuse it."""
+    if program:
+        try:
+            kernel.refuse_calls(program)
+        except OSError as error:
+            if error.errno != errno.EINVAL:  # a kernel that is built without it
+                raise
 
 
 def limit(limits: dict[str, int]) -> None:

@@ -22,8 +22,9 @@ from pathlib import Path
 from roslings.arena import cgroup, kernel, ways
 from roslings.arena.bounds import MB, kernel_counts_by_namespace
 from roslings.arena.environment import HERE, Wall
-from roslings.arena.sandbox import Sandbox
-from roslings.arena.users import Lack, User, lack_of_users, leased_user
+from roslings.arena.sandbox import SETPRIV, Sandbox, is_open_to_all
+from roslings.arena.users import VIEW, Lack, User, lack_of_users, leased_user, unreadable_to_others
+from roslings.errors import RoslingsError
 
 ENTER = HERE / "enter.py"
 GUARD = """
@@ -37,6 +38,9 @@ guardian.main(int(sys.argv[2]))
 BARE = (sys.executable, "-I", "-S")
 """A Python without site packages: quick to start, and without the threads that forbid unshare."""
 
+OPEN_UMASK = 0o022
+"""What is made for a leased user can be read by it."""
+CLOSED_TMPDIR = "other users may not enter the folder for temporary files (TMPDIR)"
 ROOM_BYTES = 512 * MB
 """For one package's build and installation."""
 TRIED_WITHIN_S = 60
@@ -56,6 +60,10 @@ class Isolation:
     sandbox: Sandbox | None = None
     lack: Lack | None = None
     """None where each process is in a sandbox, and all that it can take is bounded."""
+    leases: bool = False
+    """Whether root leases a user for each grading, who the processes in its sandboxes are."""
+    as_root: str = ""
+    """Why they are root outside, though without its rights, where they are."""
 
     def command(self, inner: Sequence[str], room: Path | None = None) -> list[str]:
         """The command that runs `inner` behind this wall.
@@ -68,23 +76,32 @@ class Isolation:
         roomy = ["--room", str(room), str(ROOM_BYTES)] if self.sandbox and room else []
         return [*BARE, str(ENTER), *roomy, *inner]
 
-    def enter(self, room: Path) -> None:
+    def enter(self, room: Path, sandbox: Sandbox | None) -> None:
         """Go behind this wall with this process, as `command` does. Raises OSError.
 
         It must have one thread only: a fork has, whatever its parent has.
         """
         if self.wall != "namespace":
             return
-        if self.sandbox:
+        if sandbox and sandbox.view:
+            os.umask(OPEN_UMASK)
+            kernel.enter_with_room(str(room), ROOM_BYTES, sandbox.other, str(sandbox.view))
+        elif sandbox:
             kernel.enter_with_room(str(room), ROOM_BYTES)
         else:
             kernel.enter()
 
+    def sandbox_of(self, user: User | None) -> Sandbox | None:
+        """What stands around the processes of one grading, which are this user outside."""
+        if not (self.leases and self.sandbox and user):
+            return self.sandbox
+        return self.sandbox.held_by(user.uid, view_of(user))
+
     @contextmanager
     def user(self) -> Iterator[User | None]:
         """Who runs the code of one grading; None where that is ourselves. Raises NoFreeUser."""
-        if self.wall == "user":
-            with leased_user() as user:
+        if self.wall == "user" or self.leases:
+            with leased_user(in_sandboxes=self.leases) as user:
                 yield user
         else:
             yield None
@@ -107,7 +124,7 @@ def isolation_for_strangers() -> Isolation:
     """The best wall there is for somebody else's submission; it says so where none holds."""
     if os.environ.get(CHOICE) == "user":
         return _as_user()
-    best = choose_isolation()
+    best = _leasing() if os.geteuid() == 0 else choose_isolation()
     if best.lack is None or CHOICE in os.environ or os.geteuid() != 0:
         return best
     user = _as_user()
@@ -115,6 +132,44 @@ def isolation_for_strangers() -> Isolation:
         return user
     both = f"{best.lack.reason}; and no user of its own can hold it: {user.lack.reason}"
     return replace(best, lack=Lack(both, f"{best.lack.next_step}\nOr: {user.lack.next_step}"))
+
+
+def _leasing() -> Isolation:
+    """As `choose_isolation`, with a leased user behind each sandbox where that can be had."""
+    best = choose_isolation()
+    return _with_leased_user() if best.sandbox else best
+
+
+@cache
+def _with_leased_user() -> Isolation:
+    """The kernel bounds the processes of a user who is not root, with or without a group."""
+    best = _best()
+    refusal = "" if Path(SETPRIV).exists() else f"there is no {SETPRIV}"
+    if refusal := refusal or unreadable_to_others() or _refusal_of_leased_user(best):
+        return replace(best, as_root=refusal)
+    return replace(best, leases=True, lack=None if kernel_counts_by_namespace() else best.lack)
+
+
+def _refusal_of_leased_user(best: Isolation) -> str:
+    """Why no sandbox stands up that is another user's outside; empty where one does."""
+    assert best.sandbox
+    try:
+        with tempfile.TemporaryDirectory() as room, leased_user(True) as user:
+            sandbox = best.sandbox.held_by(user.uid, view_of(user))
+            shown = [word for pair in sandbox.to_be_shown() for word in ("--show", *map(str, pair))]
+            other = ["--other", str(user.uid), str(sandbox.view), *shown]
+            inner = sandbox.command([*BARE, "-c", "pass"])
+            command = [*BARE, str(ENTER), "--room", room, str(ROOM_BYTES), *other, *inner]
+            return _tried(command) if is_open_to_all(user.folder) else CLOSED_TMPDIR
+    except (OSError, RoslingsError) as error:
+        return str(error)
+
+
+def view_of(user: User) -> Path:
+    """A folder for what a user is shown of what lies where it may not go."""
+    view = user.folder / VIEW
+    view.mkdir(mode=0o711, exist_ok=True)
+    return view
 
 
 def _as_user() -> Isolation:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import ctypes
 import os
+import sys
 
 CLONE_NEWNS = 0x00020000
 CLONE_NEWIPC = 0x08000000
@@ -20,17 +21,39 @@ BYTES_A_FILE = 16384
 _PR_SET_PDEATHSIG = 1
 _SIGKILL = 9
 _PR_SET_DUMPABLE = 4
+_PR_SET_SECCOMP = 22
+_SECCOMP_MODE_FILTER = 2
+_LANDLOCK_CREATE, _LANDLOCK_ADD, _LANDLOCK_RESTRICT = 444, 445, 446
+_BENEATH = 1
+_KEYCTL = {"x86_64": 250, "aarch64": 219}
+_JOIN_SESSION_KEYRING, _CLEAR_KEYRING = 1, 7
+_OWN_KEYRINGS = (-4, -5)
+"""A user's, and that of a user's sessions: keyctl(2)."""
 _PR_SET_CHILD_SUBREAPER = 36
 _PR_SET_NO_NEW_PRIVS = 38
 _MS_NOSUID_NODEV = 0x2 | 0x4
 _MS_NOSUID_NOEXEC = 0x2 | 0x8
 _MS_REC_PRIVATE = 0x4000 | 0x40000
+_MS_BIND_REC = 0x1000 | 0x4000
+_MS_REMOUNT_BIND_READ_ONLY = 0x20 | 0x1000 | 0x1
+_MOUNT_FLAGS = 0x1 | 0x2 | 0x4 | 0x8 | 0x400 | 0x800
+"""Read-only, nosuid, nodev, noexec, noatime, nodiratime: the same numbers in statvfs(3)."""
+_VIEW = b"size=1m,nr_inodes=1k,mode=0711"
 _SIOCSIFFLAGS = 0x8914
 _SIOCADDRT = 0x890B
 _IFF_UP_LOOPBACK_RUNNING_MULTICAST = 0x1 | 0x8 | 0x40 | 0x1000
 _RTF_UP = 0x1
 
 _libc = ctypes.CDLL(None, use_errno=True)
+
+
+class _Filter(ctypes.Structure):
+    """`struct sock_fprog` of <linux/filter.h>."""
+
+    _fields_ = (("lines", ctypes.c_ushort), ("program", ctypes.c_char_p))
+
+
+_BYTES_A_LINE = 8
 
 
 class _Route(ctypes.Structure):
@@ -60,23 +83,79 @@ def _call(name: str, *arguments: object) -> None:
         raise OSError(code, f"{name}: {os.strerror(code)}")
 
 
-def enter(besides: int = 0) -> None:
+def enter(besides: int = 0, other: int | None = None) -> None:
     """Take a user and a network namespace of one's own, and `besides`. Raises OSError.
 
-    A process with threads may not.
+    A process with threads may not. There, one is who one was, and can be the user `other` too,
+    which only root may ask for.
     """
-    uid, gid = os.getuid(), os.getgid()
-    unshare(CLONE_NEWUSER | CLONE_NEWNET | besides)
-    map_identity(uid, gid)
+    flags = CLONE_NEWUSER | CLONE_NEWNET | besides
+    if other is None:
+        uid, gid = os.getuid(), os.getgid()
+        unshare(flags)
+        map_identity(uid, gid)
+    else:
+        unshare_with(flags, other)
     raise_loopback()
 
 
-def enter_with_room(folder: str, most_bytes: int) -> None:
-    """Besides: a mount namespace, with a room for what strangers build. Raises OSError."""
-    enter(CLONE_NEWNS)
+def enter_with_room(
+    folder: str, most_bytes: int, other: int | None = None, view: str | None = None
+) -> None:
+    """Besides: a mount namespace, with a room for what strangers build. Raises OSError.
+
+    `view` is a folder in which `other` will be shown what lies where only root may go.
+    """
+    enter(CLONE_NEWNS, other)
     keep_mounts_private()
     mount_terminals()
     mount_room(folder, most_bytes, most_bytes // BYTES_A_FILE)
+    if view is not None:
+        _call("mount", b"tmpfs", view.encode(), b"tmpfs", _MS_NOSUID_NODEV, _VIEW)
+
+
+def show(source: str, target: str, writable: bool = False) -> None:
+    """Let a folder or file be seen at another place as well, to be read only. Raises OSError."""
+    if os.path.isdir(source):  # noqa: PTH112
+        os.mkdir(target)  # noqa: PTH102
+    else:
+        os.close(os.open(target, os.O_CREAT | os.O_EXCL, 0o644))
+    _call("mount", source.encode(), target.encode(), None, _MS_BIND_REC, None)
+    if not writable:
+        kept = os.statvfs(target).f_flag & _MOUNT_FLAGS  # a mount from outside cannot lose these
+        _call("mount", None, target.encode(), None, _MS_REMOUNT_BIND_READ_ONLY | kept, None)
+
+
+def unshare_with(flags: int, other: int) -> None:
+    """Leave namespaces, that of users too; root stays root, and `other` is there. Raises OSError.
+
+    The two are named by a child that has stayed outside: who has left can name but itself.
+    """
+    left, leaves = os.pipe()
+    child = os.fork()
+    if child == 0:
+        os.close(leaves)
+        os._exit(_named_from_outside(os.getppid(), other, left))
+    os.close(left)
+    try:
+        unshare(flags)
+        os.write(leaves, b"!")
+    finally:
+        os.close(leaves)
+        _, status = os.waitpid(child, 0)
+    if code := os.waitstatus_to_exitcode(status):
+        raise OSError(code, f"uid_map: {os.strerror(code)}")
+
+
+def _named_from_outside(parent: int, other: int, left: int) -> int:
+    """In the child: wait until the parent has left; the number of what went wrong."""
+    try:
+        if os.read(left, 1):
+            for name in ("uid_map", "gid_map"):
+                _write(f"/proc/{parent}/{name}", f"0 0 1\n{other} {other} 1\n")
+    except OSError as error:
+        return error.errno or 1
+    return 0
 
 
 def unshare(flags: int) -> None:
@@ -158,6 +237,64 @@ def become_user(uid: int) -> None:
     os.setresgid(uid, uid, uid)
     os.setresuid(uid, uid, uid)
     _call("prctl", _PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0)
+
+
+def refuse_calls(program: bytes) -> None:
+    """Have the kernel judge each system call of this process by a filter, for good: seccomp(2).
+
+    Raises OSError where the kernel has none.
+    """
+    _call("prctl", _PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0)
+    filter_ = _Filter(len(program) // _BYTES_A_LINE, program)
+    _call("prctl", _PR_SET_SECCOMP, _SECCOMP_MODE_FILTER, ctypes.byref(filter_), 0, 0)
+
+
+def confine(rules: list[tuple[str, int]], rights: int, scopes: int) -> None:
+    """Let this process do with files what `rules` say, and no more of `rights`: landlock(7).
+
+    Raises OSError. What it holds open stays as it is.
+    """
+    kinds = (ctypes.c_uint64 * 3)(rights, 0, scopes)
+    size = ctypes.c_size_t(24 if scopes else 8)
+    ruleset = _numbered(_LANDLOCK_CREATE, ctypes.byref(kinds), size, 0)
+    for path, allowed in rules:
+        place = os.open(path, os.O_PATH | os.O_CLOEXEC)
+        beneath = allowed.to_bytes(8, sys.byteorder) + place.to_bytes(4, sys.byteorder)
+        _numbered(_LANDLOCK_ADD, ruleset, _BENEATH, beneath, 0)
+        os.close(place)
+    _call("prctl", _PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0)
+    _numbered(_LANDLOCK_RESTRICT, ruleset, 0)
+    os.close(ruleset)
+
+
+def _numbered(number: int, *words: object) -> int:
+    """A call that libc has no function for. Raises OSError."""
+    answer: int = _libc.syscall(number, *words)
+    if answer == -1:
+        code = ctypes.get_errno()
+        raise OSError(code, f"call {number}: {os.strerror(code)}")
+    return answer
+
+
+def leave_keys() -> None:
+    """Leave the keys of whoever began this process: its session has a new, empty keyring.
+
+    Raises OSError where there are no keys, or a container keeps all from them.
+    """
+    _keyctl(_JOIN_SESSION_KEYRING, None, 0)
+
+
+def forget_keys() -> None:
+    """Clear what this process's user keeps for all of its processes. Raises OSError."""
+    for keyring in _OWN_KEYRINGS:
+        _keyctl(_CLEAR_KEYRING, keyring, 0)
+
+
+def _keyctl(*words: object) -> None:
+    """Raises OSError; nothing on a machine whose number for it is not known."""
+    number = _KEYCTL.get(os.uname().machine)
+    if number is not None:
+        _numbered(number, *words)
 
 
 def die_with_parent() -> None:

@@ -17,6 +17,7 @@ from typing import Literal
 
 from roslings.arena.cgroup import Group
 from roslings.arena.isolation import guardian_command
+from roslings.arena.refused_calls import filter_of_calls
 from roslings.arena.sandbox import Sandbox
 from roslings.arena.users import User
 from roslings.evidence import Ending, LogLine, ProcessSeen
@@ -75,6 +76,8 @@ class Launch:
             "limits": {**bounds, **self.limits},
             "watch": watch,
             "user": self.user.uid if self.user else None,
+            "reach": self.user.reach if self.user else None,
+            "filter": filter_of_calls() if self.sandbox or self.user else b"",
         }
         order = marshal.dumps(words)
         return b"%d\n%b" % (len(order), order)

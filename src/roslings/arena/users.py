@@ -10,6 +10,7 @@ from __future__ import annotations
 import fcntl
 import os
 import pwd
+import re
 import shutil
 import socket
 import stat
@@ -19,27 +20,33 @@ import tempfile
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
 from typing import IO
 
-from roslings.arena import cgroup
+from roslings.arena import cgroup, reach
 from roslings.arena.bounds import Bounds
 from roslings.arena.environment import HERE, base_environment
 from roslings.errors import INCONCLUSIVE, RoslingsError
 
-USERS = range(64200, 64456)
+USERS = range(64200, 65000)
 """Below 65536, for containers have no more; and of nobody: 60000 to 64999 are given on demand
-(Debian Policy 9.2.2)."""
+(Debian Policy 9.2.2). Whose turn was longest ago comes first: no class meets one of them twice."""
 LEASES = Path("/run/roslings-users")
 PREFIX = "roslings-user-"
-OPEN_TO_ALL = ("/tmp", "/var/tmp", "/dev/shm", "/dev/mqueue", "/run/lock")
-"""Where every user may leave files."""
+VIEW = "view"
+"""Of a sandbox's user: a folder in which it is shown what lies where only root may go."""
 TRIED_WITHIN_S = 60
 GONE_WITHIN_S = 10.0
 BARE = (sys.executable, "-I", "-S")
 END_ALL = "import os; os.kill(-1, 9)"
+FORGET_KEYS = f"""
+import sys
+sys.path.insert(0, {str(HERE)!r})
+import kernel
+kernel.forget_keys()
+"""
 KEYS = {"shm": "-m", "msg": "-q", "sem": "-s"}
 """System V's shared memory, queues and semaphores: proc(5), and what ipcrm(1) calls them."""
 
@@ -70,6 +77,25 @@ class User:
     """Root's own; in it lie the user's folders."""
     trees: tuple[cgroup.Tree, ...] = ()
     bounds: Bounds = field(default_factory=Bounds)
+    shown: tuple[Path, ...] = ()
+    closed: tuple[str, ...] = ()
+    """Of the places where every user may leave files: those that it cannot reach."""
+
+    def showing(self, *paths: Path) -> User:
+        """The same, with more to be read."""
+        return replace(self, shown=(*self.shown, *paths))
+
+    @property
+    def reach(self) -> dict[str, object] | None:
+        """What it may reach of the disk, in the words of kernel.confine(); None: all that is open.
+
+        Neither the course nor another copy of it is among it, whoever may read those.
+        """
+        if not (rules := reach.rules(self.folder, self.shown, self.closed)):
+            return None
+        version = reach.landlock_version()
+        scopes = reach.SCOPES if version >= reach.SCOPES_SINCE else 0
+        return {"rules": rules, "rights": reach.everything(version), "scopes": scopes}
 
     @property
     def watch(self) -> dict[str, int]:
@@ -89,42 +115,64 @@ class User:
 
     def own(self, folder: Path) -> None:
         """Give a folder, and all that we put into it, to the user."""
-        for at, folders, files in os.walk(folder):
-            for name in (at, *(str(Path(at, each)) for each in (*folders, *files))):
-                os.chown(name, self.uid, self.uid, follow_symlinks=False)
-        folder.chmod(0o700)
+        give(folder, self.uid)
 
     def show(self, folder: Path) -> None:
         """Let the user enter a folder of ours, whose devices its group may use."""
-        os.chown(folder, -1, self.uid)
-        folder.chmod(0o710)
+        let_in(folder, self.uid)
+
+
+def give(folder: Path, uid: int) -> None:
+    """A folder, and all that we put into it, belongs to the user from now on."""
+    for at, folders, files in os.walk(folder):
+        for name in (at, *(str(Path(at, each)) for each in (*folders, *files))):
+            os.chown(name, uid, uid, follow_symlinks=False)
+    folder.chmod(0o700)
+
+
+def let_in(folder: Path, uid: int) -> None:
+    """The user may enter a folder of ours, whose devices its group may use."""
+    os.chown(folder, -1, uid)
+    folder.chmod(0o710)
 
 
 @contextmanager
-def leased_user() -> Iterator[User]:
-    """A user whom nobody else is, until the block ends. Raises NoFreeUser, OSError."""
+def leased_user(in_sandboxes: bool = False) -> Iterator[User]:
+    """A user whom nobody else is, until the block ends. Raises NoFreeUser, OSError.
+
+    Whose processes all live `in_sandboxes` leaves no file outside, and no keys.
+    """
+    sweep = _leave_no_process if in_sandboxes else _leave_nothing
     with _lease() as uid:
-        _leave_nothing(uid)
+        sweep(uid)
         folder = Path(tempfile.mkdtemp(prefix=f"{PREFIX}{uid}-"))
         try:
             folder.chmod(0o711)
             yield User(uid, folder, cgroup.trees())
         finally:
-            _leave_nothing(uid)
+            sweep(uid)
 
 
 @contextmanager
 def _lease() -> Iterator[int]:
     """The lock is the kernel's: it ends with those who hold it, however they end."""
     LEASES.mkdir(mode=0o700, exist_ok=True)
-    for uid in USERS:
+    for uid in sorted(USERS, key=_leased_ns):
         if _is_somebody(uid):
             continue
         with (LEASES / str(uid)).open("w") as lock:
             if _taken(lock) and _ended(uid):  # a grading that was killed could not end it
+                os.utime(lock.fileno())
                 yield uid
                 return
     raise NoFreeUser
+
+
+def _leased_ns(uid: int) -> int:
+    """When it was leased last; 0 where it never was."""
+    with suppress(OSError):
+        return (LEASES / str(uid)).stat().st_mtime_ns
+    return 0
 
 
 def _taken(lock: IO[str]) -> bool:
@@ -146,19 +194,51 @@ def _is_somebody(uid: int) -> bool:
 # --- nothing stays -----------------------------------------------------------------------------
 
 
+def _leave_no_process(uid: int) -> None:
+    """Nor the folders of ours that were made for the user, which are empty here.
+
+    In a grading's own mounts its view shows Python itself. So nothing but an empty folder is
+    taken away: whoever comes here from inside removes nothing.
+    """
+    _ended(uid)
+    for folder in Path(tempfile.gettempdir()).glob(f"{PREFIX}{uid}-*"):
+        for each in (folder / VIEW, folder):
+            with suppress(OSError):
+                each.rmdir()
+
+
 def _leave_nothing(uid: int) -> None:
     """End all that the user runs, and remove all that it left where everybody may."""
     _ended(uid)
-    for place in OPEN_TO_ALL:
-        with suppress(OSError):
-            for entry in os.scandir(place):
-                if entry.stat(follow_symlinks=False).st_uid == uid:
-                    _remove(Path(entry.path))
     for folder in Path(tempfile.gettempdir()).glob(f"{PREFIX}{uid}-*"):
         _remove(folder)
+    for place in reach.OPEN_TO_ALL:
+        for path in _files_of(uid, place):
+            _remove(path)
     for kind, option in KEYS.items():
         for number in _keys_of(kind, uid):
             subprocess.run(["ipcrm", option, number], check=False, capture_output=True)
+    with suppress(OSError, subprocess.SubprocessError):
+        _run_as(uid, [*BARE, "-c", FORGET_KEYS])
+
+
+def _files_of(uid: int, place: str) -> Iterator[Path]:
+    """All that the user left there, in folders of others too, whole folders as one."""
+    try:
+        entries = [*os.scandir(place)]
+        may_write = os.stat(place).st_mode & stat.S_IWOTH  # noqa: PTH116
+    except OSError:
+        return
+    for entry in entries:
+        with suppress(OSError):
+            folder = entry.is_dir(follow_symlinks=False)
+            if not (folder or may_write):
+                continue
+            found = entry.stat(follow_symlinks=False)
+            if found.st_uid == uid:
+                yield Path(entry.path)
+            elif folder and found.st_mode & stat.S_IXOTH:
+                yield from _files_of(uid, entry.path)
 
 
 def _ended(uid: int) -> bool:
@@ -170,10 +250,28 @@ def _ended(uid: int) -> bool:
 
 
 def _remove(path: Path) -> None:
+    """Nothing where something is mounted below: to remove that would remove what it shows."""
+    if is_mounted_below(path):
+        return
     if path.is_dir() and not path.is_symlink():
         shutil.rmtree(path, ignore_errors=True)
     else:
         path.unlink(missing_ok=True)
+
+
+def is_mounted_below(path: Path) -> bool:
+    """Whether a mount of this process's lies there, or below; proc_pid_mountinfo(5)."""
+    try:
+        rows = Path("/proc/self/mountinfo").read_text("utf-8", "surrogateescape").splitlines()
+    except OSError:
+        return True
+    resolved = path.resolve()
+    return any(_unescaped(row.split()[4]).is_relative_to(resolved) for row in rows)
+
+
+def _unescaped(mounted_at: str) -> Path:
+    """The kernel writes a space, a tab, a line's end and a backslash as three octal digits."""
+    return Path(re.sub(r"\\([0-7]{3})", lambda found: chr(int(found[1], 8)), mounted_at))
 
 
 def _runs(uid: int) -> bool:
@@ -214,8 +312,7 @@ def lack_of_users() -> Lack | None:
     """Why strangers' code cannot be held by a user of its own here; None where it can."""
     if sys.platform != "linux" or os.geteuid() != 0:
         return Lack("only root can make one", "Run the command as root, in the platform's image.")
-    places = [HERE, Path(sys.prefix), Path(sys.base_prefix), _python().parent]
-    for place in dict.fromkeys(places):
+    for place in _needed():
         if lack := _lack_above(place) or _lack_within(place):
             return lack
     return _tried()
@@ -249,6 +346,30 @@ def _lack_within(place: Path) -> Lack | None:
             if mode & stat.S_IWOTH:
                 return _writable(Path(path))
             if not mode & stat.S_IROTH:
+                return _closed(Path(path))
+    return None
+
+
+def unreadable_to_others() -> str:
+    """A file of Python's, ROS's or ours that another user cannot read, however it comes there."""
+    for place in _needed():
+        if lack := _unreadable_within(place):
+            return lack.reason
+    return ""
+
+
+def _needed() -> list[Path]:
+    return [*dict.fromkeys([HERE, Path(sys.prefix), Path(sys.base_prefix), _python().parent])]
+
+
+def _unreadable_within(place: Path) -> Lack | None:
+    if place == Path("/usr"):
+        return None
+    for at, folders, files in os.walk(place):
+        for name in (*folders, *files):
+            path = os.path.join(at, name)  # noqa: PTH118
+            mode = os.lstat(path).st_mode
+            if not stat.S_ISLNK(mode) and not mode & stat.S_IROTH:
                 return _closed(Path(path))
     return None
 

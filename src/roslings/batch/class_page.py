@@ -69,7 +69,7 @@ def _body(lab: Lab, found: Class, common: Iterable[int]) -> Markup:
     results = [grade.result for grade in found.grades if grade.result]
     parts = (
         *_overview(found), *_everybody(found.grades), *_missing(found.missing),
-        *_loose_ends(found), *_checks(results), *_scores(found.grades),
+        *_loose_ends(found), *_unusual(results), *_checks(results), *_scores(found.grades),
         *_rates(lab, results), *_alike(results, common),
     )  # fmt: skip
     header = tag("header", tag("p", f"Lab {lab.name}", class_="over"), tag("h1", lab.card.title))
@@ -219,6 +219,20 @@ def _loose_ends(found: Class) -> Iterator[Markup]:
     if items:
         heading = tag("h2", "What does not fit the class list")
         yield tag("section", heading, tag("ul", *items), *step)
+
+
+def _unusual(results: Sequence[Result]) -> Iterator[Markup]:
+    """Also of whom no verdict could be told: its neighbours may have waited for it."""
+    rows = [
+        _row((_link(each.submission), line))
+        for each in results
+        for line in (*each.unusual, *([each.reason] if each.state == "broken" else []))
+    ]
+    if rows:
+        about = tag("p", "A mistake can do this as well as intent. It changed no one else's score.",
+                    class_="about")  # fmt: skip
+        table = _table(("submission", "what it did"), [*rows])
+        yield tag("section", tag("h2", "What was not ordinary"), about, table)
 
 
 def _missing(grades: Sequence[Grade]) -> Iterator[Markup]:

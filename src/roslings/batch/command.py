@@ -16,7 +16,13 @@ from roslings.batch.errors import BatchError
 from roslings.batch.export import Settings, hand_out, keep
 from roslings.batch.gradebook import Gradebook, gradebook
 from roslings.batch.grades import LateRule
-from roslings.batch.messages import soak_line, standing_line, summary_lines
+from roslings.batch.messages import (
+    closed_lines,
+    root_lines,
+    soak_line,
+    standing_line,
+    summary_lines,
+)
 from roslings.batch.moodle_worksheet import read_worksheet
 from roslings.batch.roster import insist_on_owners, read_roster
 from roslings.batch.scheduler import GradingRequest, Scheduler, Standing
@@ -27,6 +33,7 @@ from roslings.course import Lab
 from roslings.course.soak import soak_seconds
 from roslings.experiment import insist_on_wall
 from roslings.experiment.run_folder import LOCK, run_folder
+from roslings.experiment.walls import closed_places
 from roslings.report import Progress
 from roslings.workspace.errors import from_here
 
@@ -89,8 +96,12 @@ def grade(choices: Choices) -> Report:
 
 def _graded(choices: Choices, lab: Lab, submissions: list[Submission]) -> Report:
     settings = _settings(choices, submissions)
+    lines: list[str] = []
     if not choices.dask and not choices.trust:
-        choices = _at_once(choices, insist_on_wall(lab, choices.submissions, choices.out))
+        wall = insist_on_wall(lab, choices.submissions, choices.out)
+        choices, lines = _at_once(choices, wall), [*root_lines(wall.as_root)]
+        if wall.wall == "user":
+            lines.extend(closed_lines(closed_places()))
     _make(choices)
     with alone_in(choices.out, AlreadyGrading), gradebook(choices.out, lab.name) as book:
         told = take_key(book, choices.out)
@@ -101,7 +112,7 @@ def _graded(choices: Choices, lab: Lab, submissions: list[Submission]) -> Report
         latest = book.latest()
         unclear = sum(latest[name].word == "inconclusive" for name in names)
         lines = [
-            *told, *summary_lines(book, names), soak_line(latest.values()),
+            *lines, *told, *summary_lines(book, names), soak_line(latest.values()),
             *hand_out(book, lab, choices.out),
         ]  # fmt: skip
         return Report(lines, unclear)

@@ -18,6 +18,7 @@ from roslings.batch.errors import Refused
 from roslings.batch.fingerprints import Fingerprint, fingerprint
 from roslings.batch.result import Order, Result, broken
 from roslings.batch.unpack import in_its_own_words, package_in
+from roslings.batch.unusual import unusual
 from roslings.batch.version import version_of
 from roslings.course import Lab
 from roslings.evidence import Evidence, PackageSeen, read_json, thin_json
@@ -102,7 +103,7 @@ def grade(order: Order) -> tuple[Result, Evidence | None]:
         submission=order.submission, digest=order.digest, attempt=order.attempt, state="graded",
         verdict=found.verdict, seconds=time.monotonic() - began_s, lab_version=version_of(lab),
         source=found.fingerprint.whole, marks=tuple(sorted(found.fingerprint.marks)),
-        rates=rates_of(found.evidence, lab),
+        rates=rates_of(found.evidence, lab), unusual=unusual(found.evidence),
     )  # fmt: skip
     return result, found.evidence
 

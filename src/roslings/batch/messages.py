@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import textwrap
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from roslings.batch.gradebook import Gradebook
 from roslings.batch.result import Result
@@ -93,3 +93,18 @@ def _reason(result: Result) -> str:
         return one_line(result.reason)
     checks = result.verdict.checks if result.verdict else ()
     return next((f"{c.id}: {c.why}" for c in checks if c.outcome == "inconclusive"), "")
+
+
+def root_lines(why: str) -> Iterator[str]:
+    """Where root's own number stands behind each sandbox; the sandboxes hold all the same."""
+    if why:
+        yield f"Sandboxes were root's own here, not another user's: {why}."
+
+
+def closed_lines(places: Sequence[str]) -> Iterator[str]:
+    """Where a node could not write as elsewhere: an open copy of the course lies there."""
+    if places:
+        yield (
+            f"No node could use {', '.join(places)}: a copy of the course with its solutions lies"
+            " there, and every user can read it."
+        )

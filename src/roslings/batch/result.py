@@ -99,6 +99,8 @@ class Result(BaseModel):
     """Fingerprints of its code."""
     rates: dict[str, float] = {}
     """Topic of the card to the rate that was measured, in Hz."""
+    unusual: tuple[str, ...] = ()
+    """What its processes did that others' do not; empty as a rule."""
 
     @property
     def is_conclusive(self) -> bool:

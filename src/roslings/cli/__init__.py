@@ -15,6 +15,7 @@ from importlib import import_module
 from roslings.bootstrap.paths import absolute_variables
 from roslings.cli.door import absolute_paths
 from roslings.cli.parser import NAMES, parser
+from roslings.cli.unlisted import unlist
 from roslings.errors import INTERRUPTED, OK, WRONG_USE, explain
 
 __all__ = ["for_pytest", "main", "parser", "run"]
@@ -44,6 +45,8 @@ def main(arguments: Sequence[str]) -> int:
     if name and not name.startswith("-") and name not in NAMES:
         return _unknown(name)
     options = parser().parse_args(["test", "--", *rest] if for_pytest(arguments) else arguments)
+    if hidden := getattr(options, "hidden", None):
+        unlist(hidden)
     return run(options.command, absolute_paths(options))
 
 

@@ -28,6 +28,10 @@ def check_options(word: argparse.ArgumentParser) -> None:
         help="save all that was seen in the new folder DIR, to judge it again (regrade)",
     )  # fmt: skip
     trust_option(word)
+    word.add_argument(
+        "--as-stranger", action="store_true",
+        help="hold somebody else's package as grade does, or refuse it where nothing can",
+    )  # fmt: skip
     soak_option(word, "0; as grade does where a platform's file is written")
     word.add_argument(
         "--clock", choices=("auto", "sim", "wall"), default="auto",
@@ -75,7 +79,8 @@ def watch_options(word: argparse.ArgumentParser) -> None:
     )
     word.set_defaults(
         solution=False, json=None, html=None, evidence=None, only=None, seed=None, hint=None,
-        clock="auto", port=None, hidden=None, trust=False, timings=False, all=False, soak=None,
+        clock="auto", port=None, hidden=None, trust=False, as_stranger=False, timings=False,
+        all=False, soak=None,
     )  # fmt: skip
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from roslings import course
+from roslings.commands.holding import is_strangers, told_of_no_wall
 from roslings.commands.showing import is_stdout, kept, read, replace_kept, show
 from roslings.course import Lab, NoSolution
 from roslings.errors import OK
@@ -47,7 +48,7 @@ def _check(lab: Lab, options: argparse.Namespace) -> int:
 
     if options.solution:
         return _check_package(lab, _solution(lab), options)
-    with handed_in(lab, options.path, for_others(options)) as package:
+    with handed_in(lab, options.path, options.as_stranger or for_others(options)) as package:
         return _check_package(lab, package, options)
 
 
@@ -60,9 +61,11 @@ def _check_package(lab: Lab, package: Path, options: argparse.Namespace) -> int:
 
     quiet = is_stdout(options.json)
     others = for_others(options)
-    strangers = others and not (options.solution or options.trust)
+    strangers = is_strangers(options, others)
     if strangers:
         insist_on_wall(lab)
+    elif line := told_of_no_wall(package, options):
+        print(line, file=sys.stderr)
     _try_port(lab, options.port)
     with place_for_bags(options.evidence, package) as bags:
         seed = any_seed() if options.seed is None else options.seed

@@ -197,7 +197,7 @@ def _live(
     ours.close()
     _redirect(assignment.errors)
     os.chdir(assignment.folder)
-    walls.enter(assignment.room)
+    walls.enter(assignment.room, assignment.sandbox)
     kernel.die_with_parent()
     os.environ["ROS_LOG_DIR"] = str(assignment.folder / "log")
     os.environ.update(ros_environment(assignment.wall))

@@ -85,7 +85,7 @@ def _live(
     sys.stdout = open(1, "w", encoding="utf-8", closefd=False)  # noqa: SIM115
     sys.stderr = open(2, "w", encoding="utf-8", closefd=False)  # noqa: SIM115
     os.chdir(assignment.folder)
-    walls.enter(assignment.room)
+    walls.enter(assignment.room, assignment.sandbox)
     kernel.die_with_parent()
     package = open(0, encoding="utf-8", closefd=False).read()  # noqa: SIM115
     if package and os.getppid() == begun_by:  # else nobody wants to know any more

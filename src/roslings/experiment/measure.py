@@ -6,7 +6,7 @@ import shutil
 import subprocess
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from roslings.arena import Isolation, choose_isolation, isolation_for_strangers
@@ -15,6 +15,7 @@ from roslings.evidence import Evidence, PackageSeen
 from roslings.experiment.assignment import Assignment
 from roslings.experiment.forked import Fork
 from roslings.experiment.run_folder import run_folder
+from roslings.experiment.walls import closed_places
 from roslings.grader import Clock
 from roslings.workspace.errors import DiskFull
 from roslings.workspace.student import stage
@@ -106,9 +107,10 @@ def measuring_process(lab: str, choices: Choices) -> Iterator[Measuring]:
     It is a fork: begin before this process has threads.
     """
     walls = isolation_for_strangers() if choices.strangers else choose_isolation()
-    with run_folder() as folder, walls.user() as user:
+    with run_folder() as folder, walls.user() as leased:
+        user = replace(leased, closed=closed_places()) if leased and not walls.leases else None
         assignment = Assignment(
-            lab=lab, seed=choices.seed, wall=walls.wall, sandbox=walls.sandbox,
+            lab=lab, seed=choices.seed, wall=walls.wall, sandbox=walls.sandbox_of(leased),
             clock=choices.clock, folder=folder, keeps_bags=choices.bags is not None,
             port=choices.port, hidden=choices.hidden, user=user,
             builds=None if user else choices.builds, builds_as_kin=choices.builds_as_kin,

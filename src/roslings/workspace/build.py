@@ -73,8 +73,7 @@ def build(
     environment = base_environment(place.home, hidden_package=room.package)
     shell = ["bash", "--noprofile", "--norc", "-c", _script(room)]
     namespaces, around = place.wall == "namespace", room.around(place)
-    if place.user:
-        place.user.own(room.folder)
+    place.give(room.lies)
     launch = Launch(
         shell, environment, room.folder, namespaces, sandbox=around, user=place.user
     )  # fmt: skip

@@ -1,0 +1,168 @@
+"""System calls that attacks begin with are refused; each is made where nothing else holds it."""
+
+from __future__ import annotations
+
+import os
+import struct
+import subprocess
+import sys
+import textwrap
+from pathlib import Path
+
+import pytest
+from skips import needs
+
+from roslings.arena import Launch, Process, choose_isolation, process
+from roslings.arena.refused_calls import (
+    ALLOWED,
+    ANSWER,
+    ANY_BIT,
+    AT_LEAST,
+    EQUAL,
+    FAILS,
+    LOAD,
+    MACHINES,
+    MISSING_SINCE_2019,
+    NAMESPACES,
+    SINCE_2019,
+    X32,
+    filter_of_calls,
+)
+
+needs_sandbox = needs("namespaces", "bubblewrap", "filter of system calls")
+
+MAKES = """
+    import ctypes, errno, os
+    libc = ctypes.CDLL(None, use_errno=True)
+    def call(*words):
+        ctypes.set_errno(0)
+        found = libc.syscall(*words)
+        return "done" if found >= 0 else errno.errorcode[ctypes.get_errno()]
+    x86 = os.uname().machine == "x86_64"
+    child = os.fork()
+    if child == 0:
+        print("unshare", call(272 if x86 else 97, 0x10000000), flush=True)
+        os._exit(0)
+    os.waitpid(child, 0)
+    name, words = ctypes.c_char_p(b"user"), ctypes.c_char_p(b"it")
+    print("add_key", call(248 if x86 else 217, name, words, words, ctypes.c_size_t(2), -2))
+    print("keyctl", call(250 if x86 else 219, 0, -2, 1))
+    print("ptrace", call(101 if x86 else 117, 0, 0, 0, 0))
+    print("clone3", call(435, None, ctypes.c_size_t(0)))
+    print("io_uring_setup", call(425, 0, None))
+"""
+REFUSED = {
+    "unshare": "EPERM", "add_key": "EPERM", "keyctl": "EPERM", "ptrace": "EPERM",
+    "clone3": "ENOSYS", "io_uring_setup": "ENOSYS",
+}  # fmt: skip
+
+
+def answers_in_a_sandbox() -> dict[str, str]:
+    """What the kernel answers to each, in a sandbox."""
+    sandbox = choose_isolation().sandbox
+    assert sandbox
+    command = [sys.executable, "-I", "-S", "-c", textwrap.dedent(MAKES)]
+    launch = Launch(command, {"PATH": os.defpath}, Path("/"), namespaces=True, sandbox=sandbox)
+    with Process("it", launch) as it:
+        assert it.wait_ended(60)
+    return dict(line.text.split() for line in it.seen.lines)  # type: ignore[misc]
+
+
+@needs_sandbox
+def test_calls_are_refused_in_a_sandbox() -> None:
+    """As the table says."""
+    assert answers_in_a_sandbox() == REFUSED
+
+
+@needs_sandbox
+def test_the_filter_is_what_refuses_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without it the kernel does what is asked, or finds fault with the words of the call only."""
+    monkeypatch.setattr(process, "filter_of_calls", bytes)
+    answers = answers_in_a_sandbox()
+    assert answers["add_key"] == answers["keyctl"] == answers["ptrace"] == "done"
+    assert not {name for name in answers if answers[name] == REFUSED[name] == "ENOSYS"}
+
+
+def run_filter(program: bytes, architecture: int, number: int, argument: int = 0) -> str:
+    """What the filter answers: a second reading of classic BPF, of the lines that ours has."""
+    lines = list(struct.iter_unpack("=HBBI", program))
+    seen = struct.pack("<iIQQ", number, architecture, 0, argument)
+    at, held = 0, 0
+    while True:
+        code, yes, no, value = lines[at]
+        if code == ANSWER:
+            return {ALLOWED: "allowed", FAILS | 1: "refused", FAILS | 38: "missing"}[value]
+        if code == LOAD:
+            held, take = int.from_bytes(seen[value : value + 4], "little"), 0
+        else:
+            holds = {EQUAL: held == value, AT_LEAST: held >= value, ANY_BIT: bool(held & value)}
+            take = yes if holds[code] else no
+        at += 1 + take
+
+
+@pytest.mark.parametrize("name", MACHINES)
+def test_each_kind_of_machine_has_the_whole_table(name: str) -> None:
+    """No call is refused but those that are named; another kind's calls are not there."""
+    machine, program = MACHINES[name], filter_of_calls(name)
+    refused = {*machine.refused.values(), *SINCE_2019.values()}
+    missing = {*machine.missing.values(), *MISSING_SINCE_2019.values()}
+    for number in range(600):
+        expected = "refused" if number in refused else "missing" if number in missing else "allowed"
+        assert run_filter(program, machine.architecture, number) == expected
+    assert run_filter(program, machine.architecture, X32) == "missing"
+    assert run_filter(program, machine.architecture + 1, 0) == "missing"
+
+
+@pytest.mark.parametrize("name", MACHINES)
+def test_threads_are_made_and_namespaces_are_not(name: str) -> None:
+    """By clone(2), whose flags are its first argument."""
+    machine, program = MACHINES[name], filter_of_calls(name)
+    threads = 0x003D0F00
+    assert not threads & NAMESPACES
+    assert run_filter(program, machine.architecture, machine.clone, threads) == "allowed"
+    for bit in (0x20000, 0x02000000, 0x04000000, 0x08000000, 0x10000000, 0x20000000, 0x40000000):
+        assert run_filter(program, machine.architecture, machine.clone, threads | bit) == "refused"
+
+
+def test_both_kinds_refuse_the_same() -> None:
+    """By name."""
+    tables = [{*machine.refused} for machine in MACHINES.values()]
+    assert all(table == tables[0] for table in tables)
+
+
+def test_an_unknown_machine_goes_without() -> None:
+    """Its other walls stand."""
+    assert filter_of_calls("riscv64") == b""
+
+
+KEYS_OF_ITS_SESSION = """
+    import ctypes, os
+    libc = ctypes.CDLL(None, use_errno=True)
+    keyctl = {"x86_64": 250, "aarch64": 219}[os.uname().machine]
+    found = libc.syscall(keyctl, 10, -3, ctypes.c_char_p(b"user"), ctypes.c_char_p(b"secret"), 0)
+    print("found" if found > 0 else "none")
+"""
+HAS_A_KEY = """
+    import ctypes, os, sys
+    from pathlib import Path
+    from roslings.arena import Launch, Process, kernel
+    libc = ctypes.CDLL(None, use_errno=True)
+    add_key = {"x86_64": 248, "aarch64": 217}[os.uname().machine]
+    kernel.leave_keys()
+    name = ctypes.c_char_p(b"secret")
+    assert libc.syscall(add_key, ctypes.c_char_p(b"user"), name, name, ctypes.c_size_t(6), -3) > 0
+    exec(sys.argv[1])
+    launch = Launch([sys.executable, "-I", "-c", sys.argv[1]], {}, Path("/"), namespaces=False)
+    with Process("it", launch) as it:
+        it.wait_ended(60)
+    print(*(line.text for line in it.lines()))
+"""
+
+
+@needs("keys of the kernel")
+def test_a_process_holds_no_key_of_its_makers_session() -> None:
+    """Behind each wall, and where no filter keeps it from asking."""
+    asks = textwrap.dedent(KEYS_OF_ITS_SESSION)
+    words = [sys.executable, "-c", textwrap.dedent(HAS_A_KEY), asks]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    assert done.stdout.split() == ["found", "none"], done.stderr
