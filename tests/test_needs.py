@@ -418,6 +418,7 @@ def run_suite(folder: Path, left_out: LeftOut, *words: str) -> tuple[Counter[str
     return Counter(line["outcome"] for line in lines), done.stdout, done.returncode
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("processes", ["0", "2"])
 def test_only_what_a_record_speaks_of_is_left_out(processes: str, tmp_path: Path) -> None:
     """Slow ones that the gate asks for; each is counted once, and told."""
@@ -426,6 +427,7 @@ def test_only_what_a_record_speaks_of_is_left_out(processes: str, tmp_path: Path
     assert "Left out: 12 tests were run before with all that they need as it is." in said
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("processes", ["0", "2"])
 def test_a_run_of_which_all_was_left_out_has_passed(processes: str, tmp_path: Path) -> None:
     """pytest alone would call it a run without tests, which fails the gate's stage."""
@@ -436,6 +438,7 @@ def test_a_run_of_which_all_was_left_out_has_passed(processes: str, tmp_path: Pa
     assert "Left out: 12 tests not drawn" in said
 
 
+@pytest.mark.slow
 def test_a_part_by_lot_runs_and_what_was_skipped_before_does(tmp_path: Path) -> None:
     """Every worker draws alike, or pytest would refuse the run."""
     skipped = tuple(f"test_suite.py::test_slow[{number}]" for number in range(12))[:3]

@@ -101,6 +101,7 @@ def costs(folder: Path) -> list[tuple[str, str]]:
 NO_REASON = "is no reason of tests/machine.py"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("source", "said"),
     [
@@ -140,6 +141,7 @@ def test_a_conftest_that_skips_everything_is_found(tmp_path: Path) -> None:
     assert ("skipped", "") not in costs(tmp_path)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("workers", ["0", "1"])
 def test_a_true_reason_is_kept_with_the_outcome(workers: str, tmp_path: Path) -> None:
     """By a mark, in a test, for a whole file; also from another process."""

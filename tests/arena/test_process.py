@@ -123,6 +123,7 @@ while True:
 """
 
 
+@pytest.mark.slow
 @needs("schedstat")
 @pytest.mark.parametrize("program", [SLOW_TO_END, ENDS_IN_A_THREAD], ids=["main", "thread"])
 def test_while_it_waits_for_a_processor_its_time_stands_still(
@@ -202,6 +203,7 @@ ENDLESS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("source", ENDLESS.values(), ids=ENDLESS)
 def test_what_prints_without_end_is_ended(tmp_path: Path, namespaces: bool, source: str) -> None:
     """By itself it never would be; what it wrote is counted, and its beginning and end are kept."""

@@ -255,6 +255,7 @@ def test_what_nobody_asks_for_is_left_alone(name: str, own: str) -> None:
     assert len(found) > 300 and touched == []
 
 
+@pytest.mark.slow
 def test_a_number_that_no_card_names_is_not_changed_a_little() -> None:
     """91 for 90 is as good a threshold; the card's own numbers, and small ones, are changed."""
     changed = "".join(e.diff for e in choice.candidates(lab("pi-camera")) if e.operator == "number")
@@ -262,6 +263,7 @@ def test_a_number_that_no_card_names_is_not_changed_a_little() -> None:
     assert "-        whole = IntegerRange(from_value=0, to_value=100, step=1)" in changed
 
 
+@pytest.mark.slow
 def test_what_is_for_people_asks_for_nothing() -> None:
     """Points, an example and a thing's name are no words of the contract; a request is one."""
     changed = "".join(
@@ -446,6 +448,7 @@ def test_what_judges_is_part_of_what_is_known(course: Lab) -> None:
     assert len({before, after, judged_by(course)}) == 3
 
 
+@pytest.mark.slow
 def test_a_run_goes_on_where_it_was_ended(course: Lab, tmp_path: Path) -> None:
     """Two are known, one is graded, and nothing the next time. A kill's evidence is kept."""
     keeping = Keeping(tmp_path / "kept", tmp_path / "kills")

@@ -49,7 +49,7 @@ def measured_with_a_new_core() -> float:
 def test_the_sizes_are_those_of_the_course() -> None:
     """To the nearest ten."""
     assert f"about {round(len(PACKAGES), -1)} packages" in WORDS
-    assert f"about {round(len(MUTANTS), -1)} of them are mutants" in WORDS
+    assert f"about {round(len(MUTANTS), -1)} of them are mutants and kills" in WORDS
 
 
 def test_the_rules_are_told_with_their_numbers() -> None:

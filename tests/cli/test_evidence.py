@@ -148,6 +148,7 @@ def test_judged_again_it_is_the_same(
     assert "<script>" not in page
 
 
+@pytest.mark.slow
 def test_nothing_is_run_when_it_is_judged_again(solution: Kept, tmp_path: Path) -> None:
     """Not even where a node, colcon and ROS could not run."""
     ran, again = regraded(solution, tmp_path, PATH="/nowhere", AMENT_PREFIX_PATH="/nowhere")

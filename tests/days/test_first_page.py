@@ -165,6 +165,7 @@ def test_the_page_has_at_most_nine_commands_and_places_for_all() -> None:
     assert sorted(kinds) == ["bash"] * len(commands()) + ["diff"] * len(changes())
 
 
+@pytest.mark.slow
 def test_20_seconds_of_robot_time_are_judged(tmp_path: Path) -> None:
     """What the page says of its check. A busy computer goes by the wall, and says so."""
     kept = tmp_path / "kept"
@@ -187,6 +188,7 @@ def test_20_seconds_of_robot_time_are_judged(tmp_path: Path) -> None:
         assert telling["not_believed"]
 
 
+@pytest.mark.slow
 def test_the_page_holds_what_it_promises(reader: Reader) -> None:
     """The robot drives; a wrong letter is found by name; one's own program is in the picture."""
     rover = reader.types()

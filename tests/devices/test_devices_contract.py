@@ -59,6 +59,7 @@ def report(chip: Chip) -> tuple[int, int, int]:
     return accepted, rejected, stops
 
 
+@pytest.mark.slow
 def test_speeds_come_every_20_ms_of_its_clock_and_none_is_left_out(chip: Chip) -> None:
     """50 Hz, counted from zero."""
     seen = speeds(chip.step(4.01))
@@ -174,6 +175,7 @@ def test_bytes_between_the_lines_are_passed_over(chip: Chip) -> None:
     assert chip.truth.left_pwm == 33
 
 
+@pytest.mark.slow
 def test_no_wrong_command_ever_reaches_the_motors(chip: Chip) -> None:
     """300 commands through a bad cable: what the motors got was sent, or was a stop."""
     chance, spoil = random.Random(5), Spoiler(6, noise=0.004, half_lines=0.1, wrong_checksums=0.1)
@@ -203,6 +205,7 @@ def test_a_flood_of_commands_ends_with_the_last_one(chip: Chip) -> None:
 DRIVES = {"straight": (120, 120), "turn": (-80, 80), "arc": (90, 150), "back": (-100, -60)}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pwm", DRIVES.values(), ids=DRIVES.keys())
 def test_its_speeds_add_up_to_where_the_rover_is(chip: Chip, pwm: tuple[int, int]) -> None:
     """Odometry from the lines alone, compared with the truth: 1 cm and 1 degree after 3 s."""

@@ -21,6 +21,8 @@ from roslings.devices.rover import Motion, Rover
 from roslings.devices.rover.text_map import ASCII, cells
 from roslings.models.differential_drive import Pose
 
+pytestmark = pytest.mark.slow
+
 LISTENING = ["rover", "--view", "lines", "--listen"]
 SPEED = ["ros2", "topic", "echo", "/odom", "--field", "twist.twist.linear.x"]
 

@@ -49,6 +49,7 @@ def student(tmp_path: Path) -> Student:
     return Student(tmp_path / "ws")
 
 
+@pytest.mark.slow
 def test_from_the_first_drill_to_the_second(student: Student) -> None:
     """It is put in place, fails, is mended, and the next one comes."""
     shown = student.types("drill")

@@ -37,6 +37,7 @@ def test_a_file_that_python_cannot_read_is_not_run(tmp_path: Path) -> None:
     assert "expected ':'" in verdict.headline
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stream", ["stdout", "stderr"])
 @pytest.mark.parametrize(
     ("before", "after"),

@@ -21,6 +21,8 @@ from roslings.judge.faults import Fault, Inconclusive
 from roslings.judge.views import ExperimentView
 from roslings.rates import NS_PER_S
 
+pytestmark = pytest.mark.slow
+
 STYLES = sorted((HERE / "styles").glob("*.py"))
 FOLLOW_THE_CLOCK = ("composed", "functions", "looks_back", "timer", "two_nodes")
 """One thread, and a timer: these are judged in simulated time, on any machine."""

@@ -73,6 +73,7 @@ def test_a_record_is_read_as_it_was_written(tmp_path: Path) -> None:
     assert verdicts_in(file) == BEFORE
 
 
+@pytest.mark.slow
 def test_a_package_is_graded_for_the_record() -> None:
     """Every check of the card is in it, with its points."""
     lab = next(lab for lab in all_labs() if lab.name == "nodes")

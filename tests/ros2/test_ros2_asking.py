@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 from terminal import Shell
 
+pytestmark = pytest.mark.slow
+
 OWN = ("start_type_description_service", "use_sim_time")
 """Parameters that rclpy adds to every node."""
 

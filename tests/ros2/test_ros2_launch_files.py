@@ -172,6 +172,7 @@ def tellings(ran: Ran) -> list[Told]:
     return [json.loads(match["said"]) for match in sorted(found, key=lambda one: one["name"])]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", CASES)
 def test_what_comes_of_a_launch_file(mine: Shell, tmp_path: Path, case: str) -> None:
     """Nodes with their parameters and topics; the lines of the launch file itself, in order."""

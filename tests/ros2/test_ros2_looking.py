@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import pytest
 from terminal import Shell
+
+pytestmark = pytest.mark.slow
 
 NODES = ["/ear", "/field/rover", "/motor", "/talker", "/tuner"]
 TALKER = """\

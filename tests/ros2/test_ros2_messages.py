@@ -9,6 +9,8 @@ from pathlib import Path
 import pytest
 from terminal import DEAF, Shell, ours
 
+pytestmark = pytest.mark.slow
+
 QUIET_END = 2
 """The exit code of the real ros2 after Ctrl-C."""
 

@@ -70,6 +70,7 @@ def test_links_to_other_sites_are_listed(course: Path) -> None:
     assert "https://docs.ros.org/en/jazzy/  (days/03-topics/index.ipynb" in done.stdout
 
 
+@pytest.mark.slow
 def test_a_link_to_a_lesson_leads_to_its_page(site: Path) -> None:
     """In JupyterLab a lesson is a file; here it is the first page of its day."""
     days = site / "days"

@@ -170,6 +170,7 @@ def test_code_that_fills_the_memory_is_refused(package: Path, card: Card) -> Non
     assert "more than 256 MB of memory" in told.value.problem
 
 
+@pytest.mark.slow
 def test_the_bound_is_what_holds_it(package: Path, card: Card) -> None:
     """The same package is read where there is memory enough: nothing else was in its way."""
     (package / "chatter/table.py").write_text("x = [" + "a," * 490_000 + "]")
@@ -286,6 +287,7 @@ def test_a_picture_of_a_wall_of_screens_is_refused(package: Path, card: Card) ->
     assert LARGEST_PIXELS == 20_000_000
 
 
+@pytest.mark.slow
 def test_a_picture_that_unpacks_without_end_takes_no_memory(package: Path, card: Card) -> None:
     """A gigabyte of zeros in one chunk, behind the rows that are asked for."""
     packer = zlib.compressobj(9)
