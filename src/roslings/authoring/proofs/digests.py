@@ -48,6 +48,7 @@ class Measuring:
     labs: tuple[Lab, ...]
     course: Path
     _closures: dict[Lab, frozenset[str]] = field(default_factory=dict)
+    _digests: dict[Lab, str] = field(default_factory=dict)
 
     @cached_property
     def core(self) -> str:
@@ -56,8 +57,10 @@ class Measuring:
 
     def experiments(self, lab: Lab) -> str:
         """What a lab has besides: its experiments, and what only some labs are measured with."""
-        own = self._of_modules(self.closure(lab) - self.shared)
-        return digest_of_all(own | self._brought(lab) | self._experiments(lab))
+        if lab not in self._digests:
+            own = self._of_modules(self.closure(lab) - self.shared)
+            self._digests[lab] = digest_of_all(own | self._brought(lab) | self._experiments(lab))
+        return self._digests[lab]
 
     @cached_property
     def shared(self) -> frozenset[str]:
