@@ -15,6 +15,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from asked_for import asked_for
 from behind import HONEST, NEEDED, SLOW, WALLS, Graded, Wall, grade
 from forger import HONEST_SCORE, Forger, forgers
 from once import once
@@ -69,10 +70,9 @@ def test_a_forger_is_a_package(entry: Forger, tmp_path: Path) -> None:
 def graded_behind(request: pytest.FixtureRequest, shared_folder: Path) -> Callable[[Wall], Graded]:
     """Wall to what came of the forgers that are asked for, graded in one go."""
     asked: dict[str, list[Forger]] = {}
-    for item in request.session.items:
-        words = getattr(item, "callspec", None)
-        if words and (name := words.params.get("name")) in ENTRIES:
-            asked.setdefault(words.params["wall"], []).append(ENTRIES[name])
+    for _, words in asked_for(request, __file__):
+        if "wall" in words and (name := words.get("name")) in ENTRIES:
+            asked.setdefault(words["wall"], []).append(ENTRIES[name])
 
     @functools.cache
     def graded(wall: Wall) -> Graded:

@@ -20,6 +20,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
+from asked_for import asked_for
 from few import few_labs
 from nothing import Nothing
 from once import once
@@ -139,9 +140,8 @@ def packages(clock: str) -> pytest.MarkDecorator:
 def proof_of(request: pytest.FixtureRequest, shared_folder: Path) -> Callable[[str], Proof]:
     """Package to what came of it; all that this test run asks for are graded in one go."""
     asked: dict[str, Package] = {}
-    for item in request.session.items:
-        words = getattr(item, "callspec", None)
-        if words and (name := words.params.get("package")):
+    for _, words in asked_for(request, __file__):
+        if name := words.get("package"):
             asked[name] = ALL[name]
 
     def prove() -> str:

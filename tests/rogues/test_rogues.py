@@ -24,6 +24,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from asked_for import asked_for
 from gallery import Entry, Gallery, Seen, hang, hang_in_turns, next_to, turns, untrue
 from once import once
 from parcels import PARCELS, Parcel
@@ -132,10 +133,9 @@ def graded_as(
 ) -> Callable[[str, bool], Gallery]:
     """User to what came of the tame or the wild rogues that are asked for, graded in one go."""
     asked: dict[tuple[str, bool], dict[str, None]] = {}
-    for item in request.session.items:
-        words = getattr(item, "callspec", None)
-        if words and "rogue" in words.params:
-            name, user = words.params["rogue"], words.params["user"]
+    for item, words in asked_for(request, __file__):
+        if "rogue" in words:
+            name, user = words["rogue"], words["user"]
             wild = item.get_closest_marker("alone") is not None
             asked.setdefault((user, wild), {})
             if name != NOTHING_LEFT:
