@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import ast
 import os
 import re
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -114,6 +116,29 @@ def test_the_first_command_works_without_a_solution(edition: Path, tmp_path: Pat
     )
     assert done.returncode == 2
     assert "students' edition" in done.stderr
+
+
+def imported_by(file: Path) -> Iterator[str]:
+    """The first words of what a file imports, wherever in it."""
+    for node in ast.walk(ast.parse(file.read_bytes())):
+        if isinstance(node, ast.Import):
+            yield from (each.name.partition(".")[0] for each in node.names)
+        elif isinstance(node, ast.ImportFrom) and not node.level:
+            yield (node.module or "").partition(".")[0]
+
+
+def test_what_its_tests_import_of_the_tests_is_in_it() -> None:
+    """Nothing has to be made for this to be seen."""
+    tests = course.root() / "tests"
+    missing = {
+        f"{file.relative_to(tests)} imports {name}"
+        for file in tests.rglob("*.py")
+        if is_for_students(file.relative_to(course.root()).as_posix())
+        for name in imported_by(file)
+        for place in (f"{name}.py", f"{name}/__init__.py")
+        if (tests / place).is_file() and not is_for_students(f"tests/{place}")
+    }
+    assert missing == set()
 
 
 @pytest.mark.slow

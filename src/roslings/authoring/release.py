@@ -22,8 +22,9 @@ from roslings.workspace.errors import from_here
 from roslings.workspace.sources import files
 
 TESTS = (
-    "conftest.py", "browser.py", "costs.py", "lessons_as_tests.py", "machine.py", "once.py",
-    "seen_with.py", "skips.py", "subreaper.py", "arena", "report",
+    "conftest.py", "browser.py", "changed.py", "costs.py", "lessons_as_tests.py", "machine.py",
+    "needed", "once.py", "seen_with.py", "skips.py", "slow.py", "subreaper.py", "walks.py",
+    "arena", "report",
 )  # fmt: skip
 """Parts of tests/ that students get: they show that the installation works."""
 MAINTAINERS_ONLY = (".ci", ".github", "example-course")
