@@ -7,7 +7,6 @@ missing in it. So each lab's solution is checked while inotify watches the engin
 
 from __future__ import annotations
 
-import subprocess
 import sys
 from collections.abc import Iterator
 from functools import cache
@@ -15,6 +14,7 @@ from pathlib import Path
 
 import pytest
 from needed.opened import Opened, Watch
+from until_told import run_until_told
 
 from roslings.authoring.proofs.closure import with_parents
 from roslings.authoring.proofs.digests import Measuring, measuring
@@ -49,7 +49,7 @@ def opened_by_a_check(lab: Lab, folder: Path) -> Opened:
     folders = [str(each.relative_to(SRC)) for each in (SRC, *SRC.rglob("*")) if each.is_dir()]
     command = [sys.executable, "-m", "roslings", "check", lab.name, "--solution"]
     with Watch(SRC, folders) as watch:
-        done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=folder)
+        done = run_until_told(command, cwd=folder)
     assert done.returncode == 0, done.stdout + done.stderr
     return watch.opened()
 
