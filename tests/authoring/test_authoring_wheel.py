@@ -12,6 +12,7 @@ import zipfile
 from email.message import Message
 from email.parser import Parser
 from pathlib import Path
+from typing import Any
 
 import pytest
 from skips import needs
@@ -84,12 +85,17 @@ def empty(tmp_path: Path) -> Path:
 # --- what is in it -----------------------------------------------------------------------------
 
 
+def as_it_is() -> dict[str, Any]:
+    """Nothing in our own archive is left out; Debian 12's Python knows no filters, and does so."""
+    return {"filter": "fully_trusted"} if hasattr(tarfile, "fully_trusted_filter") else {}
+
+
 def test_it_holds_the_students_edition_and_no_answer(wheel: Path, tmp_path: Path) -> None:
     """Every file that students get, as a package or in the archive; no other, no answer."""
     with zipfile.ZipFile(wheel) as packed:
         packed.extractall(tmp_path)
     with tarfile.open(tmp_path / "roslings" / ARCHIVE) as archive:
-        archive.extractall(tmp_path / "course", filter="fully_trusted")
+        archive.extractall(tmp_path / "course", **as_it_is())
     (tmp_path / "roslings" / ARCHIVE).unlink()
     shutil.copytree(tmp_path / "roslings", tmp_path / "course" / ENGINE)
     whole = tmp_path / "course"
