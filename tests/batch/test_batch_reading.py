@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import shutil
-import struct
-import zlib
 from pathlib import Path
 
 import pytest
+from written_png import head_of, png_of
 
 from roslings.batch.fingerprints import LARGEST_FILE_BYTES, fingerprint
 from roslings.batch.grading import grade
@@ -17,9 +16,7 @@ from roslings.workspace.bounded import Bookmark, ReadingBounds, read_in_child
 
 TOPICS = lab("topics")
 FIGURE = "figures/day3_rqt_graph.png"
-HEAD = struct.pack(">IIBBBBB", 7000, 7000, 8, 2, 0, 0, 0)
-PICTURE = (b"\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR" + HEAD
-           + struct.pack(">I", zlib.crc32(b"IHDR" + HEAD)))  # fmt: skip
+PICTURE = png_of(head_of(7000, 7000))
 HOSTILE = {
     "package.xml": (b"<!--" * 100_000, "package.xml", "The limit is 64,000 bytes"),
     "setup.cfg": (b"[a]\n" + b"y\n" * 50_000, "setup.cfg", "The limit is 64,000 bytes"),

@@ -14,7 +14,6 @@ import json
 import platform
 import random
 import shutil
-import struct
 import sys
 import tarfile
 import tempfile
@@ -27,8 +26,11 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).parents[1]))
+
 from hypothesis import HealthCheck, Phase, Verbosity, given, settings, target
 from hypothesis import strategies as st
+from written_png import head_of, png_of
 
 from roslings.arena.bounds import MB
 from roslings.batch.errors import Refused
@@ -165,23 +167,18 @@ def unpacked(package: Path) -> object:
         shutil.rmtree(room, ignore_errors=True)
 
 
-def png_of(rows: bytes) -> bytes:
+def png_with(rows: bytes) -> bytes:
     """A picture whose rows are these bytes, 4000 pixels wide; some have an honest head."""
     rng = random.Random(rows[:50])
     colour, depth = rng.choice([(0, 1), (0, 4), (0, 8), (2, 8), (3, 2), (6, 8), (6, 16), (2, 16)])
     size = rng.choice([(4000, 5000), (1, 20_000_000), (20_000_000, 1), (3, 6_000_000), (9, 9)])
-    head = struct.pack(">IIBBBBB", *size, depth, colour, 0, 0, rng.choice([0, 1]))
+    head = head_of(*size, depth, colour, interlace=rng.choice([0, 1]))
     packer = zlib.compressobj(1)
     body = b"".join(packer.compress(rows) for _ in range(rng.choice([1, 3, 40]))) + packer.flush()
     cut = rng.choice([1, 7, 100, 1_000_000])
     pieces = [body[at : at + cut] for at in range(0, min(len(body), cut * 50_000), cut)]
-    parts = [(b"IHDR", head), (b"PLTE", b"abc"), *((b"IDAT", each) for each in pieces),
-             (b"IEND", b"")]  # fmt: skip
-    return b"\x89PNG\r\n\x1a\n" + b"".join(
-        struct.pack(">I", len(content)) + kind + content
-        + struct.pack(">I", zlib.crc32(kind + content))
-        for kind, content in parts
-    )  # fmt: skip
+    images = ((b"IDAT", each) for each in pieces)
+    return png_of(head, (b"PLTE", b"abc"), *images, (b"IEND", b""))
 
 
 def archive_of(text: bytes) -> bytes:
@@ -212,7 +209,7 @@ READERS = (
     Reader("Python, for its fingerprint", "chatter/talker.py", 500_000, PYTHON, fingerprint,
            (SOLUTION / "chatter/talker.py").read_bytes()),
     Reader("PNG", "a.png", 50_000_000, words("a b ~ \x00 \x01 \x02 \x03 \x04 \x05"), picture,
-           wrapped=png_of),
+           wrapped=png_with),
     Reader("a diagnosis (judge)", "diagnosis.yaml", documents.LARGEST_BYTES, YAML, diagnosed),
     Reader("zip and tar", "handed-in", 1_000_000, words("PK\x03\x04 PK\x01\x02 \x00 \x7f a ustar"),
            unpacked, wrapped=archive_of),

@@ -7,12 +7,12 @@ import stat
 import struct
 import tarfile
 import zipfile
-import zlib
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 from rogue import LAB, Truth
+from written_png import head_of, png_of
 
 Make = Callable[[Path], None]
 ALL = "chatter"
@@ -118,13 +118,7 @@ def file_of(name: str, content: bytes) -> Make:
 
 def picture_of(width: int, height: int) -> bytes:
     """A PNG that says so; its pixels are missing."""
-    parts = [(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)), (b"IDAT", b""),
-             (b"IEND", b"")]  # fmt: skip
-    return b"\x89PNG\r\n\x1a\n" + b"".join(
-        struct.pack(">I", len(content)) + kind + content
-        + struct.pack(">I", zlib.crc32(kind + content))
-        for kind, content in parts
-    )  # fmt: skip
+    return png_of(head_of(width, height), (b"IDAT", b""), (b"IEND", b""))
 
 
 def growing_yaml() -> bytes:

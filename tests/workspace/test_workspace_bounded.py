@@ -14,6 +14,7 @@ from pathlib import Path
 import png as png_writer
 import pytest
 from PIL import Image
+from written_png import head_of, png_of
 
 from roslings.course import Card, PictureContract
 from roslings.course.written_yaml import load
@@ -199,14 +200,8 @@ def test_a_table_of_aliases_is_small() -> None:
 
 def png(width: int, height: int, rows: bytes, depth: int = 8, colour: int = 2) -> bytes:
     """A PNG of filtered rows."""
-
-    def chunk(kind: bytes, content: bytes) -> bytes:
-        check = struct.pack(">I", zlib.crc32(kind + content))
-        return struct.pack(">I", len(content)) + kind + content + check
-
-    head = struct.pack(">IIBBBBB", width, height, depth, colour, 0, 0, 0)
-    image = chunk(b"IDAT", zlib.compress(rows, 1))
-    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + image + chunk(b"IEND", b"")
+    image = b"IDAT", zlib.compress(rows, 1)
+    return png_of(head_of(width, height, depth, colour), image, (b"IEND", b""))
 
 
 def colours_of(content: bytes, folder: Path) -> int | None:

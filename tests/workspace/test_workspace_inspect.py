@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import struct
 import zlib
 from pathlib import Path
 
 import pytest
 from PIL import Image
+from written_png import head_of, png_of
 
 from roslings.course import Card, Lab
 from roslings.evidence import PackageSeen
@@ -254,18 +254,7 @@ def test_half_a_picture_is_none(package: Path, card: Card) -> None:
 
 def test_a_bomb_is_refused(package: Path, card: Card) -> None:
     """A few bytes that claim a picture of ten thousand million pixels."""
-    header = struct.pack(">IIBBBBB", 100_000, 100_000, 8, 2, 0, 0, 0)
-    (package / FIGURE).write_bytes(
-        b"\x89PNG\r\n\x1a\n"
-        + chunk(b"IHDR", header)
-        + chunk(b"IDAT", zlib.compress(b""))
-        + chunk(b"IEND")
-    )
+    chunks = head_of(100_000, 100_000), (b"IDAT", zlib.compress(b"")), (b"IEND", b"")
+    (package / FIGURE).write_bytes(png_of(*chunks))
     with pytest.raises(PictureTooLarge, match=r"100000 x 100000 pixels.* limit is 20 million"):
         look(package, card)
-
-
-def chunk(kind: bytes, content: bytes = b"") -> bytes:
-    """One part of a PNG file."""
-    check = zlib.crc32(kind + content)
-    return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", check)
