@@ -241,8 +241,9 @@ def places_of(choices: Sequence[Choice]) -> list[str]:
 
 
 def _nothing(revision: str, strange: Sequence[str]) -> str:
-    told = f"No test is known to look at {', '.join(strange)}." if strange else "Nothing is changed"
-    return f"{told if strange else f'{told} since {revision}.'} All tests: ./roslings test"
+    unknown = f"No test is known to look at {', '.join(strange)}."
+    told = unknown if strange else f"Nothing is changed since {revision}."
+    return f"{told} All tests: ./roslings test"
 
 
 class Changed:

@@ -172,9 +172,7 @@ class Wrong:
 
     def make(self, folder: Path) -> Path:
         """The solution, injured."""
-        package = folder / self.name / self.lab.card.package
-        package.parent.mkdir(parents=True)
-        return self.mutant.make(self.lab.solution, package).parent
+        return injured(self.lab, self.mutant, folder / self.name)
 
     def problem(self, result: Result) -> str:
         """Where its failed checks, their faults, or the skipped ones are others.
@@ -192,6 +190,13 @@ class Wrong:
         wanted = self.mutant.faults
         other = {name: failed[name] for name, kind in wanted.items() if failed[name] != kind}
         return f"other faults: {other}" if other else ""
+
+
+def injured(lab: Lab, mutant: Mutant, folder: Path) -> Path:
+    """The solution of a lab with one thing wrong, in a new folder. Raises CourseError."""
+    folder.mkdir(parents=True)
+    mutant.make(lab.solution, folder / lab.card.package)
+    return folder
 
 
 def packages_of(lab: Lab) -> list[Package]:

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict, RootModel
 
-from roslings.authoring.prove import Package, failing, packages_of
+from roslings.authoring.prove import Package, failing, injured, packages_of
 from roslings.batch.result import Result
 from roslings.course import Lab
 from roslings.course.mutants import Edit, Mutant
@@ -62,13 +62,11 @@ class KnownKill:
 
     def make(self, folder: Path) -> Path:
         """The solution, injured."""
-        package = folder / self.name.replace("/", "-") / self.lab.card.package
-        package.parent.mkdir(parents=True)
         wrong = Mutant(
             name=self.kill.name, what=self.kill.name, fails=(self.kill.check,),
             edits=(self.kill.edit,),
         )  # fmt: skip
-        return wrong.make(self.lab.solution, package).parent
+        return injured(self.lab, wrong, folder / self.name.replace("/", "-"))
 
     def problem(self, result: Result) -> str:
         """That the check does not fail; others may fail beside it."""

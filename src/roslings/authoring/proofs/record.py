@@ -7,7 +7,7 @@ the command keeps what was done.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from roslings.authoring.anonymous import for_judging, without_machine
 from roslings.authoring.proofs.digests import Measuring, card_digest
@@ -104,6 +104,7 @@ class Recorder:
 
     folder: Folder
     measuring: Measuring
+    _orders: dict[str, list[str]] = field(default_factory=dict)
 
     def keep(self, found: Iterable[Measured]) -> Iterator[Proof]:
         """Write down what holds; of each package, whether it does."""
@@ -133,7 +134,9 @@ class Recorder:
 
     def write(self, lab: Lab, lines: Mapping[str, KeptProof]) -> None:
         """The lines of a lab, in the order of its packages; what is gone from the lab goes."""
-        self.folder.write(lab, lines, [name_in(lab, each) for each in self.folder.packages(lab)])
+        if lab.name not in self._orders:  # all files of a lab's mutants are read for it
+            self._orders[lab.name] = [name_in(lab, each) for each in self.folder.packages(lab)]
+        self.folder.write(lab, lines, self._orders[lab.name])
 
     def judge_anew(self, labs: Iterable[Lab]) -> None:
         """Write what is judged today into lines whose evidence shows what it must."""
