@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import subprocess
 import sysconfig
@@ -108,6 +109,11 @@ def online(course: CourseCopy, index: PackageIndex) -> CourseCopy:
     return course
 
 
+def without_wheels(build_variables: str) -> str:
+    """Debian's Python names a folder with pip's wheel, which ensurepip's package brings."""
+    return re.sub(r"^.*'WHEEL_PKG_DIR'.*\n", "", build_variables, flags=re.MULTILINE)
+
+
 @pytest.fixture
 def bare_python(tmp_path: Path) -> Callable[..., str]:
     """Makes a Python like a Linux distribution's: the running one, without the named modules."""
@@ -119,7 +125,9 @@ def bare_python(tmp_path: Path) -> Callable[..., str]:
         (prefix / "bin").mkdir(parents=True)
         copy.mkdir(parents=True)
         for part in library.iterdir():
-            if part.name not in (*without, "site-packages", "dist-packages"):
+            if part.name.startswith("_sysconfigdata") and "ensurepip" in without:
+                (copy / part.name).write_text(without_wheels(part.read_text("utf-8")), "utf-8")
+            elif part.name not in (*without, "site-packages", "dist-packages"):
                 (copy / part.name).symlink_to(part)
         (copy / "site-packages").mkdir()
         python = prefix / "bin" / library.name

@@ -57,8 +57,8 @@ def find_seed(python: str, scratch: Path) -> Path:
 def _ways(python: str, scratch: Path) -> list[Callable[[], Iterator[Path]]]:
     return [
         _from_folder,
-        lambda: _from_python(python),
-        _fromother_pythons,
+        lambda: from_python(python),
+        _from_other_pythons,
         lambda: wheel_from_index(scratch),
         lambda: from_apt(scratch),
     ]
@@ -81,7 +81,8 @@ def _from_folder() -> Iterator[Path]:
         yield wheel / "pip"
 
 
-def _from_python(python: str) -> Iterator[Path]:
+def from_python(python: str) -> Iterator[Path]:
+    """What that Python tells of its pips; nothing where it does not start."""
     try:
         done = subprocess.run(
             [python, "-c", _ASK],
@@ -96,9 +97,9 @@ def _from_python(python: str) -> Iterator[Path]:
     yield from map(Path, done.stdout.split("\n")[:-1])
 
 
-def _fromother_pythons() -> Iterator[Path]:
+def _from_other_pythons() -> Iterator[Path]:
     for python in other_pythons("python3*"):
-        yield from _from_python(python)
+        yield from from_python(python)
 
 
 def other_pythons(name: str) -> list[str]:
