@@ -18,7 +18,7 @@ from roslings.arena.users import USERS
 needs_root_and_sandbox = needs("root", "namespaces", "bubblewrap", "setpriv")
 
 NUMBERS_OUTSIDE = """
-    import os, sys
+    import os, sys, traceback
     from dataclasses import replace
     from pathlib import Path
     from tempfile import TemporaryDirectory
@@ -54,10 +54,13 @@ NUMBERS_OUTSIDE = """
             try:
                 look(walls, held, room, home)
                 sys.stdout.flush()
-            finally:
-                os._exit(0)
-        os.waitpid(child, 0)
+            except BaseException:
+                traceback.print_exc()
+                os._exit(1)
+            os._exit(0)
+        ended = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
     print("left", user is not None and user.folder.exists())
+    sys.exit(ended)
 """
 
 
