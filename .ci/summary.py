@@ -153,7 +153,9 @@ class WasDue:
         return {name: word for name, word in self.mutants.items() if word in VERDICTS}
 
     def wrong(self) -> Iterator[str]:
-        """What is due is never let through unmeasured."""
+        """What did not show what it must, and what was let through unmeasured."""
+        if named := [name for name, outcome in self.outcomes.items() if outcome == "failed"]:
+            yield f"these did not show what they must: {', '.join(named)}"
         if left := self.number("unmeasured"):
             yield (
                 f"no time was left for {left} of {len(self.outcomes)} packages that were due;"

@@ -248,6 +248,15 @@ def test_what_was_due_and_not_measured_fails_the_run(tmp_path: Path) -> None:
     assert last(words).endswith("./roslings prove --record --due measures and keeps them")
 
 
+def test_what_was_due_and_is_wrong_is_named_in_the_last_line(tmp_path: Path) -> None:
+    """A kill or a starter is no mutant: nothing else in the summary would tell of it."""
+    due = {"topics: starter": "passed", "topics: kill sign-talker.py:3-0": "failed"}
+    outcomes = {name: "passed" for names in all_of_them().values() for name in names}
+    status, words = summary(tmp_path, outcomes, "1 1 0 One\n", due)
+    wanted = "FAILED: these did not show what they must: topics: kill sign-talker.py:3-0"
+    assert (status, last(words)) == (1, wanted)
+
+
 def test_what_could_not_be_told_leaves_its_proof_as_old_as_it_was(tmp_path: Path) -> None:
     """Its kept evidence still counts; the last line has the number all the same."""
     outcomes = {name: "passed" for names in all_of_them().values() for name in names}
