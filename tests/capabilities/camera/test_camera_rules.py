@@ -308,6 +308,10 @@ def test_silence_after_a_picture() -> None:
     assert fault_of(looking([shown(1, **silent)], []), FINDS) is faults.Unanswered
     with pytest.raises(Inconclusive, match="lost on the way"):
         looking([shown(1, **silent, bytes=921_600)], []).must(FINDS)
+    first_is_large = [shown(1, **silent, bytes=921_600), shown(2, answered=False)]
+    assert fault_of(looking(first_is_large, []), FINDS) is faults.Unanswered
+    with pytest.raises(Inconclusive, match="lost on the way"):
+        looking(first_is_large, [place(2, 100.0, 40.0)]).must(FINDS)
     still_busy = shown(1, **silent, turned=False)
     assert fault_of(looking([still_busy], []), FINDS) is faults.TooSlowForPictures
     dead = looking([still_busy], [], ended_by_itself=True)

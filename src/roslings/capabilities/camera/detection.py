@@ -8,7 +8,13 @@ from dataclasses import dataclass
 
 from roslings.capabilities.camera.demands import pixels_of, require_set
 from roslings.capabilities.camera.faults import detection as faults
-from roslings.capabilities.camera.record import CameraSeen, DiscShown, PictureShown, PixelsSeen
+from roslings.capabilities.camera.record import (
+    SURELY_COMES_BYTES,
+    CameraSeen,
+    DiscShown,
+    PictureShown,
+    PixelsSeen,
+)
 from roslings.capabilities.parameters.record import ParametersSeen
 from roslings.capabilities.topics.relay import as_number, field_of
 from roslings.course import NodeContract, TopicContract
@@ -20,9 +26,6 @@ from roslings.judge.faults.writing import LoggedAgain
 from roslings.judge.lines import times
 from roslings.judge.views import Demand, ExperimentView, ProcessView
 from roslings.matching import nearest_endpoint
-
-SURELY_COMES_BYTES = 62_000
-"""A message in one datagram: on one computer it is not lost. Larger ones go in pieces."""
 
 LEAST_MARKED, MOST_SPOILED = 0.01, 0.02
 BALLS_PART = 0.05
@@ -114,13 +117,18 @@ def find_the_ball(screen: Screen, part: str) -> Demand[ExperimentView]:
     """For each picture of the part, the place is that of the ball."""
 
     def demand(experiment: ExperimentView) -> None:
-        for look in looks(experiment, screen, part):
+        for look in sorted(looks(experiment, screen, part), key=_may_be_lost):
             if look.shown.ball and not look.places:
                 raise _missing(experiment, screen, look)
             for message in look.places:
                 _require_place(screen, look, message)
 
     return demand
+
+
+def _may_be_lost(look: Look) -> bool:
+    """Whether its silence tells nothing; pictures that surely came are judged before such a one."""
+    return not (look.places or look.drawings) and look.shown.bytes > SURELY_COMES_BYTES
 
 
 def _missing(experiment: ExperimentView, screen: Screen, look: Look) -> Fault:
@@ -136,12 +144,12 @@ def _missing(experiment: ExperimentView, screen: Screen, look: Look) -> Fault:
     require_its_time(experiment.seen, shown.part, None, "the answer to a picture")
     if not shown.turned:
         return faults.TooSlowForPictures(*words)
-    if shown.bytes > SURELY_COMES_BYTES:
+    if _may_be_lost(look):
         raise Inconclusive(
             f"a large picture was lost on the way {shown.tries} times: this computer was too busy;"
             " close other programs and check again"
         )
-    return faults.Unanswered(*words) if not look.drawings else faults.NotFound(*words)
+    return faults.Unanswered(*words)
 
 
 def _has_idle_bytes(shown: PictureShown) -> bool:

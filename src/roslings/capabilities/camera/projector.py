@@ -10,7 +10,12 @@ from typing import Any
 from roslings.arena import Process
 from roslings.capabilities.camera.pictures import draw_cross, draw_ring, keep_picture
 from roslings.capabilities.camera.pixels import IMAGE, MarkLooker
-from roslings.capabilities.camera.record import CameraSeen, DiscShown, PictureShown
+from roslings.capabilities.camera.record import (
+    SURELY_COMES_BYTES,
+    CameraSeen,
+    DiscShown,
+    PictureShown,
+)
 from roslings.course import TopicContract
 from roslings.devices.camera import Encoding, Frame, Light, SyntheticCamera
 from roslings.devices.rover import Disc, Eye
@@ -21,10 +26,7 @@ from roslings.experiment.timing import accounting
 from roslings.matching import nearest_endpoint
 from roslings.probe.content import to_plain
 
-MOST_TRIES = 2
-LARGE_BYTES, MOST_TRIES_OF_LARGE = 62_000, 6
-"""A large picture goes in many pieces, best effort: when one piece is lost, all of it is."""
-
+MOST_TRIES, MOST_TRIES_OF_LARGE = 2, 6
 FEWEST_TRIES = 2
 SHOWS_WITHIN_S, SILENT_WITHIN_S = 1.0, 0.5
 """For an answer, and for one of a node that did not answer the picture before."""
@@ -119,7 +121,10 @@ class Projector:
             self._show_until_answered(seen, frame, (said, drawn))
         if shot.ball and seen.answered:
             self._scene.until(lambda: self._counts()[0] > said, FOLLOWS_WITHIN_S)
-        self._silent = 0 if seen.answered else self._silent + 1
+        if seen.answered:
+            self._silent = 0
+        elif not _may_be_lost(frame):
+            self._silent += 1
         seen.until_ns = time.monotonic_ns()
         self._keep(seen, frame, said)
 
@@ -137,10 +142,10 @@ class Projector:
                 break
 
     def _tries(self, frame: Frame) -> int:
-        """Fewer for a node that was silent before: its first silence tells enough."""
+        """Fewer for a node that was silent before to what surely came: that tells enough."""
         if self._silent:
             return 1
-        return MOST_TRIES_OF_LARGE if len(frame.content) > LARGE_BYTES else MOST_TRIES
+        return MOST_TRIES_OF_LARGE if _may_be_lost(frame) else MOST_TRIES
 
     def show_spoiled(
         self,
@@ -268,6 +273,10 @@ class Projector:
         if content is None:  # it came before this screen was set up
             return None
         return float(content["point"]["x"]), float(content["point"]["y"])
+
+
+def _may_be_lost(frame: Frame) -> bool:
+    return len(frame.content) > SURELY_COMES_BYTES
 
 
 def _written(disc: Disc | None) -> DiscShown | None:

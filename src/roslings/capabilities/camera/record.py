@@ -6,6 +6,10 @@ from pydantic import Field
 
 from roslings.record import Columns, PartSeen, Record
 
+SURELY_COMES_BYTES = 62_000
+"""A picture in one datagram: on one computer it is not lost. Larger ones go in pieces, best effort:
+when one piece is lost, all of it is."""
+
 
 class PixelsSeen(Record):
     """What the bytes of one picture held; the bytes themselves are not kept."""
