@@ -24,7 +24,9 @@ LABS = all_labs()
 PACKAGES = [package for each in LABS for package in kept_here().packages(each)]
 MUTANTS = [package for package in PACKAGES if not isinstance(package, Solution | Starter)]
 ALWAYS = len(PACKAGES) - len(MUTANTS)
-FIFTH = math.ceil(len(PACKAGES) / PART)
+MANY, MANY_MUTANTS = round(len(PACKAGES), -1), round(len(MUTANTS), -1)
+"""As the page tells them, and reckons with them: one more mutant changes no number of it."""
+FIFTH = MANY / PART
 NAMES_OF_PARTS = {4: "a quarter", 5: "a fifth", 6: "a sixth"}
 NAMES = {5: "five", 10: "ten", 20: "twenty", 30: "thirty"}
 
@@ -36,20 +38,20 @@ def of_100(chance: float) -> int:
 
 def found_after(landings: int) -> float:
     """The chance that one mutant was among those that the commits drew."""
-    return 1 - (1 - AT_EACH_LANDING / len(MUTANTS)) ** landings
+    return 1 - (1 - AT_EACH_LANDING / MANY_MUTANTS) ** landings
 
 
 def measured_with_a_new_core() -> float:
     """The chance of one mutant, where all proofs are of one age: by the part, else by lot."""
-    by_part = FIFTH / len(PACKAGES)
-    left = len(PACKAGES) - FIFTH - ALWAYS * (1 - by_part)
+    by_part = FIFTH / MANY
+    left = MANY - FIFTH - ALWAYS * (1 - by_part)
     return by_part + (1 - by_part) * AT_EACH_LANDING / left
 
 
 def test_the_sizes_are_those_of_the_course() -> None:
     """To the nearest ten."""
-    assert f"about {round(len(PACKAGES), -1)} packages" in WORDS
-    assert f"about {round(len(MUTANTS), -1)} of them are mutants and kills" in WORDS
+    assert f"about {MANY} packages" in WORDS
+    assert f"about {MANY_MUTANTS} of them are mutants and kills" in WORDS
 
 
 def test_the_rules_are_told_with_their_numbers() -> None:

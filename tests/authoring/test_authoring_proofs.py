@@ -393,7 +393,8 @@ def sabotaged(tmp_path: Path) -> Folder:
     lab, here = LABS["nodes"], kept_here()
     shutil.copytree(here.path / lab.name, tmp_path / lab.name)
     shutil.copy(here.path / f"{lab.name}.jsonl", tmp_path)
-    shutil.copy(here.path / "measuring.jsonl", tmp_path)
+    for name in ("measuring.jsonl", f"{lab.name}.kills.json"):
+        shutil.copy(here.path / name, tmp_path)
     return Folder(tmp_path)
 
 
