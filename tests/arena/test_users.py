@@ -296,3 +296,33 @@ def test_what_others_could_change_or_not_read_is_named(tmp_path: Path) -> None:
     inside.chmod(0o777)
     found = _lack_above(inside)
     assert found and found.next_step == f"chmod o-w {inside}"
+
+
+IS_KILLED = """
+    import os, signal, sys
+    from roslings.arena.users import leased_user
+    with leased_user(sys.argv[1] == "in sandboxes") as user:
+        print(user.folder, flush=True)
+        if sys.argv[2:]:
+            os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+@needs_users
+@pytest.mark.parametrize("kind", ["in sandboxes", "bare"])
+def test_what_a_killed_grading_left_goes_with_the_next_one(kind: str, tmp_path: Path) -> None:
+    """The next one is another user."""
+    tmp_path.chmod(0o755)
+    words = shown(sys.executable, "-c", textwrap.dedent(IS_KILLED), kind)
+
+    def lease(*more: str) -> subprocess.CompletedProcess[str]:
+        own = {**os.environ, "TMPDIR": str(tmp_path)}
+        return subprocess.run([*words, *more], capture_output=True, text=True, check=False, env=own)
+
+    first = lease("is killed")
+    assert first.returncode != 0
+    assert Path(first.stdout.strip()).is_dir()
+    second = lease()
+    assert second.returncode == 0, second.stderr
+    assert second.stdout != first.stdout
+    assert list(tmp_path.iterdir()) == []

@@ -18,7 +18,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, replace
 from functools import cache
@@ -100,7 +100,7 @@ class User:
     @property
     def watch(self) -> dict[str, int]:
         """What the guardian watches; files it cannot count, for the disk is everybody's."""
-        return {"memory": self.bounds.memory_bytes, "pids": self.bounds.tasks}
+        return self.bounds.watch
 
     @property
     def limits(self) -> dict[str, int]:
@@ -145,6 +145,7 @@ def leased_user(in_sandboxes: bool = False) -> Iterator[User]:
     sweep = _leave_no_process if in_sandboxes else _leave_nothing
     with _lease() as uid:
         sweep(uid)
+        _sweep_abandoned(sweep)
         folder = Path(tempfile.mkdtemp(prefix=f"{PREFIX}{uid}-"))
         try:
             folder.chmod(0o711)
@@ -166,6 +167,16 @@ def _lease() -> Iterator[int]:
                 yield uid
                 return
     raise NoFreeUser
+
+
+def _sweep_abandoned(sweep: Callable[[int], None]) -> None:
+    """What is left of users whose grading was killed: nobody holds their lease any more."""
+    for folder in Path(tempfile.gettempdir()).glob(f"{PREFIX}*-*"):
+        number = folder.name.removeprefix(PREFIX).partition("-")[0]
+        if number.isdecimal() and int(number) in USERS:
+            with (LEASES / number).open("a") as lock:
+                if _taken(lock):
+                    sweep(int(number))
 
 
 def _leased_ns(uid: int) -> int:
