@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from dataclasses import dataclass
 from html import unescape
@@ -33,13 +34,13 @@ SILENT = "root_outside-run"
 NAMED = {
     "keyrings-run": "made calls that no lab needs, and they were refused: ",
     "refused_calls-run": "made calls that no lab needs, and they were refused: ",
-    "fork_bomb-run": "wanted more processes and threads than a sandbox has",
+    "fork_bomb-run": r"wanted more processes and threads than a sandbox has|left \d+ processes",
     "memory_hog-run": "wanted more memory than a sandbox has",
     "prints_for_ever-run": "printed without end",
     "own_session-run": "left a process running",
     "sparse_files-build": "The build filled the disk that a sandbox has",
 }
-"""A rogue, and what the page says of it."""
+"""A rogue, and what the page says of it; a limit that is no control group's tells nobody."""
 REFUSED = "file_of_numbers"
 """Its hand-in has a name that books it on somebody else, where names are believed."""
 
@@ -148,7 +149,11 @@ def test_nothing_is_left(graded: Graded) -> None:
 def test_the_page_names_who_did_what(graded: Graded) -> None:
     """Each by what it did, and nobody who did nothing."""
     rows = graded.section.split("<tr")
-    for name, words in NAMED.items():
-        assert [row for row in rows if f"Mallory {name}" in row and words in row], (name, rows)
+    unnamed = {
+        name: [row for row in rows if f"Mallory {name}" in row]
+        for name, words in NAMED.items()
+        if not any(f"Mallory {name}" in row and re.search(words, row) for row in rows)
+    }
+    assert unnamed == {}
     assert not [each for each in HONEST if each in graded.section]
     assert f"Mallory {REFUSED}" in graded.page and "takes more than 256 MB" in graded.page
