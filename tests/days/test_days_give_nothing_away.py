@@ -13,9 +13,8 @@ from until_told import checked
 from roslings.course import Lab, all_labs, root
 from roslings.lessons.rules import Lesson
 
-PAIRS = [
-    (lesson, lab) for lesson in lessons() for lab in all_labs() if lab.card.day == lesson.day.id
-]
+LABS = all_labs()
+PAIRS = [(lesson, lab) for lesson in lessons() for lab in LABS if lab.card.day == lesson.day.id]
 
 
 @pytest.mark.slow
@@ -28,7 +27,7 @@ def test_pasting_all_of_it_does_not_pass(lesson: Lesson, lab: Lab, tmp_path: Pat
     assert (found.status, found.verdict["outcome"]) == (1, "fail"), found.ran.stdout
 
 
-@pytest.mark.parametrize("lab", all_labs(), ids=lambda lab: lab.name)
+@pytest.mark.parametrize("lab", LABS, ids=lambda lab: lab.name)
 def test_hints_alone_make_a_module(lab: Lab, tiny_lesson: Lesson) -> None:
     """What is put together is Python, and holds what the lesson defines."""
     code = module_of(tiny_lesson, lab)
