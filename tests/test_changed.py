@@ -19,6 +19,7 @@ from changed import (
     choices_for,
     places_of,
 )
+from slow import slow_files
 
 from roslings.course import all_labs, root
 
@@ -72,6 +73,17 @@ def test_a_change_of_the_engine_chooses_its_room_and_all_kept_proofs() -> None:
         assert chosen(file, place)
         assert all(chosen(file, f"{KEPT}[{lab.name}]") for lab in all_labs())
         assert chosen(file, f"{STYLE}::test_the_arrows_run_one_way")
+
+
+def test_a_file_of_slow_tests_is_chosen_with_them() -> None:
+    """Named without them, it would be named in vain."""
+    listed = subprocess.run(
+        ["git", "ls-files"], cwd=root(), capture_output=True, text=True, check=True
+    ).stdout.splitlines()
+    whole = {f"tests/{name}" for name, how_many in slow_files() if how_many == "all"}
+    others = [name for name in listed if not name.startswith("tests/")]
+    vain = {each.place for each in choices_for(others)[0] if each.place in whole and not each.live}
+    assert vain == set()
 
 
 def test_each_room_has_its_tests() -> None:

@@ -142,7 +142,24 @@ class Ending(Record):
         return passed_s - self.others_waited_s
 
 
-class ProcessSeen(Record):
+class NotOrdinary(Record):
+    """What a process did that an instructor may want to know; a mistake can do all of it."""
+
+    filled_its_disk: bool = Field(
+        default=False, description="Nothing was free in its home, or where temporary files lie"
+    )
+    refused_calls: dict[str, int] = Field(
+        default_factory=dict,
+        description="Calls of the kernel that only attacks begin with, how often each was refused",
+    )
+    most_busy: int = Field(
+        default=0,
+        description="Threads that wanted a processor at once, where it was put behind all others"
+        " because there were so many",
+    )
+
+
+class ProcessSeen(NotOrdinary):
     """One process of the student's, from start to end."""
 
     executable: str
@@ -172,10 +189,10 @@ class ProcessSeen(Record):
         " free; None where the kernel does not tell",
     )
     peak_memory_bytes: int = 0
-    bounds_met: list[Literal["pids", "memory", "files", "output"]] = Field(
+    bounds_met: list[Literal["pids", "memory", "files", "output", "cpu_s"]] = Field(
         default_factory=list,
-        description="What it wanted more of than a sandbox has: processes, memory, files; or that"
-        " it printed without end, and was ended for it",
+        description="What it wanted more of than a sandbox has: processes, memory, files, time of"
+        " the processor; or that it printed without end, and was ended for it",
     )
 
     @property
@@ -401,7 +418,7 @@ class SoakSeen(Record):
     )
 
 
-class BuildSeen(Record):
+class BuildSeen(NotOrdinary):
     """What colcon did with the package."""
 
     succeeded: bool

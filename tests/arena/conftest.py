@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from skips import skip_without
+
+from roslings.arena import Isolation, Sandbox, choose_isolation
 
 
 def children_of_this_process() -> set[str]:
@@ -49,3 +52,20 @@ def nothing_left() -> Iterator[None]:
     before = children_of_this_process()
     yield
     assert children_of_this_process() <= before
+
+
+@pytest.fixture
+def isolation(monkeypatch: pytest.MonkeyPatch) -> Isolation:
+    """The machine's best walls, which have a sandbox."""
+    monkeypatch.delenv("ROSLINGS_ISOLATION", raising=False)
+    skip_without("namespaces", "bubblewrap")
+    found = choose_isolation()
+    assert found.sandbox, found.lack
+    return found
+
+
+@pytest.fixture
+def sandbox(isolation: Isolation, tmp_path: Path) -> Sandbox:
+    """One with a home of its own."""
+    assert isolation.sandbox
+    return replace(isolation.sandbox, home=tmp_path / "home")

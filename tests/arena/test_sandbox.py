@@ -11,49 +11,14 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from in_sandbox import LONG_S, bounded, run, said
 from skips import imported, needs, skip_without
 
-from roslings.arena import Isolation, Launch, Process, Sandbox, choose_isolation
+from roslings.arena import Isolation, Launch, Process, Sandbox
 from roslings.arena import sandbox as sandbox_module
 from roslings.arena.bounds import MB, Bounds
 from roslings.arena.environment import base_environment
 from roslings.arena.sandbox import installations
-from roslings.evidence import ProcessSeen
-
-LONG_S = 60.0
-
-
-@pytest.fixture
-def isolation(monkeypatch: pytest.MonkeyPatch) -> Isolation:
-    """The machine's best walls, which have a sandbox."""
-    monkeypatch.delenv("ROSLINGS_ISOLATION", raising=False)
-    skip_without("namespaces", "bubblewrap")
-    found = choose_isolation()
-    assert found.sandbox, found.lack
-    return found
-
-
-@pytest.fixture
-def sandbox(isolation: Isolation, tmp_path: Path) -> Sandbox:
-    """One with a home of its own."""
-    assert isolation.sandbox
-    return replace(isolation.sandbox, home=tmp_path / "home")
-
-
-def run(sandbox: Sandbox, source: str) -> ProcessSeen:
-    """A piece of Python in the sandbox, to its end."""
-    command = [sys.executable, "-I", "-S", "-c", textwrap.dedent(source)]
-    environment = {"PATH": os.defpath, "HOME": str(sandbox.home)}
-    folder = sandbox.home or Path("/")
-    launch = Launch(command, environment, folder, namespaces=True, sandbox=sandbox)
-    with Process("it", launch) as process:
-        assert process.wait_ended(LONG_S)
-    return process.seen
-
-
-def said(sandbox: Sandbox, source: str) -> str:
-    """What it wrote."""
-    return "\n".join(line.text for line in run(sandbox, source).lines)
 
 
 def test_only_what_is_listed_can_be_seen(sandbox: Sandbox, tmp_path: Path) -> None:
@@ -203,11 +168,6 @@ def test_nothing_outlives_it(sandbox: Sandbox) -> None:
     assert run(sandbox, source).left_behind == 1
 
 
-def bounded(sandbox: Sandbox, **bounds: int) -> Sandbox:
-    """With smaller bounds."""
-    return replace(sandbox, bounds=replace(Bounds(), **bounds))
-
-
 def test_a_fork_bomb_meets_its_bound(sandbox: Sandbox) -> None:
     """And ends with it; who is root meets it in the control group only."""
     source = """
@@ -272,7 +232,7 @@ def test_many_processes_have_so_much_memory(sandbox: Sandbox, grouped: bool) -> 
 def test_its_home_holds_so_much(sandbox: Sandbox) -> None:
     """No file can be larger than allowed, and all together neither."""
     source = """
-        import os
+        import os, time
         with open(os.environ["HOME"] + "/big", "wb") as big:
             try:
                 for _ in range(100):
@@ -280,8 +240,11 @@ def test_its_home_holds_so_much(sandbox: Sandbox) -> None:
                     big.flush()
             except OSError as error:
                 print(error.strerror)
+        time.sleep(2)
     """
-    assert said(bounded(sandbox, home_bytes=3 * MB), source) == "No space left on device"
+    seen = run(bounded(sandbox, home_bytes=3 * MB), source)
+    assert [line.text for line in seen.lines] == ["No space left on device"]
+    assert seen.filled_its_disk
 
 
 def test_it_has_so_many_files(sandbox: Sandbox) -> None:

@@ -22,13 +22,13 @@ AS_STRANGER = """
     import sys
     from pathlib import Path
     from roslings.arena import Launch, Process, base_environment
-    from roslings.arena.users import leased_user
+    from roslings.arena.users import give, leased_user
     if sys.argv[3]:  # a wall is taken away
         exec(sys.argv[3])
     with leased_user() as user:
         home = user.folder / "home"
         home.mkdir()
-        user.own(home)
+        give(home, user.uid)
         Path(user.folder, "ours").write_text("ours")
         Path(user.folder, "ours").chmod(0o600)
         command = [sys.executable, "-c", sys.argv[1], str(user.folder)]

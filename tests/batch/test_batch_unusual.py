@@ -62,6 +62,21 @@ def test_what_was_left_and_a_build_without_end_are_named() -> None:
     )
 
 
+def test_refused_calls_a_full_disk_and_busy_threads_are_named() -> None:
+    """Of a run and of a build alike, with their numbers."""
+    taken = {"filled_its_disk": True, "refused_calls": {"unshare": 2, "keyctl": 1}, "most_busy": 50}
+    build = BuildSeen(succeeded=True, recognised_as=None, seconds=1, **taken)
+    assert unusual(evidence_of(process(**taken), build=build)) == tuple(
+        f"{name} {words}"
+        for name in ("The build", "talker")
+        for words in (
+            "filled the disk that a sandbox has",
+            "made calls that no lab needs, and they were refused: keyctl (1), unshare (2)",
+            "kept up to 50 threads busy at once, so it was put behind all others",
+        )
+    )
+
+
 def test_the_class_page_names_who_did_it(tmp_path: Path) -> None:
     """And says that it may be a mistake; where nobody did such a thing, it says nothing."""
     ordinary = result("honest")

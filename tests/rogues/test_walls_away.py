@@ -16,8 +16,8 @@ from roslings.course import Edit
 ARENA = "src/roslings/arena"
 NO_FILTER = Edit(
     file=f"{ARENA}/process.py",
-    find='"filter": filter_of_calls() if self.sandbox or self.user else b"",',
-    replace='"filter": b"",',
+    find="return filters if (self.sandbox or self.user) and all(filters) else ()",
+    replace="return ()",
 )
 OLD_KEYS = Edit(
     file=f"{ARENA}/guardian.py", find="        hold_no_keys()\n", replace="        pass\n"

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import os
 import platform
 from dataclasses import dataclass
 
 MB = 1024 * 1024
 COUNTS_BY_NAMESPACE = (5, 14)
 """Since this Linux, RLIMIT_NPROC counts the processes of a user namespace, not all of a user's."""
+BUSY_A_PROCESSOR = 8
+"""Fewer are busy where a build compiles on each processor, or all nodes of a robot start."""
 
 
 @dataclass(frozen=True)
@@ -26,7 +29,14 @@ class Bounds:
     file_bytes: int = 256 * MB
     open_files: int = 1024
     cpu_s: int = 600
-    """Of one process, in seconds."""
+    """Of all processes of the sandbox together, in seconds of one processor."""
+    busy: int = BUSY_A_PROCESSOR * max(2, os.cpu_count() or 1)
+    """Threads that want a processor at once, for longer than a start takes."""
+
+    @property
+    def watch(self) -> dict[str, int]:
+        """What the guardian watches in every sandbox: who meets these is ended, all of it."""
+        return {"memory": self.memory_bytes, "pids": self.tasks, "cpu_s": self.cpu_s}
 
     def limits(self) -> dict[str, int]:
         """As the guardian gives them to the process: names of the module `resource`."""

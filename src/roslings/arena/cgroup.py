@@ -131,6 +131,11 @@ def _remove(folder: Path) -> None:
             return
 
 
+def shares_processors(trees: Sequence[Tree]) -> bool:
+    """Whether a group of these is worth the same share, however many processes it has."""
+    return any("cpu" in tree.controllers for tree in trees)
+
+
 def trees() -> tuple[Tree, ...]:
     """Where this process can make groups, for each controller at most one; old ones are swept."""
     found = [tree for tree in _all_trees() if os.access(tree.folder, os.W_OK)]

@@ -40,12 +40,20 @@ import termios
 import time
 
 import kernel  # type: ignore[import-not-found]
+import refusals  # type: ignore[import-not-found]
 
 READ_BYTES = 65536
 LATEST_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGQUIT, signal.SIGPIPE, signal.SIGHUP)
 GRACE_S = 0.2
 TEMPORARY = ("/tmp", "/dev/shm")
 LOOK_EVERY_S = 0.2
+BUSY_LOOKS = 10
+"""So often in a row there are too many: nodes that start together are through by then."""
+LAST_IN_LINE = 19
+"""The lowest priority: sched(7). Some 70 such threads weigh as much as one of the others."""
+CRUMB = 200
+"""Such a part of all."""
+TICKS_A_SECOND = os.sysconf("SC_CLK_TCK")
 JUST_NOW_S = 0.2
 QUESTIONS = ("WAITS", "OWN_WAITS", "STATE", "COMMANDS")
 KILL = "KILL:"
@@ -68,20 +76,23 @@ class Order:
         limits: dict[str, int],
         watch: dict[str, int],
         user: int | None,
-        filter: bytes,
+        filters: tuple[bytes, ...],
         reach: dict[str, object] | None,
+        busy: int,
     ) -> None:
         """What the names of each dictionary mean: `Spout`, `Flood`, the module `resource`, these.
 
-        `watch`: the most of `memory`, in bytes, of `pids`, threads too, and of `files`.
+        `watch`: the most of `memory`, in bytes, of `pids`, threads too, of `cpu_s`, and of `files`.
         `user`: who the process becomes; None where it stays who the guardian is.
-        `filter`: of its system calls; empty where none is refused.
+        `filters`: of its system calls: one that asks us, and one for a kernel that cannot; none
+        where nothing is refused.
         `reach`: the words of kernel.confine(); None where it reaches what its user may.
+        `busy`: so many threads may want a processor at once; 0 where nobody counts them.
         """
         self.command, self.environment = command, environment
         self.folder, self.walls = folder, walls
         self.output, self.flood, self.limits, self.watch = output, flood, limits, watch
-        self.user, self.filter, self.reach = user, filter, reach
+        self.user, self.filters, self.reach, self.busy = user, filters, reach, busy
 
 
 class Spout:
@@ -189,11 +200,14 @@ class Guardian:
         self.waker, waked = os.pipe2(os.O_NONBLOCK | os.O_CLOEXEC)
         signal.signal(signal.SIGCHLD, lambda *_: None)
         signal.set_wakeup_fd(waked)
-        self.pid, self.terminal = start(order)
+        self.pid, self.terminal, asked = start(order)
+        self.refusals = refusals.Refusals(asked)
         self.exited: dict[str, object] | None = None
         self.bounds_met: list[str] = []
         self.printed_on = False
         self.looked_s = 0.0
+        self.busy_looks = self.most_busy = 0
+        self.filled_its_disk = False
 
     def run(self) -> None:
         """Watch until the process ended or the arena let go; then end whatever is left."""
@@ -216,18 +230,22 @@ class Guardian:
                 "dropped_bytes": self.spout.dropped,
                 "ending_cut": int(self.spout.ending_cut),
                 "bounds_met": self.bounds_met,
+                "most_busy": self.most_busy,
+                "filled_its_disk": int(self.filled_its_disk),
+                "refused_calls": self.refusals.counts,
             }
         )
 
     def turn(self) -> bool:
         """One round: output, orders, ended children. False when the arena let go."""
-        sources = [self.terminal, self.channel, self.waker]
+        sources = [self.terminal, self.channel, self.waker, *self.refusals.sources()]
         again_s = LOOK_EVERY_S if self.order.watch else None
         ready, _, _ = select.select(sources, [], [], again_s)
         if self.order.watch and time.monotonic() - self.looked_s >= LOOK_EVERY_S:
             self.insist_on_bounds()
         if self.terminal in ready:
             self.read_terminal()
+        self.refusals.answer()
         if self.waker in ready:
             os.read(self.waker, 4096)
             self.reap()
@@ -237,15 +255,32 @@ class Guardian:
         """End everything when it takes too much: what meets a bound does no honest work."""
         self.looked_s = time.monotonic()
         others = descendants()
+        places = {self.order.environment.get("HOME", "/tmp"), *TEMPORARY}
+        if "files" in self.order.watch and any(map(is_full, places)):
+            self.filled_its_disk = True
         taken = {
             "memory": sum(map(memory_of, others)),
             "pids": sum(map(tasks_of, others)),
-            "files": sum(map(files_in, {self.order.environment.get("HOME", "/tmp"), *TEMPORARY})),
+            "cpu_s": cpu_s_of(others),
+            "files": sum(map(files_in, places)),
         }
         met = [name for name, most in self.order.watch.items() if taken[name] >= most * NEARLY]
         if met:
             self.bounds_met = met
             kill_all(others)
+        elif self.order.busy:
+            self.insist_on_share(others)
+
+    def insist_on_share(self, others: list[int]) -> None:
+        """Put it behind all others where too many of its threads want a processor for long.
+
+        Who has many of them would else have most of the time, and the neighbours little.
+        """
+        busy = sum(map(busy_in, others))
+        self.busy_looks = self.busy_looks + 1 if busy > self.order.busy else 0
+        if self.busy_looks >= BUSY_LOOKS:
+            self.most_busy = max(self.most_busy, busy)
+            put_last(others)
 
     def read_terminal(self) -> bool:
         """Pass on what the process wrote. False when nobody holds the terminal any more."""
@@ -370,23 +405,29 @@ def as_json(value: object) -> str:
     return repr(value)
 
 
-def start(order: Order) -> tuple[int, int]:
+def start(order: Order) -> tuple[int, int, int | None]:
     """Start the process on a terminal of its own; returns its pid and our side of it.
+
+    And the descriptor on which a filter asks whether it may call the kernel, where it has one.
 
     A terminal, because a program that writes into a pipe holds its lines back. It returns when
     the program has taken over, for until then a signal would meet our own dispositions.
     """
     taken_over, ours = os.pipe()
+    here, there = refusals.pair()
     pid, terminal = pty.fork()
     if pid == 0:
-        become(order)
+        become(order, there)
+    there.close()
+    asked = refusals.taken_over(here)
+    here.close()
     os.close(ours)
     os.read(taken_over, 1)  # the child's copy of the other end closes when it becomes the program
     os.close(taken_over)
-    return pid, terminal
+    return pid, terminal, asked
 
 
-def become(order: Order) -> None:
+def become(order: Order, there: object) -> None:
     """In the child: be the ordered command, with the signals that a fresh terminal gives."""
     try:
         make_plain_terminal(sys.stdout.fileno())
@@ -401,7 +442,7 @@ def become(order: Order) -> None:
         if order.user is not None:
             give_up_all_rights(order.user)
         os.chdir(order.folder)
-        refuse_calls(order.filter)
+        refuse_calls(order.filters, there)
         os.execvpe(order.command[0], order.command, order.environment)
     except OSError as error:
         os.write(2, f"{order.command[0]}: {error.strerror}\n".encode())
@@ -430,11 +471,19 @@ def hold_no_keys() -> None:
         return
 
 
-def refuse_calls(program: bytes) -> None:
-    """In the child: what attacks begin with is refused, where the kernel can refuse it."""
-    if program:
+def refuse_calls(filters: tuple[bytes, ...], there: object) -> None:
+    """In the child: what attacks begin with is refused, where the kernel can refuse it.
+
+    The parent refuses it, and counts, where the kernel can ask it.
+    """
+    if not filters:
+        return
+    asking, refusing = filters
+    try:
+        refusals.hand_over(there, kernel.ask_before_calls(asking))
+    except OSError:
         try:
-            kernel.refuse_calls(program)
+            kernel.refuse_calls(refusing)
         except OSError as error:
             if error.errno != errno.EINVAL:  # a kernel that is built without it
                 raise
@@ -468,8 +517,13 @@ def descendants() -> list[int]:
 
 def state(pid: int) -> str:
     """What the main thread of a process does: R runs or could, S sleeps; empty where it is gone."""
+    return state_in(f"/proc/{pid}/stat")
+
+
+def state_in(file: str) -> str:
+    """The same, of the process or thread that a file tells of."""
     try:
-        return stat_of(pid)[0].decode()
+        return stat_in(file)[0].decode()
     except OSError:
         return ""
 
@@ -505,7 +559,12 @@ def stat_of(pid: int) -> list[bytes]:
 
     Raises OSError where the process is gone.
     """
-    found: bytes = kernel.read(f"/proc/{pid}/stat")
+    return stat_in(f"/proc/{pid}/stat")
+
+
+def stat_in(file: str) -> list[bytes]:
+    """The same of the process or thread that a file tells of. Raises OSError."""
+    found: bytes = kernel.read(file)
     return found.rpartition(b")")[2].split()
 
 
@@ -527,12 +586,76 @@ def files_in(folder: str) -> int:
     return system.f_files - system.f_ffree
 
 
-def tasks_of(pid: int) -> int:
-    """The threads of a process."""
+def is_full(folder: str) -> bool:
+    """Whether nothing more than a crumb can be written there; where that has a bound at all."""
     try:
-        return len(os.listdir(f"/proc/{pid}/task"))  # noqa: PTH208
+        system = os.statvfs(folder)
+    except OSError:
+        return False
+    return system.f_blocks > 0 and system.f_bavail * CRUMB < system.f_blocks
+
+
+def threads_of(pid: int) -> list[str]:
+    """The folders of a process's threads; none where it is gone."""
+    folder = f"/proc/{pid}/task"
+    try:
+        return [f"{folder}/{name}" for name in os.listdir(folder)]  # noqa: PTH208
+    except OSError:
+        return []
+
+
+def tasks_of(pid: int) -> int:
+    """How many threads a process has."""
+    return len(threads_of(pid))
+
+
+def cpu_s_of(pids: list[int]) -> float:
+    """Seconds of the processor: of these, and of all that were collected, by these and by us."""
+    ours = os.times()
+    return ours.children_user + ours.children_system + sum(map(ticks_of, pids)) / TICKS_A_SECOND
+
+
+def ticks_of(pid: int) -> int:
+    """Time of the processor, of a process and of its children that have ended: proc_pid_stat(5)."""
+    try:
+        return sum(map(int, stat_of(pid)[11:15]))
     except OSError:
         return 0
+
+
+def busy_in(pid: int) -> int:
+    """How many threads of a process run, or would if a processor were free."""
+    return sum(state_in(f"{thread}/stat") == "R" for thread in threads_of(pid))
+
+
+def put_last(pids: list[int]) -> None:
+    """Let all other processes of this machine go first.
+
+    Where each session has its own share of the processors, its priority counts, too: sched(7),
+    "The autogroup feature".
+    """
+    for pid in pids:
+        for thread in threads_of(pid):
+            put_thread_last(int(thread.rpartition("/")[2]))
+        put_session_last(f"/proc/{pid}/autogroup")
+
+
+def put_thread_last(thread: int) -> None:
+    """One that has just ended is no matter."""
+    try:
+        os.setpriority(os.PRIO_PROCESS, thread, LAST_IN_LINE)
+    except OSError:
+        return
+
+
+def put_session_last(file: str) -> None:
+    """Not told again where it is so: the kernel takes ten such orders a second, and no more."""
+    try:
+        if not kernel.read(file).endswith(b"nice %d\n" % LAST_IN_LINE):
+            with open(file, "w") as autogroup:  # noqa: PTH123
+                autogroup.write(str(LAST_IN_LINE))
+    except OSError:
+        return
 
 
 def kill_all(pids: list[int]) -> None:

@@ -23,6 +23,8 @@ _SIGKILL = 9
 _PR_SET_DUMPABLE = 4
 _PR_SET_SECCOMP = 22
 _SECCOMP_MODE_FILTER = 2
+_SECCOMP = {"x86_64": 317, "aarch64": 277}
+_SECCOMP_SET_MODE_FILTER, _NEW_LISTENER = 1, 1 << 3
 _LANDLOCK_CREATE, _LANDLOCK_ADD, _LANDLOCK_RESTRICT = 444, 445, 446
 _BENEATH = 1
 _KEYCTL = {"x86_64": 250, "aarch64": 219}
@@ -247,6 +249,17 @@ def refuse_calls(program: bytes) -> None:
     _call("prctl", _PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0)
     filter_ = _Filter(len(program) // _BYTES_A_LINE, program)
     _call("prctl", _PR_SET_SECCOMP, _SECCOMP_MODE_FILTER, ctypes.byref(filter_), 0, 0)
+
+
+def ask_before_calls(program: bytes) -> int:
+    """As `refuse_calls`; whoever holds the descriptor answers the calls of which the filter asks.
+
+    Raises OSError where the kernel has no such filter, or another one has this right already.
+    """
+    _call("prctl", _PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0)
+    filter_ = _Filter(len(program) // _BYTES_A_LINE, program)
+    number = _SECCOMP[os.uname().machine]
+    return _numbered(number, _SECCOMP_SET_MODE_FILTER, _NEW_LISTENER, ctypes.byref(filter_))
 
 
 def confine(rules: list[tuple[str, int]], rights: int, scopes: int) -> None:

@@ -15,9 +15,10 @@ from pathlib import Path
 from types import TracebackType
 from typing import Literal
 
+from roslings.arena import cgroup
 from roslings.arena.cgroup import Group
 from roslings.arena.isolation import guardian_command
-from roslings.arena.refused_calls import filter_of_calls
+from roslings.arena.refused_calls import asking_filter, filter_of_calls, name_of
 from roslings.arena.sandbox import Sandbox
 from roslings.arena.users import User
 from roslings.evidence import Ending, LogLine, ProcessSeen
@@ -37,7 +38,7 @@ LONGEST_LINE = 2000
 ANSWERS_WITHIN_S = 5.0
 LONGEST_WAIT_S = 20.0
 """For a processor: who waits longer is not waited for."""
-LOOK_AGAIN_S = 0.1
+LOOK_AGAIN_S, WAITS_AGAIN_S = 0.1, 1.0
 PATIENCE = {"SIGINT": 2.0, "SIGTERM": 1.0, "SIGKILL": 10.0}
 """Seconds given after each signal when a block ends and the process still runs."""
 
@@ -77,7 +78,8 @@ class Launch:
             "watch": watch,
             "user": self.user.uid if self.user else None,
             "reach": self.user.reach if self.user else None,
-            "filter": filter_of_calls() if self.sandbox or self.user else b"",
+            "filters": self._filters(),
+            "busy": self._busy(),
         }
         order = marshal.dumps(words)
         return b"%d\n%b" % (len(order), order)
@@ -87,6 +89,16 @@ class Launch:
         if self.sandbox:
             return self.sandbox.bounds.limits(), self.sandbox.watch
         return (self.user.limits, self.user.watch) if self.user else ({}, {})
+
+    def _filters(self) -> tuple[bytes, ...]:
+        """Of its system calls; none where nothing stands around it, or where there is no filter."""
+        filters = (asking_filter(), filter_of_calls())
+        return filters if (self.sandbox or self.user) and all(filters) else ()
+
+    def _busy(self) -> int:
+        """So many threads may want a processor at once; 0 where the kernel shares it out."""
+        wall = self.sandbox or self.user
+        return 0 if wall is None or cgroup.shares_processors(wall.trees) else wall.bounds.busy
 
     @property
     def walls(self) -> Literal["none", "namespaces", "sandbox"]:
@@ -209,6 +221,14 @@ class Process:
         """Wait for the process to end. True when it did."""
         return self.wait_until(lambda: not self.alive, within_s)
 
+    def wait_ended_in_own_time(self, within_s: float, most_s: float) -> bool:
+        """As `wait_ended`; while its threads wait for a processor its time stands still.
+
+        `most_s` is the most that this gives it besides.
+        """
+        waiting = Waiting(self.waits_ns())
+        return self._wait_own_time(within_s, waiting, self.waits_ns, WAITS_AGAIN_S, most_s)
+
     def lines(self) -> list[LogLine]:
         """The lines so far."""
         with self._changed:
@@ -264,7 +284,9 @@ class Process:
         sent_ns = time.monotonic_ns()
         self.seen.asked_to_end_ns = self.seen.asked_to_end_ns or sent_ns
         self._send(name)
-        ended = self._wait_own_time(patience_s, waiting)
+        ended = self._wait_own_time(
+            patience_s, waiting, self._own_waits_ns, LOOK_AGAIN_S, LONGEST_WAIT_S
+        )
         if self.seen.ending is None:
             self.seen.ending = self._ending(name, sent_ns, waiting)
         return ended
@@ -291,20 +313,27 @@ class Process:
             return 0.0
         return (self._waited_ns - before[self._main_thread]) / 1e9
 
-    def _wait_own_time(self, within_s: float, waiting: Waiting) -> bool:
+    def _wait_own_time(
+        self,
+        within_s: float,
+        waiting: Waiting,
+        waits_ns: Callable[[], dict[str, int] | None],
+        again_s: float,
+        most_s: float,
+    ) -> bool:
         """Wait for its end; while it waits for a processor, its time stands still, up to a bound.
 
         Its threads end one after the other, so the waiting of all counts.
         """
         began_s = time.monotonic()
         while True:
-            given_s = within_s + min(waiting.sum_s(), LONGEST_WAIT_S)
+            given_s = within_s + min(waiting.sum_s(), most_s)
             left_s = began_s + given_s - time.monotonic()
-            if self.wait_ended(min(max(left_s, 0), LOOK_AGAIN_S)):
+            if self.wait_ended(min(max(left_s, 0), again_s)):
                 return True
             if left_s <= 0:
                 return False
-            now_ns = self._own_waits_ns()
+            now_ns = waits_ns()
             if now_ns is None:  # it has just ended; we are told soon
                 return self.wait_ended(ANSWERS_WITHIN_S)
             waiting.now_ns.update(now_ns)
@@ -372,4 +401,8 @@ class Process:
         seen.output_lines = int(str(event["output_lines"]))
         seen.output_dropped_bytes = int(str(event["dropped_bytes"]))
         seen.ending_cut = bool(event["ending_cut"])
+        seen.filled_its_disk = bool(event["filled_its_disk"])
+        seen.most_busy = int(str(event["most_busy"]))
+        refused: dict[str, int] = event["refused_calls"]  # type: ignore[assignment]  # as below
+        seen.refused_calls = {name_of(int(number)): count for number, count in refused.items()}
         seen.bounds_met = event["bounds_met"]  # type: ignore[assignment]  # the guardian's own

@@ -23,6 +23,9 @@ NUMBER, ARCHITECTURE, FIRST_ARGUMENT = 0, 4, 16
 """Where these stand in `struct seccomp_data`; of an argument, its lower half on little endians."""
 ALLOWED = 0x7FFF0000
 FAILS = 0x00050000
+ASKS = 0x7FC00000
+"""The call waits until the one who holds the filter's other end has answered it: it is refused, and
+told. Not there before Linux 5.0."""
 X32 = 0x40000000
 """Calls of x86-64's third kind have this bit; nothing uses them."""
 
@@ -34,7 +37,6 @@ class Machine:
     architecture: int
     clone: int
     refused: dict[str, int]
-    missing: dict[str, int]
 
 
 MACHINES = {
@@ -45,7 +47,7 @@ MACHINES = {
         "unshare": 272, "perf_event_open": 298, "open_by_handle_at": 304, "setns": 308,
         "process_vm_readv": 310, "process_vm_writev": 311, "finit_module": 313,
         "kexec_file_load": 320, "bpf": 321, "userfaultfd": 323,
-    }, {}),
+    }),
     "aarch64": Machine(0xC00000B7, 220, {
         "umount2": 39, "mount": 40, "pivot_root": 41, "quotactl": 60, "acct": 89, "unshare": 97,
         "kexec_load": 104, "init_module": 105, "delete_module": 106, "ptrace": 117,
@@ -53,7 +55,7 @@ MACHINES = {
         "swapoff": 225, "perf_event_open": 241, "open_by_handle_at": 265, "setns": 268,
         "process_vm_readv": 270, "process_vm_writev": 271, "finit_module": 273, "bpf": 280,
         "userfaultfd": 282, "kexec_file_load": 294,
-    }, {}),
+    }),
 }  # fmt: skip
 """Sources: Linux, arch/x86/entry/syscalls/syscall_64.tbl and include/uapi/asm-generic/unistd.h."""
 SINCE_2019 = {
@@ -67,17 +69,35 @@ MISSING_SINCE_2019 = {
 
 
 @cache
-def filter_of_calls(machine: str = "") -> bytes:
-    """The filter for this machine, or for the named one; empty where there is none."""
+def filter_of_calls(machine: str = "", refuses: int = FAILS | errno.EPERM) -> bytes:
+    """The filter for this machine, or for the named one; empty where there is none.
+
+    `refuses` is what it says of a call that only attacks need.
+    """
     known = MACHINES.get(machine or os.uname().machine)
     if known is None or (not machine and sys.maxsize < 2**32):
         return b""
     refused = {**known.refused, **SINCE_2019}
-    missing = {**known.missing, **MISSING_SINCE_2019}
-    return b"".join(_program(known, sorted(refused.values()), sorted(missing.values())))
+    return b"".join(
+        _program(known, sorted(refused.values()), sorted(MISSING_SINCE_2019.values()), refuses)
+    )
 
 
-def _program(machine: Machine, refused: Sequence[int], missing: Sequence[int]) -> list[bytes]:
+def asking_filter() -> bytes:
+    """The same for this machine; somebody else refuses the calls, and counts them."""
+    return filter_of_calls(refuses=ASKS)
+
+
+def name_of(number: int) -> str:
+    """Of a call that is refused on this machine; of another its number, in words."""
+    known = MACHINES.get(os.uname().machine)
+    names = {**known.refused, **SINCE_2019, "clone": known.clone} if known else {}
+    return next((name for name, each in names.items() if each == number), f"call {number}")
+
+
+def _program(
+    machine: Machine, refused: Sequence[int], missing: Sequence[int], refuses: int
+) -> list[bytes]:
     """Each comparison leads on, or to one of the three answers at the end."""
     begin = [
         (LOAD, ARCHITECTURE, None, None),
@@ -100,7 +120,7 @@ def _program(machine: Machine, refused: Sequence[int], missing: Sequence[int]) -
         _line(code, value, *(place[to] - at - 1 if to else 0 for to in (yes, no)))
         for at, (code, value, yes, no) in enumerate(lines)
     ]
-    answers = (ALLOWED, FAILS | errno.EPERM, FAILS | errno.ENOSYS)
+    answers = (ALLOWED, refuses, FAILS | errno.ENOSYS)
     return [*jumps, *(_line(ANSWER, answer) for answer in answers)]
 
 

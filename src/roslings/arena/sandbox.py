@@ -33,7 +33,7 @@ SYSTEM = ("/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32")
 """Beside /usr; most systems have them as symbolic links into it."""
 SETTINGS = ("ld.so.cache", "ld.so.conf", "ld.so.conf.d", "alternatives", "localtime", "fonts")
 OWN_SETTINGS = {name: HERE / "etc" / name for name in ("passwd", "group")}
-GUARDIAN = (HERE / "guardian.py", HERE / "kernel.py")
+GUARDIAN = tuple(HERE / name for name in ("guardian.py", "kernel.py", "refusals.py"))
 STAND_INS = tuple(HERE.parent / name for name in ("__init__.py", "rosbag2", "stand_ins"))
 """Of the engine: packages of ROS that no wheel brings, and what they stand on."""
 KERNEL_SETTINGS = (
@@ -84,8 +84,7 @@ class Sandbox:
     @property
     def watch(self) -> dict[str, int]:
         """What the guardian watches: who meets these bounds is ended, all of it."""
-        bounds = self.bounds
-        return {"memory": bounds.memory_bytes, "pids": bounds.tasks, "files": bounds.files}
+        return {**self.bounds.watch, "files": self.bounds.files}
 
     def held_by(self, other: int, view: Path) -> Sandbox:
         """The same, whose processes are another user outside."""

@@ -100,7 +100,7 @@ class User:
     @property
     def watch(self) -> dict[str, int]:
         """What the guardian watches; files it cannot count, for the disk is everybody's."""
-        return {"memory": self.bounds.memory_bytes, "pids": self.bounds.tasks}
+        return self.bounds.watch
 
     @property
     def limits(self) -> dict[str, int]:
@@ -112,14 +112,6 @@ class User:
         """The command that runs `inner`, and the group that counts what it takes."""
         with cgroup.group(self.trees, self.bounds) as group:
             yield group.command(inner), group
-
-    def own(self, folder: Path) -> None:
-        """Give a folder, and all that we put into it, to the user."""
-        give(folder, self.uid)
-
-    def show(self, folder: Path) -> None:
-        """Let the user enter a folder of ours, whose devices its group may use."""
-        let_in(folder, self.uid)
 
 
 def give(folder: Path, uid: int) -> None:
@@ -346,19 +338,23 @@ def _lack_above(place: Path) -> Lack | None:
 
 def _lack_within(place: Path) -> Lack | None:
     """Python's own files, ROS's and ours."""
-    if place == Path("/usr"):  # the system's own: its distribution sees to that
-        return None
-    for at, folders, files in os.walk(place):
-        for name in (*folders, *files):
-            path = os.path.join(at, name)  # noqa: PTH118
-            mode = os.lstat(path).st_mode
-            if stat.S_ISLNK(mode):
-                continue
-            if mode & stat.S_IWOTH:
-                return _writable(Path(path))
-            if not mode & stat.S_IROTH:
-                return _closed(Path(path))
+    for path, mode in _modes_within(place):
+        if mode & stat.S_IWOTH:
+            return _writable(path)
+        if not mode & stat.S_IROTH:
+            return _closed(path)
     return None
+
+
+def _modes_within(place: Path) -> Iterator[tuple[Path, int]]:
+    """Of all folders and files, not of links; of the system's own its distribution sees to it."""
+    if place != Path("/usr"):
+        for at, folders, files in os.walk(place):
+            for name in (*folders, *files):
+                path = os.path.join(at, name)  # noqa: PTH118
+                mode = os.lstat(path).st_mode
+                if not stat.S_ISLNK(mode):
+                    yield Path(path), mode
 
 
 def unreadable_to_others() -> str:
@@ -374,15 +370,8 @@ def _needed() -> list[Path]:
 
 
 def _unreadable_within(place: Path) -> Lack | None:
-    if place == Path("/usr"):
-        return None
-    for at, folders, files in os.walk(place):
-        for name in (*folders, *files):
-            path = os.path.join(at, name)  # noqa: PTH118
-            mode = os.lstat(path).st_mode
-            if not stat.S_ISLNK(mode) and not mode & stat.S_IROTH:
-                return _closed(Path(path))
-    return None
+    modes = _modes_within(place)
+    return next((_closed(path) for path, mode in modes if not mode & stat.S_IROTH), None)
 
 
 def _closed(path: Path) -> Lack:

@@ -28,6 +28,7 @@ th, td code { overflow-wrap: normal; white-space: nowrap; }
 th:first-child, td:first-child { min-width: 4.5rem; overflow-wrap: break-word; }
 td.words { min-width: 11rem; overflow-wrap: break-word; }
 th:first-child, td:first-child { position: sticky; left: 0; background: var(--ground); }
+.outcome { white-space: nowrap; }
 .outcome.pass { color: var(--good); }
 .outcome.fail { color: var(--bad); }
 .outcome.inconclusive, .outcome.refused, .outcome.unclear { color: var(--open); }

@@ -7,13 +7,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from roslings.evidence import BuildSeen, Evidence, ProcessSeen
+from roslings.evidence import BuildSeen, Evidence, NotOrdinary, ProcessSeen
 
 BOUNDS = {
     "pids": "wanted more processes and threads than a sandbox has",
     "memory": "wanted more memory than a sandbox has",
     "files": "wanted more files than a sandbox has",
     "output": "printed without end",
+    "cpu_s": "wanted more time of the processor than a sandbox has",
 }
 OF_A_BUILD = ("The build was ended:", "The build did not end within")
 """So begins the last line of its output where it was we who ended it."""
@@ -28,6 +29,8 @@ def unusual(evidence: Evidence) -> tuple[str, ...]:
 
 
 def _of_build(seen: BuildSeen | None) -> Iterator[str]:
+    if seen:
+        yield from _of_any("The build", seen)
     if seen and not seen.succeeded and seen.output and seen.output[-1].startswith(OF_A_BUILD):
         yield seen.output[-1]
 
@@ -40,6 +43,20 @@ def _of_runs(evidence: Evidence) -> Iterator[str]:
 
 def _of_process(seen: ProcessSeen) -> Iterator[str]:
     yield from (f"{seen.executable} {BOUNDS[bound]}" for bound in seen.bounds_met)
+    yield from _of_any(seen.executable, seen)
     if seen.left_behind:
         what = "a process" if seen.left_behind == 1 else f"{seen.left_behind} processes"
         yield f"{seen.executable} ended, and left {what} running"
+
+
+def _of_any(name: str, seen: NotOrdinary) -> Iterator[str]:
+    if seen.filled_its_disk:
+        yield f"{name} filled the disk that a sandbox has"
+    if seen.refused_calls:
+        calls = ", ".join(f"{call} ({count})" for call, count in sorted(seen.refused_calls.items()))
+        yield f"{name} made calls that no lab needs, and they were refused: {calls}"
+    if seen.most_busy:
+        yield (
+            f"{name} kept up to {seen.most_busy} threads busy at once,"
+            " so it was put behind all others"
+        )

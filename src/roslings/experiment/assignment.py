@@ -8,6 +8,7 @@ from pathlib import Path
 from pydantic import BaseModel
 
 from roslings.arena import Place, Sandbox, User, Wall
+from roslings.arena.users import give, let_in
 from roslings.evidence import HeldBy, PackageSeen
 from roslings.grader import Clock
 
@@ -99,5 +100,5 @@ class Assignment(BaseModel):
         for folder in (self.home, self.devices, self.room):
             folder.mkdir()
         if self.user:
-            self.user.own(self.home)
-            self.user.show(self.devices)
+            give(self.home, self.user.uid)
+            let_in(self.devices, self.user.uid)

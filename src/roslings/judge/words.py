@@ -11,6 +11,7 @@ BOUNDS = {
     "files": "it made more files than it may",
     "output": "it printed without end",
     "pids": "it started more processes and threads than it may",
+    "cpu_s": "its processes took more time of the processor than they may",
 }
 
 

@@ -38,8 +38,10 @@ def read_foreign(path: Path, most_bytes: int = MOST_BYTES) -> bytes | None:
 class NoRoom(OSError):
     """What is to be copied is more than the room held, or would take the last of the disk."""
 
-    def __init__(self, place: Path) -> None:
+    def __init__(self, place: Path, *, by_itself: bool) -> None:
+        """`by_itself`: also on an empty disk."""
         super().__init__(errno.ENOSPC, "it takes more than it may", str(place))
+        self.by_itself = by_itself
 
 
 @dataclass
@@ -56,7 +58,7 @@ class Allowance:
         self.copied_bytes += count
         is_too_much = self.copied_bytes > self.most_bytes
         if is_too_much or shutil.disk_usage(place.parent).free < self.reserve_bytes + count:
-            raise NoRoom(place)
+            raise NoRoom(place, by_itself=is_too_much)
 
 
 def copy_foreign(folder: Path, to: Path, allowance: Allowance | None = None) -> None:

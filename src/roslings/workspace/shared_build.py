@@ -18,7 +18,7 @@ from roslings.arena import Installed, Place, base_environment
 from roslings.arena.kernel import cores
 from roslings.evidence import BuildSeen
 from roslings.workspace.build import BuildRoom, build
-from roslings.workspace.foreign import copy_foreign
+from roslings.workspace.foreign import NoRoom, copy_foreign
 from roslings.workspace.kin import content_of, family_of, install_like
 
 OF_ONE_RUN = ("HOME", "TMPDIR", "ROS_LOG_DIR")
@@ -106,8 +106,10 @@ def _build_in(
     try:
         if own.lies_at:
             copy_foreign(own.lies / "install", installed.folder)
-    except OSError:
-        return _build_alone(source, room, place, within_s)
+    except OSError as error:
+        seen, installed = _build_alone(source, room, place, within_s)
+        seen.filled_its_disk |= isinstance(error, NoRoom) and error.by_itself
+        return seen, installed
     built = Built(
         seen=seen, programs=installed.programs, environment=installed.environment,
         folder=installed.folder,
