@@ -15,6 +15,7 @@ from roslings.batch.export import Settings, hand_out, keep
 from roslings.batch.fingerprints import fingerprint, winnowed
 from roslings.batch.gradebook import gradebook
 from roslings.batch.grades import LateRule, class_of
+from roslings.batch.messages import summary_lines
 from roslings.batch.regrade import override
 from roslings.batch.result import Result
 from roslings.batch.roster import Student, match, read_roster
@@ -187,6 +188,17 @@ def test_the_files_and_pages_tell_the_same(tmp_path: Path) -> None:
         assert 'href="../../class.html"' in own
     anna = next(link for link in links if "1001" in link)
     assert re.search(r"<title>Anna Berg: ", (tmp_path / anna).read_text("utf-8"))
+
+
+def test_of_an_even_class_the_median_lies_between(tmp_path: Path) -> None:
+    """In the terminal as on the page."""
+    with gradebook(tmp_path, "topics") as book:
+        book.write(graded("anna"))
+        book.write(graded("ben", "rate", "figure", hz=1.0))
+        hand_out(book, TOPICS, tmp_path)
+        shown = summary_lines(book, ["anna", "ben"])
+    assert "Scores: lowest 84, median 92, highest 100." in shown
+    assert "median 92," in (tmp_path / "class.html").read_text("utf-8")
 
 
 def test_a_refused_hand_in_never_beats_a_graded_one(tmp_path: Path) -> None:

@@ -83,8 +83,8 @@ def _overview(found: Class) -> Iterator[Markup]:
     yield tag("ul", *items, class_="counts")
     scores = [grade.final for grade in found.grades if grade.final is not None]
     if scores:
-        mean, middle = statistics.fmean(scores), statistics.median(scores)
-        yield tag("p", f"Scores: mean {mean:.0f}, middle {middle:g}, of {len(scores)}.")
+        mean, median = statistics.fmean(scores), statistics.median(scores)
+        yield tag("p", f"Scores: mean {mean:.0f}, median {median:g}, of {len(scores)}.")
 
 
 def _scores(grades: Sequence[Grade]) -> Iterator[Markup]:

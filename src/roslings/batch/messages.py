@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import statistics
 import textwrap
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
@@ -63,11 +64,11 @@ def soak_line(results: Iterable[Result]) -> str:
 
 
 def _scores(results: Sequence[Result]) -> list[str]:
-    scores = sorted(result.score for result in results if result.score is not None)
+    scores = [result.score for result in results if result.score is not None]
     if not scores:
         return []
-    middle = scores[len(scores) // 2]
-    return [f"Scores: lowest {scores[0]:g}, middle {middle:g}, highest {scores[-1]:g}."]
+    median = statistics.median(scores)
+    return [f"Scores: lowest {min(scores):g}, median {median:g}, highest {max(scores):g}."]
 
 
 def _named(word: str, results: Iterable[Result]) -> list[str]:
