@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
-
-import yaml
 
 from roslings.errors import RoslingsError
 
 if TYPE_CHECKING:
+    import yaml
     from pydantic import BaseModel
 
 Model = TypeVar("Model", bound="BaseModel")
 Asked = TypeVar("Asked")
 Location = tuple[int | str, ...]
-LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-"""A card is read several times in one grading; in C that takes a tenth of the time."""
 
 
 class CourseError(RoslingsError):
@@ -46,6 +44,15 @@ class BadCourseFile(CourseError):
         super().__init__(f"{path}:{line}: {problem}")
 
 
+@cache
+def loader() -> type[yaml.SafeLoader]:
+    """A card is read several times in one grading; in C that takes a tenth of the time."""
+    import yaml
+
+    found: type[yaml.SafeLoader] = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    return found
+
+
 def read_yaml(path: Path, model: type[Model]) -> Model:
     """Read `path` as `model`.
 
@@ -63,18 +70,23 @@ def read_yaml(path: Path, model: type[Model]) -> Model:
 
 def read_tree(path: Path) -> Any:
     """What YAML reads from `path`, in no model yet. Raises BadCourseFile."""
+    import yaml
+
     try:
-        return yaml.load(_text(path), Loader=LOADER)
+        return yaml.load(text_of(path), Loader=loader())
     except yaml.YAMLError as error:
         raise _bad_yaml(path, error) from error
 
 
 def line_in(path: Path, location: Location) -> int:
     """The line in which a value of a YAML file begins."""
-    return _line_of(yaml.compose(_text(path), Loader=LOADER), location)
+    import yaml
+
+    return _line_of(yaml.compose(text_of(path), Loader=loader()), location)
 
 
-def _text(path: Path) -> str:
+def text_of(path: Path) -> str:
+    """What stands in a file of the course. Raises BadCourseFile."""
     try:
         return path.read_text("utf-8")
     except FileNotFoundError:
@@ -102,6 +114,8 @@ def _line_of(tree: yaml.Node | None, location: Location) -> int:
 
 
 def _child(node: yaml.Node, step: int | str) -> yaml.Node | None:
+    import yaml
+
     if isinstance(node, yaml.MappingNode):
         return next((value for key, value in node.value if key.value == str(step)), None)
     if isinstance(node, yaml.SequenceNode) and isinstance(step, int) and step < len(node.value):

@@ -9,8 +9,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from roslings.course.files import NoSuchLab, read_tree, read_yaml
-from roslings.course.outline import Outline, outline_in
+from roslings.course.files import NoSuchLab, read_tree, read_yaml, text_of
+from roslings.course.outline import Outline, outline_as_written, outline_in
 
 if TYPE_CHECKING:
     from roslings.course.card import Card, Hint
@@ -73,7 +73,8 @@ class Lab:
     @cached_property
     def outline(self) -> Outline:
         """What the card says of the lab as a whole. Raises BadCourseFile."""
-        if plain := outline_in(read_tree(self.folder / "card.yaml")):
+        file = self.folder / "card.yaml"
+        if plain := outline_as_written(text_of(file)) or outline_in(read_tree(file)):
             return plain
         card = self.card  # says what is wrong, and where
         return Outline(card.title, card.day, card.needs, card.package)

@@ -1,6 +1,7 @@
 """The few words of a card that lead through the course: read without the models of a whole card.
 
-Those take longer to make than all else that `./roslings status` does.
+Those take longer to make than all else that `./roslings status` does. It answers before anything is
+installed, too: so what is written as usual is read without YAML.
 """
 
 from __future__ import annotations
@@ -9,6 +10,17 @@ import re
 from dataclasses import dataclass
 from typing import Any
 
+_NAME = "[a-z][a-z0-9-]*"
+_END = r"[ \t]*(?:[ \t]#.*)?$"
+TEXT = re.compile(
+    rf"^(title|day|package): ((?:\d\d-)?[A-Za-z](?:[^:#\n]*[^:#\s])?){_END}", re.MULTILINE
+)
+"""A line of a card that has one meaning in YAML, or none: a text of plain letters."""
+NAMES = re.compile(rf"^needs: \[({_NAME}(?:, *{_NAME})*)\]{_END}", re.MULTILINE)
+"""The same of a list of names."""
+NO_TEXTS = frozenset({"y", "n", "yes", "no", "on", "off", "true", "false", "null"})
+"""Letters that are no text in YAML."""
+WORDS = re.compile(r"^(?:title|day|needs|package)\b", re.MULTILINE)
 DAY = r"^[0-9]{2}-[a-z0-9-]+$"
 PACKAGE = r"^[a-z][a-z0-9_]*$"
 
@@ -21,6 +33,18 @@ class Outline:
     day: str
     needs: tuple[str, ...]
     package: str
+
+
+def outline_as_written(card: str) -> Outline | None:
+    """The outline in the lines of a card; None where one of them is not written as usual."""
+    texts, lists = TEXT.findall(card), NAMES.findall(card)
+    found, needs = dict(texts), [name for names in lists for name in re.split(", *", names)]
+    if len(WORDS.findall(card)) != len(found) + len(lists) or len(found) < 3 or len(lists) > 1:
+        return None
+    if NO_TEXTS & {text.lower() for text in (*found.values(), *needs)}:
+        return None
+    outline = Outline(found["title"], found["day"], tuple(needs), found["package"])
+    return outline if _holds(outline) else None
 
 
 def outline_in(tree: Any) -> Outline | None:

@@ -12,7 +12,7 @@ import yaml
 from pydantic import BaseModel, ConfigDict, ValidationError
 from pydantic_core import ErrorDetails
 
-from roslings.course.files import LOADER
+from roslings.course.files import loader
 from roslings.errors import RoslingsError
 
 Location = tuple[int | str, ...]
@@ -106,7 +106,7 @@ def _composed(text: str) -> yaml.Node | None:
     Raises yaml.YAMLError.
     """
     try:
-        return yaml.compose(text, Loader=LOADER)
+        return yaml.compose(text, Loader=loader())
     except yaml.YAMLError:
         return yaml.compose(text, Loader=yaml.SafeLoader)
 
