@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import struct
 import tarfile
 from collections.abc import Callable
 from pathlib import Path
@@ -98,6 +99,19 @@ def test_a_broken_file_is_refused(tmp_path: Path, content: bytes) -> None:
     file.write_bytes(content)
     with pytest.raises(Refused):
         package_in(file, "chatter", tmp_path)
+
+
+@pytest.mark.parametrize("shift", [1, 1000, 2**31])
+def test_an_entry_that_begins_before_the_file_is_refused(shift: int, tmp_path: Path) -> None:
+    """The table of contents is said to lie further behind than it does."""
+    archive = make_zip(tmp_path / "it.zip")
+    content = bytearray(archive.read_bytes())
+    at = content.rindex(b"PK\x05\x06") + 16
+    (place,) = struct.unpack_from("<I", content, at)
+    struct.pack_into("<I", content, at, place + shift)
+    archive.write_bytes(content)
+    with pytest.raises(Refused):
+        package_in(archive, "chatter", tmp_path)
 
 
 def test_a_broken_checksum_is_refused(tmp_path: Path) -> None:

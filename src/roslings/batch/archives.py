@@ -8,6 +8,7 @@ what is really written is counted.
 from __future__ import annotations
 
 import bz2
+import errno
 import gzip
 import lzma
 import mmap
@@ -40,6 +41,9 @@ ENTRY_MARK = b"PK\x01\x02"
 ENCRYPTED, NAME_IS_UTF8 = 0x1, 0x800
 CLUTTER = frozenset({"__macosx", "thumbs.db", "desktop.ini"})
 """What Windows and macOS add by themselves, in small letters; so are files that begin with `._`."""
+OF_CONTENT = (None, errno.EINVAL)
+"""Numbers of errors that an archive itself makes, not the disk: what bz2 cannot read has none, and
+where an entry is said to begin before the file, there is no such place."""
 BROKEN = (
     zipfile.BadZipFile, tarfile.TarError, zlib.error, lzma.LZMAError, EOFError, struct.error,
     NotImplementedError, RuntimeError, ValueError, gzip.BadGzipFile,
@@ -103,7 +107,7 @@ def unpack(archive: Path, into: Path, budget: Budget | None = None) -> None:
     except BROKEN as error:
         raise _broken(error) from error
     except OSError as error:
-        if error.errno is not None:  # the disk's; what bz2 cannot read has no number
+        if error.errno not in OF_CONTENT:
             raise
         raise _broken(error) from error
 
