@@ -12,6 +12,7 @@ in each round. Which one begins changes from round to round, so that both meet t
 
 from __future__ import annotations
 
+import argparse
 import os
 import statistics
 import subprocess
@@ -51,7 +52,15 @@ def main(clones: Sequence[Path], rounds: int, words: Sequence[str]) -> None:
         )
 
 
+def options_in(words: Sequence[str]) -> argparse.Namespace:
+    """Two clones, how often, and what is typed."""
+    reader = argparse.ArgumentParser(description=__doc__, usage=(__doc__ or "").splitlines()[2])
+    reader.add_argument("clones", nargs=2, type=Path)
+    reader.add_argument("rounds", type=int)
+    reader.add_argument("words", nargs=argparse.REMAINDER)
+    return reader.parse_args(words)
+
+
 if __name__ == "__main__":
-    if len(sys.argv) < 5:
-        sys.exit(__doc__)
-    main([Path(sys.argv[1]), Path(sys.argv[2])], int(sys.argv[3]), sys.argv[4:])
+    options = options_in(sys.argv[1:])
+    main(options.clones, options.rounds, options.words)

@@ -117,7 +117,6 @@ def test_an_outline_says_what_its_card_says() -> None:
         ("day: 03-topics", "day: third", "day"),
         ("package: chatter", "package: ../chatter", "package"),
         ("package: chatter", "packages: chatter", "package"),
-        ("id: topics", "id: [", ""),
     ],
 )
 def test_an_outline_that_cannot_be_read_is_told_by_the_card(
