@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -22,22 +22,34 @@ TABLE = re.compile(r"roslings\.(capability|capabilities\.[a-z]+)")
 
 @dataclass(frozen=True)
 class Tree:
-    """Where modules lie: the folder above the package `roslings`."""
+    """Where modules lie: the folders above our packages."""
 
-    src: Path
+    sources: tuple[Path, ...]
+
+    @cached_property
+    def packages(self) -> dict[str, Path]:
+        """Each package of ours to the folder above it."""
+        places = (file.parent for above in self.sources for file in above.glob("*/__init__.py"))
+        return {place.name: place.parent for place in places}
 
     def file_of(self, module: str) -> Path | None:
         """Its file; None where it is none of ours."""
-        if not module.startswith("roslings"):
+        first, *inner = module.split(".")
+        if not (above := self.packages.get(first)):
             return None
-        place = self.src.joinpath(*module.split("."))
+        place = above.joinpath(first, *inner)
         found = (place / "__init__.py", place.with_suffix(".py"))
         return next((file for file in found if file.is_file()), None)
 
     def name_of(self, file: Path) -> str:
         """The module that lies in a file."""
-        parts = file.relative_to(self.src).with_suffix("").parts
+        parts = self.parts_of(file.with_suffix(""))
         return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+    def parts_of(self, place: Path) -> tuple[str, ...]:
+        """Of a module or a folder: the words of its name, from its package on."""
+        above = next(each for each in self.sources if place.is_relative_to(each))
+        return place.relative_to(above).parts
 
 
 @dataclass(frozen=True)
@@ -48,10 +60,14 @@ class Import:
     known_as: str
     module: str | None
 
-    def words(self, tree: Modules) -> str:
-        """The name, and what the module it comes from holds; where that lies does not count."""
-        source = tree.content(self.module) if self.module else ""
-        return f"{self.name} {self.known_as} {source}\n"
+    def words(self, modules: Modules, told: Told) -> str:
+        """The name, and what it is where the name does not tell; where it stands does not count."""
+        source = modules.meaning(self.module, self.name) if self.module and not told(self) else ""
+        return f"{self.name} {self.known_as} {source}"
+
+
+Told = Callable[[Import], bool]
+"""Whether what an import takes is counted elsewhere, and known there by its name."""
 
 
 @dataclass(frozen=True)
@@ -73,7 +89,7 @@ class Code:
         if not node.level:
             return node.module or ""
         folder = self.file.parents[node.level - 1]
-        parts = [*folder.relative_to(self.tree.src).parts, *filter(None, [node.module])]
+        parts = [*self.tree.parts_of(folder), *filter(None, [node.module])]
         return ".".join(parts)
 
     @cached_property
@@ -82,6 +98,25 @@ class Code:
         taken = {each.module for each in self.imports if each.module}
         named = {name for text in self._texts for name in [self.module_named(text)] if name}
         return frozenset(each for name in taken | named for each in with_parents(name))
+
+    @cached_property
+    def _definitions(self) -> dict[str, list[ast.stmt]]:
+        found: dict[str, list[ast.stmt]] = {}
+        for statement in self.defining(""):
+            for name in names_of(statement):
+                found.setdefault(name, []).append(statement)
+        return found
+
+    def defining(self, name: str) -> list[ast.stmt]:
+        """The statements that give a name its meaning; all of them without a name."""
+        if not name:
+            return [each for each in self.body.body if not _is_import(each)]
+        return self._definitions.get(name, [])
+
+    @cached_property
+    def taken(self) -> dict[str, Import]:
+        """What comes from elsewhere, by the name that it has here."""
+        return {each.known_as: each for each in self.imports}
 
     @cached_property
     def files(self) -> frozenset[Path]:
@@ -95,7 +130,7 @@ class Code:
 
     def module_named(self, text: str) -> str | None:
         """The module that a text names, as `a.b`, `a.b:NAME` or the file `b.py` beside it."""
-        if self.tree.file_of(name := text.partition(":")[0]) and name != "roslings":
+        if self.tree.file_of(name := text.partition(":")[0]) and "." in name:
             return name
         file = self._named(text)
         return self.tree.name_of(file) if file and file.is_file() and _is_ours(file) else None
@@ -174,8 +209,7 @@ class Modules:
 
     tree: Tree
     _code: dict[str, Code] = field(default_factory=dict)
-    _content: dict[str, str] = field(default_factory=dict)
-    _digest: dict[str, str] = field(default_factory=dict)
+    _digests: dict[int, tuple[ast.stmt, str]] = field(default_factory=dict)
 
     def code(self, module: str) -> Code:
         """What stands in a module of ours."""
@@ -204,28 +238,46 @@ class Modules:
         taken = {each.module for each in code.imports if each.module}
         return {each for name in taken for each in with_parents(name)}
 
-    def content(self, module: str) -> str:
-        """What a module does by itself: of what it imports, the names alone count."""
-        if module not in self._content:
-            code = self.code(module)
-            names = sorted(f"{each.name} {each.known_as}\n" for each in code.imports)
-            self._content[module] = digest_of("".join(names).encode() + self.body(code))
-        return self._content[module]
+    def meaning(self, module: str, name: str) -> str:
+        """What a name of a module is: the statements that define it; without a name, all of them.
+
+        What these use is no part of it: that is reached, and counts by itself. A name that the
+        module takes from elsewhere is what it is there.
+        """
+        seen: set[tuple[str, str]] = set()
+        while (module, name) not in seen:
+            seen.add((module, name))
+            taken = self.code(module).taken.get(name)
+            if taken and not taken.module:
+                return taken.name
+            module, name = (taken.module, taken.name) if taken and taken.module else (module, name)
+        defined = (self._digest_of(each) for each in self.code(module).defining(name))
+        return digest_of("\n".join(sorted(defined)).encode())
+
+    def _digest_of(self, statement: ast.stmt) -> str:
+        if id(statement) not in self._digests:  # kept with it: the number of what is gone is free
+            self._digests[id(statement)] = (statement, digest_of(self._words(statement)))
+        return self._digests[id(statement)][1]
+
+    def does(self, code: Code, told: Told = lambda taken: False) -> frozenset[str]:
+        """What some code does: its statements, and each name that it takes with what that is.
+
+        In no order, and without where any of it lies: a module that moves does the same, and
+        another thing of the same name is another. Of what is `told` elsewhere, the name is enough.
+        """
+        own = {self._digest_of(each) for each in code.body.body if not _is_import(each)}
+        return frozenset(own | {each.words(self, told) for each in code.imports})
 
     def digest(self, module: str) -> str:
-        """What a module does, and with which things of which others: another module of the same
-        names is another thing. Where any of them lies does not count."""
-        if module not in self._digest:
-            self._digest[module] = self.digest_of_code(self.code(module))
-        return self._digest[module]
+        """Of what a module does."""
+        return self.digest_of_code(self.code(module))
 
-    def digest_of_code(self, code: Code) -> str:
-        """The same of some statements."""
-        taken = sorted(each.words(self) for each in code.imports)
-        return digest_of("".join(taken).encode() + self.body(code))
+    def digest_of_code(self, code: Code, told: Told = lambda taken: False) -> str:
+        """Of what some code does."""
+        return digest_of("\n".join(sorted(self.does(code, told))).encode())
 
-    def body(self, code: Code) -> bytes:
-        """Its statements without the imports, and a module that a text names by what it holds."""
+    def _words(self, statement: ast.stmt) -> bytes:
+        """Without imports, and a module that a text names by what it holds."""
 
         def special(node: ast.AST) -> str | None:
             if isinstance(node, ast.Import | ast.ImportFrom) or is_for_types(node):
@@ -234,4 +286,18 @@ class Modules:
                 return "(module)" if self.tree.file_of(node.value) else None
             return None
 
-        return normal(code.body, special)
+        return normal(ast.Module([statement], []), special)
+
+
+def _is_import(statement: ast.stmt) -> bool:
+    return isinstance(statement, ast.Import | ast.ImportFrom) or is_for_types(statement)
+
+
+def names_of(statement: ast.stmt) -> frozenset[str]:
+    """The names to which a statement of a file gives a meaning."""
+    if isinstance(statement, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+        return frozenset({statement.name})
+    if isinstance(statement, ast.Import | ast.ImportFrom):
+        return frozenset(each.asname or each.name.partition(".")[0] for each in statement.names)
+    stored = (node for node in ast.walk(statement) if isinstance(node, ast.Name))
+    return frozenset(node.id for node in stored if isinstance(node.ctx, ast.Store))

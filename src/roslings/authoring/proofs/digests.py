@@ -9,12 +9,21 @@ from __future__ import annotations
 import ast
 import json
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections import Counter
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
-from roslings.authoring.proofs.closure import Code, Modules, Tree, walk_at_run_time
+from roslings.authoring.proofs.closure import (
+    Code,
+    Import,
+    Modules,
+    Told,
+    Tree,
+    names_of,
+    walk_at_run_time,
+)
 from roslings.course import Lab, all_labs
 from roslings.course.files import read_tree
 from roslings.workspace.normal import digest_of, digest_of_all, digest_of_file
@@ -58,7 +67,7 @@ class Measuring:
     def experiments(self, lab: Lab) -> str:
         """What a lab has besides: its experiments, and what only some labs are measured with."""
         if lab not in self._digests:
-            own = self._of_modules(self.closure(lab) - self.shared)
+            own = self._of_modules(self.closure(lab) - self.shared, self._is_told)
             self._digests[lab] = digest_of_all(own | self._brought(lab) | self._experiments(lab))
         return self._digests[lab]
 
@@ -96,15 +105,31 @@ class Measuring:
 
     def _experiments(self, lab: Lab) -> dict[str, str]:
         codes = enumerate(self._graders(lab))
-        return {f"grader {n}": self.modules.digest_of_code(code) for n, code in codes}
+        return {
+            f"grader {n}": self.modules.digest_of_code(code, self._is_told) for n, code in codes
+        }
 
-    def _of_modules(self, names: Iterable[str]) -> dict[str, str]:
-        """Digests without the places of the modules: those that are equal are counted."""
+    def _is_told(self, taken: Import) -> bool:
+        """What all labs share is counted by the core; a name of it is enough where it has one."""
+        name = taken.name or (taken.module or "").rpartition(".")[2]
+        return taken.module in self.shared and self._names_of_shared[name] < 2
+
+    @cached_property
+    def _names_of_shared(self) -> Counter[str]:
+        """How many of the shared modules are called so, or define such a name."""
+        codes = map(self.modules.code, self.shared)
+        defined = (names_of(each) for code in codes for each in code.defining(""))
+        return Counter([
+            *(name for names in defined for name in names),
+            *(module.rpartition(".")[2] for module in self.shared),
+        ])  # fmt: skip
+
+    def _of_modules(self, names: Iterable[str], told: Told = lambda taken: False) -> dict[str, str]:
+        """What the modules do, all together, and the files beside them."""
         found: dict[str, str] = {}
-        for name in names:
-            digest = self.modules.digest(name)
-            found[_free(found, digest)] = digest
-            for file in self.modules.code(name).files:
+        for code in map(self.modules.code, names):
+            found.update(dict.fromkeys(self.modules.does(code, told), ""))
+            for file in code.files:
                 found[f"file {file.name} {digest_of_file(file)}"] = ""
         return found
 
@@ -119,13 +144,6 @@ class Measuring:
         return digest_of("\n".join(_measuring_pins(lines)).encode())
 
 
-def _free(found: Mapping[str, str], digest: str) -> str:
-    number = 0
-    while f"module {digest} {number}" in found:
-        number += 1
-    return f"module {digest} {number}"
-
-
 def _measuring_pins(lines: Iterable[str]) -> Iterator[str]:
     for line in lines:
         pin, _, groups = line.partition("#")
@@ -136,7 +154,7 @@ def _measuring_pins(lines: Iterable[str]) -> Iterator[str]:
 def measuring() -> Measuring:
     """Of this course, as its files are now."""
     src = Path(__file__).parents[3]
-    return Measuring(Modules(Tree(src)), tuple(all_labs()), src.parent)
+    return Measuring(Modules(Tree((src,))), tuple(all_labs()), src.parent)
 
 
 def card_digest(lab: Lab) -> str:
@@ -153,7 +171,7 @@ def card_digest(lab: Lab) -> str:
 def experiments_in(grader: Path, tree: Tree) -> Code:
     """The experiments that stand in a grader's file, and what of the file they use."""
     body = ast.parse(grader.read_bytes()).body
-    defined = {name: statement for statement in body for name in _names_of(statement)}
+    defined = {name: statement for statement in body for name in names_of(statement)}
     wanted = [statement for statement in body if _is_experiment(statement)]
     found: list[ast.stmt] = []
     while wanted:
@@ -178,17 +196,6 @@ def _is_experiment(statement: ast.stmt) -> bool:
         for each in statement.decorator_list
         for node in ast.walk(each)
     )
-
-
-def _names_of(statement: ast.stmt) -> Iterator[str]:
-    """The names that a statement of a file gives a meaning."""
-    if isinstance(statement, ast.FunctionDef | ast.ClassDef):
-        yield statement.name
-    elif isinstance(statement, ast.Import | ast.ImportFrom):
-        yield from (each.asname or each.name.partition(".")[0] for each in statement.names)
-    else:
-        stored = (node for node in ast.walk(statement) if isinstance(node, ast.Name))
-        yield from (node.id for node in stored if isinstance(node.ctx, ast.Store))
 
 
 def _used(statement: ast.stmt) -> set[str]:
