@@ -15,13 +15,17 @@ from roslings.evidence import ProcessSeen
 LONG_S = 60.0
 
 
-def run(sandbox: Sandbox, source: str) -> ProcessSeen:
-    """A piece of Python in the sandbox, to its end."""
+def launch_in(sandbox: Sandbox, source: str) -> Launch:
+    """A piece of Python, to be started in the sandbox."""
     command = [sys.executable, "-I", "-S", "-c", textwrap.dedent(source)]
     environment = {"PATH": os.defpath, "HOME": str(sandbox.home)}
     folder = sandbox.home or Path("/")
-    launch = Launch(command, environment, folder, namespaces=True, sandbox=sandbox)
-    with Process("it", launch) as process:
+    return Launch(command, environment, folder, namespaces=True, sandbox=sandbox)
+
+
+def run(sandbox: Sandbox, source: str) -> ProcessSeen:
+    """The same, run to its end."""
+    with Process("it", launch_in(sandbox, source)) as process:
         assert process.wait_ended(LONG_S)
     return process.seen
 

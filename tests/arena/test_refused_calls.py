@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import os
 import struct
 import subprocess
 import sys
 import textwrap
-from pathlib import Path
 
 import pytest
+from in_sandbox import launch_in, run
 from skips import needs
 
-from roslings.arena import Launch, Process, choose_isolation, process
+from roslings.arena import Process, Sandbox, process
 from roslings.arena.refused_calls import (
     ALLOWED,
     ANSWER,
@@ -61,35 +60,26 @@ REFUSED = {
 COUNTED = {name: 1 for name, answer in REFUSED.items() if answer == "EPERM"}
 
 
-def in_a_sandbox(source: str) -> ProcessSeen:
-    """Run a piece of Python there, to its end."""
-    sandbox = choose_isolation().sandbox
-    assert sandbox
-    command = [sys.executable, "-I", "-S", "-c", textwrap.dedent(source)]
-    launch = Launch(command, {"PATH": os.defpath}, Path("/"), namespaces=True, sandbox=sandbox)
-    with Process("it", launch) as it:
-        assert it.wait_ended(60)
-    return it.seen
-
-
 def answers_of(seen: ProcessSeen) -> dict[str, str]:
     """What the kernel answered to each call."""
     return dict(line.text.split() for line in seen.lines)  # type: ignore[misc]
 
 
 @needs_sandbox
-def test_calls_are_refused_in_a_sandbox() -> None:
+def test_calls_are_refused_in_a_sandbox(sandbox: Sandbox) -> None:
     """As the table says; those that only attacks need are counted."""
-    seen = in_a_sandbox(MAKES)
+    seen = run(sandbox, MAKES)
     assert answers_of(seen) == REFUSED
     assert seen.refused_calls == COUNTED
 
 
 @needs_sandbox
-def test_an_older_kernel_refuses_them_itself(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_older_kernel_refuses_them_itself(
+    sandbox: Sandbox, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """It asks nobody, so nobody counts."""
     monkeypatch.setattr(process, "asking_filter", lambda: bytes(8))  # not valid for any kernel
-    seen = in_a_sandbox(MAKES)
+    seen = run(sandbox, MAKES)
     assert answers_of(seen) == REFUSED
     assert seen.refused_calls == {}
 
@@ -111,32 +101,28 @@ CALLS_OFTEN = """
 
 
 @needs_sandbox
-def test_each_of_many_calls_is_counted() -> None:
+def test_each_of_many_calls_is_counted(sandbox: Sandbox) -> None:
     """Also of threads that call at once; what the process says is heard as well."""
-    seen = in_a_sandbox(CALLS_OFTEN.format(times=250, threads=4))
+    seen = run(sandbox, CALLS_OFTEN.format(times=250, threads=4))
     assert [line.text for line in seen.lines] == ["said meanwhile"]
     assert seen.refused_calls == {"keyctl": 1000}
 
 
 @needs_sandbox
-def test_who_calls_without_end_is_ended_like_others() -> None:
+def test_who_calls_without_end_is_ended_like_others(sandbox: Sandbox) -> None:
     """A call that nobody has answered yet holds nobody up."""
-    sandbox = choose_isolation().sandbox
-    assert sandbox
-    source = textwrap.dedent(CALLS_OFTEN.format(times=10**9, threads=4))
-    command = [sys.executable, "-I", "-S", "-c", source]
-    launch = Launch(command, {"PATH": os.defpath}, Path("/"), namespaces=True, sandbox=sandbox)
-    with Process("it", launch) as it:
+    source = CALLS_OFTEN.format(times=10**9, threads=4)
+    with Process("it", launch_in(sandbox, source)) as it:
         assert it.wait_until(lambda: bool(it.seen.lines), 60)
     assert not it.alive
     assert it.seen.refused_calls["keyctl"] > 0
 
 
 @needs_sandbox
-def test_the_filter_is_what_refuses_them(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_filter_is_what_refuses_them(sandbox: Sandbox, monkeypatch: pytest.MonkeyPatch) -> None:
     """Without it the kernel does what is asked, or finds fault with the words of the call only."""
     monkeypatch.setattr(process, "filter_of_calls", bytes)
-    answers = answers_of(in_a_sandbox(MAKES))
+    answers = answers_of(run(sandbox, MAKES))
     assert answers["add_key"] == answers["keyctl"] == answers["ptrace"] == "done"
     assert not {name for name in answers if answers[name] == REFUSED[name] == "ENOSYS"}
 

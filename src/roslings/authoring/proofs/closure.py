@@ -70,6 +70,11 @@ Told = Callable[[Import], bool]
 """Whether what an import takes is counted elsewhere, and known there by its name."""
 
 
+def not_told(taken: Import) -> bool:
+    """Of no import."""
+    return False
+
+
 @dataclass(frozen=True)
 class Code:
     """Some statements of a file, and what they reach."""
@@ -259,7 +264,7 @@ class Modules:
             self._digests[id(statement)] = (statement, digest_of(self._words(statement)))
         return self._digests[id(statement)][1]
 
-    def does(self, code: Code, told: Told = lambda taken: False) -> frozenset[str]:
+    def does(self, code: Code, told: Told = not_told) -> frozenset[str]:
         """What some code does: its statements, and each name that it takes with what that is.
 
         In no order, and without where any of it lies: a module that moves does the same, and
@@ -268,11 +273,7 @@ class Modules:
         own = {self._digest_of(each) for each in code.body.body if not _is_import(each)}
         return frozenset(own | {each.words(self, told) for each in code.imports})
 
-    def digest(self, module: str) -> str:
-        """Of what a module does."""
-        return self.digest_of_code(self.code(module))
-
-    def digest_of_code(self, code: Code, told: Told = lambda taken: False) -> str:
+    def digest_of_code(self, code: Code, told: Told = not_told) -> str:
         """Of what some code does."""
         return digest_of("\n".join(sorted(self.does(code, told))).encode())
 

@@ -22,6 +22,7 @@ from roslings.authoring.proofs.closure import (
     Told,
     Tree,
     names_of,
+    not_told,
     walk_at_run_time,
 )
 from roslings.course import Lab, all_labs
@@ -124,7 +125,7 @@ class Measuring:
             *(module.rpartition(".")[2] for module in self.shared),
         ])  # fmt: skip
 
-    def _of_modules(self, names: Iterable[str], told: Told = lambda taken: False) -> dict[str, str]:
+    def _of_modules(self, names: Iterable[str], told: Told = not_told) -> dict[str, str]:
         """What the modules do, all together, and the files beside them."""
         found: dict[str, str] = {}
         for code in map(self.modules.code, names):
