@@ -1,0 +1,127 @@
+"""CONTRIBUTING's walk "Add a capability", done as it is written."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from sources import ROOT
+from until_told import Checked, checked
+
+TEXT = (ROOT / "CONTRIBUTING.md").read_text("utf-8")
+WALK = TEXT[TEXT.index("## Add a capability") : TEXT.index("## Add a verb")]
+FILE = re.compile(r"^# (\S+\.(?:py|toml))\n")
+CONFORMS = """
+from described import CAPABILITY
+from roslings.capabilities.conformance import CHECKS
+for holds in CHECKS:
+    holds(CAPABILITY)
+print(len(CHECKS), "hold")
+"""
+SOLUTION = "labs/nodes/solution/rover_status"
+
+
+def blocks(language: str) -> list[str]:
+    """The walk's code of a language that is not a file's whole text."""
+    return [each for each in _all(language) if not FILE.match(each)]
+
+
+def _all(language: str) -> list[str]:
+    return re.findall(rf"^```{language}\n(.*?)^```", WALK, re.DOTALL | re.MULTILINE)
+
+
+def put(file: Path, old: str, new: str) -> None:
+    """The second text in place of the first, which is there once."""
+    text = file.read_text("utf-8")
+    assert text.count(old) == 1, f"{old!r} stands {text.count(old)} times in {file.name}"
+    file.write_text(text.replace(old, new), "utf-8")
+
+
+@pytest.fixture
+def environment(tmp_path: Path) -> dict[str, str]:
+    """The package of the walk is installed, and the course is one that uses it."""
+    source = tmp_path / "described"
+    for text in (*_all("toml"), *_all("python")):
+        name = FILE.match(text)
+        if name:
+            (source / name[1]).parent.mkdir(parents=True, exist_ok=True)
+            (source / name[1]).write_text(text, "utf-8")
+    install(source, tmp_path / "site")
+    course = tmp_path / "course"
+    write_course(course)
+    own = {"PYTHONPATH": str(tmp_path / "site"), "ROSLINGS_COURSE": str(course)}
+    return {**os.environ, **own}
+
+
+def install(source: Path, site: Path) -> None:
+    """As the walk says, but into a folder of the test, and with no index."""
+    (words,) = re.findall(r"`\S+python -m (pip install --no-deps) \./described`", WALK)
+    own = ["--no-build-isolation", "--no-index", "--quiet", "--disable-pip-version-check"]
+    words = [*words.split(), *own, "--target", str(site), str(source)]
+    subprocess.run([sys.executable, "-m", *words], check=True)
+
+
+def write_course(course: Path) -> None:
+    """The lab of the walk, with a word, points and a check more."""
+    shutil.copytree(ROOT / "labs/nodes", course / "labs/nodes")
+    (course / "graders").mkdir()
+    shutil.copy(ROOT / "graders/grade_nodes.py", course / "graders")
+    word, points = blocks("yaml")
+    card = course / "labs/nodes/card.yaml"
+    others = "    other_names: [/left/first, /right/second]\n"
+    put(card, others, others + word)
+    (was,) = re.findall(r"(?m)^  parameter: 8 .*\n", card.read_text("utf-8"))
+    put(card, was, points)
+    uses, _ = blocks("python")
+    with (course / "graders/grade_nodes.py").open("a", encoding="utf-8") as grader:
+        grader.write("\n\n" + uses)
+
+
+def run(environment: dict[str, str], *words: str) -> str:
+    """What Python prints; it ends well."""
+    done = subprocess.run(
+        [sys.executable, *words], env=environment, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+def test_it_conforms(environment: dict[str, str]) -> None:
+    """As those of roslings; and its word has a line in the task."""
+    assert "13 hold" in run(environment, "-c", CONFORMS)
+    run(environment, "-m", "roslings.course.task", "nodes")
+    task = Path(environment["ROSLINGS_COURSE"]) / "labs/nodes/task.md"
+    assert "| parameters | each has a description |" in task.read_text("utf-8")
+
+
+@pytest.mark.slow
+def test_the_lab_asks_for_descriptions(environment: dict[str, str], tmp_path: Path) -> None:
+    """The solution lacks one and is told so; with the walk's line it has all points again."""
+
+    def of(package: Path) -> Checked:
+        return checked("nodes", package, folder=tmp_path, env=environment)
+
+    package = shutil.copytree(ROOT / SOLUTION, tmp_path / "rover_status")
+    without = of(package)
+    assert without.outcomes("fail") == ["described"]
+    assert without.verdict["score"] == 98
+    assert "the parameter period has a description" in without.ran.stdout
+    describe(package)
+    assert of(package).verdict["score"] == 100
+
+
+def describe(package: Path) -> None:
+    """The walk's line, and what it needs."""
+    code = package / "rover_status/minimal_publisher.py"
+    (was,) = re.findall(r"(?m)^ +self\.declare_parameter\(.*\n", code.read_text("utf-8"))
+    put(code, was, blocks("python")[1])
+    imported = "from rclpy.executors import"
+    put(code, imported, f"from rcl_interfaces.msg import ParameterDescriptor\n{imported}")
+    depends = "  <exec_depend>rclpy</exec_depend>\n"
+    put(package / "package.xml", depends, depends + depends.replace("rclpy", "rcl_interfaces"))
