@@ -19,7 +19,7 @@ if [ -z "${ROS_DISTRO-}" ]; then
     esac
     # Nodes announce themselves quickly, as those do that `ros2 run` starts: two find each other in
     # milliseconds, also where you start one with plain python3.
-    export FASTRTPS_DEFAULT_PROFILES_FILE=${FASTRTPS_DEFAULT_PROFILES_FILE:-$_roslings/src/roslings/arena/quick_discovery.xml}
+    export FASTRTPS_DEFAULT_PROFILES_FILE=${FASTRTPS_DEFAULT_PROFILES_FILE:-$_roslings/packages/ros2-on-pip/src/ros2_on_pip/quick_discovery.xml}
     # The Tab key completes the words of ros2. What it needs is read when Tab is first pressed: it
     # comes with the first `ros2`.
     if [ -n "${BASH_VERSION-}" ]; then

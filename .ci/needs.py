@@ -20,7 +20,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-sys.path[:0] = [str(ROOT / "tests"), str(ROOT / "src")]
+sys.path[:0] = [str(ROOT / "tests"), *map(str, ROOT.glob("packages/*/src"))]
 
 from machine import lack_of  # noqa: E402
 from needed.choice import SAME, Choice, Core  # noqa: E402
@@ -29,9 +29,8 @@ from needed.opened import CannotWatch  # noqa: E402
 from needed.recorder import Made, NoRecord, Recorder, made_by  # noqa: E402
 from needed.records import Records  # noqa: E402
 from needed.tree import RECORDS, NoGit, Tree  # noqa: E402
-
-from roslings.authoring.proofs.command import newest_commit  # noqa: E402
-from roslings.authoring.proofs.digests import measuring  # noqa: E402
+from roslings_prove.proofs.command import newest_commit  # noqa: E402
+from roslings_prove.proofs.digests import measuring  # noqa: E402
 
 RECORDED = Records(ROOT / RECORDS)
 

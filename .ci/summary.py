@@ -28,7 +28,11 @@ import yaml
 
 ROOT = Path(__file__).resolve().parents[1]
 UNSTEADY = ROOT / "tests/unsteady.yaml"
-sys.path[:0] = [str(ROOT / "tests/rogues"), str(ROOT / "tests"), str(ROOT / "src")]
+sys.path[:0] = [
+    str(ROOT / "tests/rogues"),
+    str(ROOT / "tests"),
+    *map(str, ROOT.glob("packages/*/src")),
+]
 
 from needed.left_out import KEPT, UNDRAWN, told  # noqa: E402
 

@@ -45,8 +45,6 @@ from roslings.capabilities.parameters.demands import declare_its_parameters
 from roslings.capabilities.topics.demands import have_rate
 from roslings.capabilities.topics.relay import carry_its_time, hold_its_fields
 from roslings.course import lab
-from roslings.devices.camera import Encoding, Light
-from roslings.devices.rover import Disc
 from roslings.experiment import Scene, experiment
 from roslings.experiment.start import Start
 from roslings.judge import (
@@ -70,6 +68,8 @@ from roslings.judge import (
     stay_up,
     well_formed,
 )
+from roslings_rover.camera import Encoding, Light
+from roslings_rover.rover import Disc
 
 CARD = lab("pi-camera").card
 CAMERA, FINDER = CARD.node("camera"), CARD.node("ball_finder")

@@ -30,7 +30,6 @@ from roslings.capabilities.serial.demands import (
     tell_the_speeds,
 )
 from roslings.course import lab
-from roslings.devices.rover import Body
 from roslings.experiment import Scene, experiment
 from roslings.judge import (
     ExperimentView,
@@ -52,6 +51,7 @@ from roslings.judge import (
     stay_up,
     well_formed,
 )
+from roslings_rover.rover import Body
 
 CARD = lab("serial-bridge").card
 BRIDGE = CARD.node("serial_bridge")

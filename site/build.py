@@ -17,16 +17,16 @@ from collections.abc import Sequence
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parent / "src")]
+sys.path[:0] = [str(HERE), *map(str, HERE.parent.glob("packages/*/src"))]
 
 from course_site.gather import Gathered, gather  # noqa: E402  found by the line above
 from course_site.links import external_links  # noqa: E402
 from course_site.yours import tell  # noqa: E402
 
 from roslings.course import CourseError, root  # noqa: E402
-from roslings.lessons import BadLessons  # noqa: E402
 from roslings.workspace.errors import WorkspaceError  # noqa: E402
 from roslings.workspace.student import workspace_root  # noqa: E402
+from roslings_learn.lessons import BadLessons  # noqa: E402
 
 OK, FAILED = 0, 1
 

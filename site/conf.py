@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).parent
-sys.path[:0] = [str(HERE), str(HERE.parent / "src")]
+sys.path[:0] = [str(HERE), *map(str, HERE.parent.glob("packages/*/src"))]
 
 from course_site import course_digest, theme_colours  # noqa: E402  found by the line above
 

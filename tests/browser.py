@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
+
 from skips import imported, skip_without
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")

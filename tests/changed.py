@@ -17,20 +17,21 @@ from pathlib import Path
 
 import pytest
 
-from roslings.course import all_labs, root
+from sources import ROOT
 
 PLUGIN = "tests-of-what-is-changed"
-KEPT = "tests/authoring/test_authoring_proofs.py::test_what_is_kept_shows_what_it_must"
+ENGINE, LEARN = "packages/roslings/tests", "packages/roslings-learn/tests"
+CLASS, PROVE = "packages/roslings-class/tests", "packages/roslings-prove/tests"
+KEPT = f"{PROVE}/test_authoring_proofs.py::test_what_is_kept_shows_what_it_must"
 SOLUTION = "tests/labs/test_verdicts.py::test_the_solution_gets_the_full_score"
 STYLE = "tests/test_code_style.py"
 NO_TYPES = ("ruff", "formatted", "short", "lab", "machine")
 """Of the rules of the code those that take no processor for half a minute."""
 TEXTS = ("tests/test_anchors.py",)
 OF_A_LAB = (
-    "tests/labs", "tests/authoring/test_authoring_consistency.py",
-    "tests/authoring/test_authoring_promises.py", "tests/authoring/test_authoring_contract.py",
-    "tests/authoring/test_authoring_generated.py", "tests/days/test_days_give_nothing_away.py",
-    "tests/days/test_days_lessons.py",
+    "tests/labs", f"{PROVE}/test_authoring_consistency.py", f"{PROVE}/test_authoring_promises.py",
+    f"{PROVE}/test_authoring_contract.py", f"{PROVE}/test_authoring_generated.py",
+    "tests/days/test_days_give_nothing_away.py", "tests/days/test_days_lessons.py",
 )  # fmt: skip
 OF_A_DAY = ("tests/days/test_days_lessons.py", "tests/days/test_days_reading.py",
             "tests/days/test_days_compared.py", "tests/days/test_days_quiz.py",
@@ -79,6 +80,8 @@ def of_a_lab(name: str) -> Iterator[Choice]:
 
 @cache
 def _day_of(name: str) -> str | None:
+    from roslings.course import all_labs  # tests of one package alone have no course
+
     return next((lab.card.day for lab in all_labs() if lab.name == name), None)
 
 
@@ -89,18 +92,21 @@ def of_a_day(day: str) -> Iterator[Choice]:
     yield from (Choice(place) for place in TEXTS)
 
 
-def of_a_room(room: str) -> Iterator[Choice]:
-    """The folder of the same name, all kept proofs, and the rules of the code."""
-    for place in ROOMS.get(room, (f"tests/{room}",)):
-        if (root() / place).exists():
-            yield Choice(place)
+def of_our_code(place: str) -> Iterator[Choice]:
+    """`PACKAGE/src/NAME/ROOM`: the tests of the room or the package, all kept proofs, the style."""
+    package, _, _, room = place.split("/")
+    own = f"packages/{package}/tests"
+    usual = (f"{own}/{room}", f"tests/{room}") if package in WITH_ROOMS else (own,)
+    for found in (*usual, *ROOMS.get(room, ())):
+        if (ROOT / found).exists():
+            yield Choice(found)
     yield Choice(KEPT)
     yield Choice(STYLE)
 
 
 def of_a_capability(name: str) -> Iterator[Choice]:
     """Its own tests, what each capability holds, and all kept proofs."""
-    yield Choice(f"tests/capabilities/{name}")
+    yield Choice(f"{ENGINE}/capabilities/{name}")
     yield Choice("tests/outside/test_capabilities_conform.py")
     yield Choice(KEPT)
     yield Choice(STYLE)
@@ -133,34 +139,46 @@ def of_the_gate(_: str) -> Iterator[Choice]:
 
 def of_pins(_: str) -> Iterator[Choice]:
     """What is installed, and the rules of the code."""
-    yield Choice("tests/bootstrap/test_bootstrap_pins.py")
+    yield Choice("packages/roslings-launcher/tests/test_bootstrap_pins.py")
     yield Choice(STYLE)
 
 
+WITH_ROOMS = ("roslings", "roslings-learn")
+"""Packages whose tests have a folder for each room."""
 ROOMS = {
     "commands": ("tests/cli",),
-    "course": ("tests/labs", "tests/authoring/test_authoring_course_files.py"),
+    "course": ("tests/labs", f"{PROVE}/test_authoring_course_files.py"),
     "lessons": ("tests/days", "tests/site/test_site_lessons.py"),
-    "record": ("tests/evidence",), "evidence": ("tests/evidence",),
+    "record": (f"{ENGINE}/evidence",),
+    "evidence": (f"{ENGINE}/evidence",),
     "capability": ("tests/outside",),
-    "matching": ("tests/judge",), "rates": ("tests/judge",), "verdict": ("tests/judge",),
-    "grader": ("tests/judge", "tests/authoring/test_authoring_consistency.py"),
-    "jupyter": ("tests/notebook", "tests/days"), "saving": ("tests/cli/test_evidence.py",),
-    "models": ("tests/capabilities", "tests/devices"), "shapes": ("tests/report",),
-}  # fmt: skip
-"""Rooms of the engine whose tests stand in a folder of another name."""
+    "matching": (f"{ENGINE}/judge",),
+    "rates": (f"{ENGINE}/judge",),
+    "verdict": (f"{ENGINE}/judge",),
+    "grader": (f"{ENGINE}/judge", f"{PROVE}/test_authoring_consistency.py"),
+    "jupyter": (f"{LEARN}/notebook", "tests/days"),
+    "saving": ("tests/cli/test_evidence.py",),
+    "models": (f"{ENGINE}/capabilities",),
+    "shapes": (f"{ENGINE}/report",),
+    "hand_in": (f"{CLASS}/batch",),
+    "way": ("tests/cli",),
+}
+"""Rooms whose tests stand elsewhere, too."""
 
 RULES: tuple[tuple[str, Callable[[str], Iterator[Choice]]], ...] = (
     (r"labs/([^/]+)/", of_a_lab),
     (r"graders/grade_(\w+)\.py$", lambda name: of_a_lab(name.replace("_", "-"))),
     (r"tests/proofs/([\w-]+?)(?:/|\.jsonl$)", of_a_lab),
     (r"days/(\d\d-[^/]+)/", of_a_day),
-    (r"src/roslings/capabilities/(\w+)/", of_a_capability),
-    (r"src/roslings/(\w+)(?:/|\.py$)", of_a_room),
-    (r"(tests/.+\.py)$", of_tests),
+    (r"packages/roslings/src/roslings/capabilities/(\w+)/", of_a_capability),
+    (r"packages/([\w-]+/src/\w+/\w+)(?:/|\.py$)", of_our_code),
+    (r"((?:packages/[\w-]+/)?tests/.+\.py)$", of_tests),
     (r"((?:site|glossary)/)", of_pages),
     (r"(\.ci/)", of_the_gate),
-    (r"(pyproject\.toml|constraints\.txt|roslings)$", of_pins),
+    (
+        r"(pyproject\.toml|constraints\.txt|roslings|packages/[\w-]+/(?:pyproject\.toml|entry_points\.txt))$",
+        of_pins,
+    ),
     (r"(.+\.md)$", of_texts),
 )
 """The first that fits a path decides; what it captures is given to the function."""
@@ -220,7 +238,7 @@ def choose_what_is_changed(config: pytest.Config, not_slow: str) -> None:
     if not revision:
         return
     try:
-        files = changed_files(revision, root())
+        files = changed_files(revision, ROOT)
     except NoSuchCommit as error:
         raise pytest.UsageError(f"--changed={revision}: {error}") from None
     choices, strange = choices_for(files)
@@ -236,7 +254,7 @@ def choose_what_is_changed(config: pytest.Config, not_slow: str) -> None:
 def places_of(choices: Sequence[Choice]) -> list[str]:
     """The files and folders to read, none within another."""
     places = {choice.place.partition("::")[0] for choice in choices}
-    there = sorted(place for place in places if (root() / place).exists())
+    there = sorted(place for place in places if (ROOT / place).exists())
     return [each for each in there if not any(each.startswith(f"{other}/") for other in there)]
 
 

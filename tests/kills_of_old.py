@@ -1,4 +1,5 @@
-"""Evidence of wrong packages as gradebooks of earlier schemas hold it: tests/evidence/kills.
+"""Evidence of wrong packages as gradebooks of earlier schemas hold it: `tests/evidence/kills`
+of the engine.
 
 Each lab's `kills.json` says which check failed, and which lines were changed. New kills are kept
 with the proofs (`tests/proofs`); these stay as they are, since old gradebooks do.
@@ -6,15 +7,15 @@ with the proofs (`tests/proofs`); these stay as they are, since old gradebooks d
 
 from __future__ import annotations
 
+import zlib
 from collections.abc import Iterator
 from pathlib import Path
 
 from pydantic import BaseModel, TypeAdapter
 
-from roslings.batch.grading import unpacked
-from roslings.evidence import Evidence
+from roslings.evidence import Evidence, read_json
 
-FOLDER = Path(__file__).parent / "evidence" / "kills"
+FOLDER = Path(__file__).resolve().parents[1] / "packages/roslings/tests/evidence/kills"
 LABS = sorted(folder.name for folder in FOLDER.iterdir())
 
 
@@ -37,4 +38,4 @@ def read_kills(lab: str) -> Iterator[tuple[OldKill, Evidence]]:
         (FOLDER / lab / "kills.json").read_bytes()
     )
     for kill in index:
-        yield kill, unpacked((FOLDER / lab / kill.file).read_bytes())
+        yield kill, read_json(zlib.decompress((FOLDER / lab / kill.file).read_bytes()))

@@ -10,13 +10,13 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from once import once
-from walks import Walk
-
 from roslings.course import root
-from roslings.lessons.document import read
-from roslings.lessons.path import Day
-from roslings.lessons.path import Path as DayPath
-from roslings.lessons.rules import Lesson, read_lesson
+from roslings_learn.lessons.document import read
+from roslings_learn.lessons.path import Day
+from roslings_learn.lessons.path import Path as DayPath
+from roslings_learn.lessons.rules import Lesson, read_lesson
+from sources import python_path
+from walks import Walk
 
 WALKS = os.environ.get("ROSLINGS_WALKS")
 """Where `.ci/run` keeps what `./roslings test days --nbval-lax --walks DIR` has written."""
@@ -42,7 +42,7 @@ def names(found: Sequence[Lesson]) -> list[str]:
 
 def run_lesson(lesson: Path, *words: str) -> str:
     """Run a lesson of any course, or a cell of it, under nbval; what pytest said."""
-    places = [str(root() / "src"), str(root() / "tests"), os.environ.get("PYTHONPATH", "")]
+    places = [python_path(), str(root() / "tests"), os.environ.get("PYTHONPATH", "")]
     done = subprocess.run(
         [sys.executable, "-m", "pytest", "--noconftest", "-p", "lessons_as_tests",
          "-p", "no:cacheprovider", "-n", "0", "-m", "", "--nbval-lax", *words, str(lesson)],

@@ -23,19 +23,20 @@ from typing import Any
 
 import nbformat
 import pytest
-from costs import add_costs_option, note_costs
 from nbval.kernel import RunningKernel
 from nbval.plugin import IPyNbCell, IPyNbFile, NbCellError
+
+from costs import add_costs_option, note_costs
 from needed.plugin import add_needed_option, leave_out
+from ros2_on_pip.domain_lease import leased_domain
+from roslings.course import root
+from roslings_learn.jupyter.server import KERNEL
+from roslings_learn.lessons.rules.form import COMPARED
+from roslings_learn.notebook.place import ON_THE_SITE
 from skips import hold_to_reasons
+from sources import python_path
 from subreaper import leave_nothing_behind
 from walks import Walk
-
-from roslings.arena.lease import leased_domain
-from roslings.course import root
-from roslings.jupyter.server import KERNEL
-from roslings.lessons.rules.form import COMPARED
-from roslings.notebook.place import ON_THE_SITE
 
 CELL_S = START_S = 300
 """Only a cell that hangs takes so long, and only a kernel that never starts."""
@@ -70,7 +71,7 @@ def surroundings(folder: Path, course: Path) -> dict[str, str]:
     write_kernel_into(folder / "jupyter")
     return {
         **kept, "ROS_DOMAIN_ID": str(free_domain()), "ROSLINGS_WS": str(folder / "ws"),
-        "ROSLINGS_COURSE": str(course), "PYTHONPATH": str(root() / "src"),
+        "ROSLINGS_COURSE": str(course), "PYTHONPATH": python_path(),
         "JUPYTER_PATH": str(folder / "jupyter"), "IPYTHONDIR": str(folder / "ipython"),
         "JUPYTER_CONFIG_DIR": str(folder / "config"), "JUPYTER_RUNTIME_DIR": str(folder / "run"),
     }  # fmt: skip

@@ -378,6 +378,7 @@ def time_for(what: str, variable: str) -> Need:
 # --- the table ---------------------------------------------------------------------------------
 
 MODULES = (
+    "ros_doctor",
     "axe_playwright_python", "distributed", "jsonschema", "matplotlib", "numpy", "playwright",
     "rclpy", "rosbags", "serial", "test_msgs", "tf2_msgs",
 )  # fmt: skip

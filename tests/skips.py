@@ -16,6 +16,7 @@ from collections.abc import Generator
 from typing import Any, TypeVar
 
 import pytest
+
 from machine import TABLE, lack_of
 
 PLUGIN = "skips-have-reasons"

@@ -11,8 +11,8 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-TESTS = Path(__file__).parent
-LIST = TESTS / "README.md"
+ROOT = Path(__file__).resolve().parents[1]
+LIST = ROOT / "tests/README.md"
 WHOLE = re.compile(r"^pytestmark = (?:\[\s*)?pytest\.mark\.slow\b", re.MULTILINE)
 FEW = ("few", "few_labs")
 """These mark all parameters but one."""
@@ -25,13 +25,20 @@ def is_slow_whole(file: Path) -> bool:
     return bool(WHOLE.search(file.read_text("utf-8")))
 
 
-def slow_files(tests: Path = TESTS) -> Iterator[tuple[str, str]]:
+def folders_of_tests(course: Path = ROOT) -> list[Path]:
+    """The tests of each package, and those that span packages."""
+    return [*sorted(course.glob("packages/*/tests")), course / "tests"]
+
+
+def slow_files(course: Path = ROOT) -> Iterator[tuple[str, str]]:
     """Each file with slow tests: its place, and whether `all` of them or `some` are."""
-    for file in sorted(tests.rglob("test_*.py")):
+    for file in sorted(
+        file for tests in folders_of_tests(course) for file in tests.rglob("test_*.py")
+    ):
         if is_slow_whole(file):
-            yield str(file.relative_to(tests)), "all"
+            yield str(file.relative_to(course)), "all"
         elif how_many := _how_many(ast.parse(file.read_text("utf-8"))):
-            yield str(file.relative_to(tests)), how_many
+            yield str(file.relative_to(course)), how_many
 
 
 def _how_many(module: ast.Module) -> str:

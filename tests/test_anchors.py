@@ -11,14 +11,14 @@ from pathlib import Path
 
 import pytest
 
+from ros_doctor.registry import all_checks
 from roslings.course import root
-from roslings.doctor.registry import all_checks
-from roslings.lessons import read_glossary
-from roslings.lessons.anchors import anchors_of, cells_of
+from roslings_learn.lessons import read_glossary
+from roslings_learn.lessons.anchors import anchors_of, cells_of
 
 COURSE = "example-course/course/"
 """Its days are places of their own."""
-NOT_READ = ("tests/",)
+NOT_READ = re.compile(r"(?:packages/[\w-]+/)?tests/")
 """Tests write courses of their own, and links that lead nowhere on purpose."""
 PLACE = re.compile(
     r"(?<![\w/.-])(?:days/|site/pages/)?"
@@ -37,7 +37,7 @@ def tracked() -> list[Path]:
     listed = subprocess.run(
         ["git", "ls-files", "-z"], cwd=root(), capture_output=True, text=True, check=True
     ).stdout
-    names = [name for name in listed.split("\0") if name and not name.startswith(NOT_READ)]
+    names = [name for name in listed.split("\0") if name and not NOT_READ.match(name)]
     return [root() / name for name in names if (root() / name).is_file()]
 
 
@@ -95,7 +95,7 @@ def made_anchors() -> frozenset[str]:
 FILES = [file for file in tracked() if "#" in read(file)]
 KINDS = {
     "labs/*/hints.yaml": 100, "days/*/drills/*/drill.yaml": 90, "days/*/lesson.ipynb": 200,
-    "days/*/*.md": 3, "site/pages/*/*.md": 5, "src/roslings/doctor/checks/*.py": 30,
+    "days/*/*.md": 3, "site/pages/*/*.md": 5, "packages/ros-doctor/src/ros_doctor/checks/*.py": 30,
     "glossary/*.yaml": 10, "example/labs/*/hints.yaml": 9, "README.md": 1, "CONTRIBUTING.md": 1,
     "site/pictures/verdict.json": 9, "days/*/pictures/one-letter.svg": 1, "days/*/quiz.yaml": 30,
     "example-course/course/labs/*/hints.yaml": 7,

@@ -7,7 +7,9 @@ import subprocess
 from pathlib import Path
 
 import pytest
+
 from changed import (
+    ENGINE,
     KEPT,
     OF_A_DAY,
     OF_A_LAB,
@@ -19,15 +21,15 @@ from changed import (
     choices_for,
     places_of,
 )
+from roslings.course import all_labs, root
 from slow import slow_files
 
-from roslings.course import all_labs, root
-
 ROOMS_WITHOUT = {
-    "__init__", "__main__", "errors", "exits", "installed", "keyboard", "leaving", "log_rates",
-    "platforms", "handing_in", "typed", "rtps", "stand_ins", "timeline", "checking",
+    "__init__", "__main__", "command_names", "exits", "log_rates", "platforms", "handing_in",
+    "rqt_graph", "typed", "timeline", "checking",
 }  # fmt: skip
 """Parts of the engine without a folder of tests: their changes judge the proofs and the style."""
+CODE = "packages/roslings/src/roslings"
 OF_SERVICES = ("labs/services/card.yaml", "labs/services/mutants/slow.yaml",
                "graders/grade_services.py", "tests/proofs/services.jsonl",
                "tests/proofs/services/solution.evidence")  # fmt: skip
@@ -49,7 +51,7 @@ def test_a_file_of_a_lab_chooses_the_tests_of_that_lab(file: str) -> None:
         assert chosen(file, name), name
     for name in (f"{KEPT}[topics]", "tests/labs/test_content.py::test_it[topics-no_services]",
                  "tests/days/test_days_lessons.py::test_a_rule[03-topics]",
-                 "tests/judge/test_judge.py::test_it",
+                 f"{ENGINE}/judge/test_judge.py::test_it",
                  f"{STYLE}::test_the_types_hold"):  # fmt: skip
         assert not chosen(file, name), name
 
@@ -65,10 +67,11 @@ def test_of_slow_tests_the_solution_alone_is_graded() -> None:
 def test_a_change_of_the_engine_chooses_its_room_and_all_kept_proofs() -> None:
     """Without a live run: whoever changes what judges sees the words of 600 verdicts."""
     for file, place in (
-        ("src/roslings/judge/rates.py", "tests/judge/test_rates.py::test_it"),
-        ("src/roslings/matching.py", "tests/judge/test_matching.py::test_it"),
-        ("src/roslings/commands/way.py", "tests/cli/test_door.py::test_it"),
-        ("src/roslings/capabilities/qos/faults.py", "tests/capabilities/qos/test_x.py::test_it"),
+        (f"{CODE}/judge/rates.py", f"{ENGINE}/judge/test_rates.py::test_it"),
+        (f"{CODE}/matching.py", f"{ENGINE}/judge/test_matching.py::test_it"),
+        (f"{CODE}/way.py", "tests/cli/test_door.py::test_it"),
+        (f"{CODE}/capabilities/qos/faults.py", f"{ENGINE}/capabilities/qos/test_x.py::test_it"),
+        ("packages/ros-doctor/src/ros_doctor/mends.py", "packages/ros-doctor/tests/test_x.py::t"),
     ):
         assert chosen(file, place)
         assert all(chosen(file, f"{KEPT}[{lab.name}]") for lab in all_labs())
@@ -80,19 +83,19 @@ def test_a_file_of_slow_tests_is_chosen_with_them() -> None:
     listed = subprocess.run(
         ["git", "ls-files"], cwd=root(), capture_output=True, text=True, check=True
     ).stdout.splitlines()
-    whole = {f"tests/{name}" for name, how_many in slow_files() if how_many == "all"}
-    others = [name for name in listed if not name.startswith("tests/")]
+    whole = {name for name, how_many in slow_files() if how_many == "all"}
+    others = [name for name in listed if "tests/" not in name]
     vain = {each.place for each in choices_for(others)[0] if each.place in whole and not each.live}
     assert vain == set()
 
 
 def test_each_room_has_its_tests() -> None:
     """A room whose folder of tests has another name stands in ROOMS, or has none."""
-    engine = root() / "src/roslings"
+    engine = root() / CODE
     rooms = {path.stem for path in engine.iterdir() if path.name != "__pycache__"}
     without = {
         room for room in rooms - {"capabilities"}
-        if set(places_of(choices_for([f"src/roslings/{room}/it.py"])[0]))
+        if set(places_of(choices_for([f"{CODE}/{room}/it.py"])[0]))
         == {KEPT.partition("::")[0], STYLE}
     }  # fmt: skip
     assert without == ROOMS_WITHOUT & rooms
@@ -115,7 +118,7 @@ def test_each_file_of_the_repository_has_a_rule_or_is_told() -> None:
     without = {name.split("/")[0] for name in choices_for(listed)[1]}
     assert without <= {
         ".binder", ".devcontainer", ".dockerignore", ".gitattributes", ".gitignore", ".vscode",
-        "LICENSE", "days", "example", "example-course", "graders", "labs", "setup.bash", "src",
+        "LICENSE", "days", "example", "example-course", "graders", "labs", "packages", "setup.bash",
         "tests",
     }  # fmt: skip
 

@@ -11,10 +11,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from roslings.course import root
+from sources import code_of, our_modules, python_path, sources
 
-ENGINE = root() / "src" / "roslings"
-TEACHING_ROOMS = ("doctor", "bootstrap", "ros2")
-"""They tell of /chatter as every guide does, as an example."""
+ENGINE = code_of("roslings")
 
 
 def run(*command: str) -> str:
@@ -26,8 +25,8 @@ def run(*command: str) -> str:
 
 
 def engine_files() -> list[Path]:
-    """Every Python file of the engine."""
-    return sorted(ENGINE.rglob("*.py"))
+    """Every Python file of our packages."""
+    return our_modules()
 
 
 def functions(tree: ast.AST) -> Iterator[ast.FunctionDef]:
@@ -53,7 +52,7 @@ def test_the_code_is_formatted() -> None:
 
 def test_the_types_hold() -> None:
     """mypy, strict."""
-    assert run("mypy", "src/roslings", "graders") == ""
+    assert run("mypy", *map(str, sources()), "graders") == ""
 
 
 def test_functions_are_short() -> None:
@@ -79,8 +78,7 @@ def test_the_arrows_run_one_way() -> None:
 def test_the_engine_names_no_lab() -> None:
     """What is special to a lab stands in its card and its grader."""
     words = re.compile(r"/chatter\b|Hello robotics|grade_topics|labs/topics")
-    teaching = {ENGINE / room for room in TEACHING_ROOMS}
-    files = [file for file in engine_files() if not teaching & set(file.parents)]
+    files = sorted(ENGINE.rglob("*.py"))
     named = {
         f"{file.relative_to(ENGINE)}: {code}"
         for file in files
@@ -105,8 +103,8 @@ def strings_of(tree: ast.AST) -> Iterator[str]:
 
 def test_help_needs_the_standard_library_alone() -> None:
     """`./roslings --help` runs where nothing is installed."""
-    source = "import sys; from roslings.cli import main; main(['--help'])"
-    environment = {"PYTHONPATH": str(root() / "src")}
+    source = "import sys; from roslings_launcher.cli import main; main(['--help'])"
+    environment = {"PYTHONPATH": python_path()}
     done = subprocess.run(
         [sys.executable, "-S", "-c", source], env=environment, capture_output=True, text=True,
         check=False,

@@ -12,6 +12,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+
 from needed.choice import BY_TEST, CORE, PART_FOR_THE_CORE, PART_OF_KEPT, Choice, Core
 from needed.left_out import KEPT, UNDRAWN, LeftOut, drawn, read, write
 from needed.opened import Opened, Watch, module_of

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+
 from machine import STARTED_WITH, TABLE, lack_of
 
 HERE = Path(__file__).parent

@@ -6,10 +6,10 @@ import re
 from pathlib import Path
 
 import pytest
-from few import FIRST
-from slow import LIST, ROW, TESTS, is_slow_whole, slow_files
 
+from few import FIRST
 from roslings.course import all_labs, root
+from slow import LIST, ROW, folders_of_tests, is_slow_whole, slow_files
 
 GATE = (root() / ".ci/run").read_text("utf-8")
 STAGES = set(re.findall(r'^(?:stage|trial) "([^"$]+)"', GATE, re.MULTILINE))
@@ -30,9 +30,13 @@ def test_the_list_has_each_file_with_slow_tests() -> None:
 @pytest.mark.parametrize("how_many", MARKED)
 def test_a_mark_of_each_form_is_seen(how_many: str, tmp_path: Path) -> None:
     """A file that is marked and not listed would be found."""
-    (tmp_path / "test_it.py").write_text(MARKED[how_many], "utf-8")
-    (tmp_path / "test_quick.py").write_text("def test_it():\n    'pytest.mark.slow'\n", "utf-8")
-    assert list(slow_files(tmp_path)) == [("test_it.py", how_many)]
+    for tests in ("tests", "packages/one/tests"):
+        (tmp_path / tests).mkdir(parents=True)
+        (tmp_path / tests / "test_it.py").write_text(MARKED[how_many], "utf-8")
+        quick = "def test_it():\n    'pytest.mark.slow'\n"
+        (tmp_path / tests / "test_quick.py").write_text(quick, "utf-8")
+    found = dict(slow_files(tmp_path))
+    assert found == dict.fromkeys(["packages/one/tests/test_it.py", "tests/test_it.py"], how_many)
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row["file"])
@@ -40,7 +44,7 @@ def test_each_has_its_stage(row: dict[str, str]) -> None:
     """One that there is; the tests of labs have a stage of their own."""
     stages = row["stage"].split("; ")
     assert set(stages) <= STAGES
-    assert (OF_LABS in stages) == row["file"].startswith("labs/")
+    assert (OF_LABS in stages) == row["file"].startswith("tests/labs/")
 
 
 def test_the_stages_run_slow_tests() -> None:
@@ -52,9 +56,9 @@ def test_the_stages_run_slow_tests() -> None:
 
 def test_no_room_is_left_without_a_test() -> None:
     """Who breaks a room hears it from README's command."""
-    rooms = {file.parent for file in TESTS.rglob("test_*.py")}
-    quick = {file.parent for file in TESTS.rglob("test_*.py") if not is_slow_whole(file)}
-    assert rooms == quick
+    files = [file for tests in folders_of_tests() for file in tests.rglob("test_*.py")]
+    quick = {file.parent for file in files if not is_slow_whole(file)}
+    assert {file.parent for file in files} - quick == set()
 
 
 def test_the_lab_that_stays_is_there() -> None:

@@ -14,6 +14,8 @@ from pathlib import Path
 
 import pytest
 
+from sources import python_path
+
 pytestmark = pytest.mark.slow
 
 TESTS = Path(__file__).parent
@@ -71,7 +73,7 @@ class Running:
         (folder / "test_it.py").write_text(textwrap.dedent(STARTS), "utf-8")
         plugins = ["-p", "xdist.plugin", "-p", "conftest"]
         command = [sys.executable, "-m", "pytest", "-q", *plugins, "-c", os.devnull]
-        path = os.pathsep.join([str(TESTS), str(TESTS.parent / "src")])
+        path = os.pathsep.join([str(TESTS), python_path()])
         self._folder = folder
         self.process = subprocess.Popen(
             [*command, "--rootdir", str(folder), *more, "test_it.py"], cwd=folder,

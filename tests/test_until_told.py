@@ -8,15 +8,19 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+
+from slow import folders_of_tests
 from until_told import MOST_TRIES, run_until_told, until_told
 
 HERE = Path(__file__).parent
+ROOT = HERE.parent
+LAUNCHER, CLASS = "packages/roslings-launcher/tests", "packages/roslings-class/tests"
 LOOKS_ON = {
-    "bootstrap/test_bootstrap_first_use.py": "its course is pretended, and grades nothing",
-    "cli/test_platforms.py": "what it checks is refused, or only read",
-    "bench": "it measures, and holds no verdict",
-    "export/test_export_played.py": "a platform's own script asks, once",
-    "days/test_first_page.py": "its terminal asks; the other test looks at the clock alone",
+    f"{LAUNCHER}/test_bootstrap_first_use.py": "its course is pretended, and grades nothing",
+    "tests/cli/test_platforms.py": "what it checks is refused, or only read",
+    "tests/bench": "it measures, and holds no verdict",
+    f"{CLASS}/export/test_export_played.py": "a platform's own script asks, once",
+    "tests/days/test_first_page.py": "its terminal asks; the other test looks at the clock alone",
 }
 """Files that start `check` of a lab by themselves, and why."""
 STATUS = """
@@ -68,8 +72,9 @@ def checks_a_solution(words: list[ast.expr]) -> bool:
 def test_nobody_asks_for_a_verdict_elsewhere() -> None:
     """Who types `check ... --solution` or `--json` in a test does it by until_told.py."""
     alone = []
-    for file in sorted(HERE.rglob("*.py")):
-        name, text = file.relative_to(HERE).as_posix(), file.read_text("utf-8")
+    files = (file for tests in folders_of_tests() for file in tests.rglob("*.py"))
+    for file in sorted(files):
+        name, text = file.relative_to(ROOT).as_posix(), file.read_text("utf-8")
         if file.parent == HERE or name.startswith(tuple(LOOKS_ON)) or "until_told import" in text:
             continue
         if any(map(checks_a_solution, commands(ast.parse(text)))):
@@ -79,4 +84,4 @@ def test_nobody_asks_for_a_verdict_elsewhere() -> None:
 
 def test_what_looks_on_is_there() -> None:
     """A file that went leaves the table."""
-    assert [name for name in LOOKS_ON if not (HERE / name).exists()] == []
+    assert [name for name in LOOKS_ON if not (ROOT / name).exists()] == []

@@ -15,6 +15,7 @@ import yaml
 from pydantic import BaseModel, ConfigDict
 
 from roslings.course import root
+from sources import python_path
 
 FAILED, CANNOT_BE_READ = 1, 2
 """What pytest ends with; 5 would say that no quick test was chosen."""
@@ -44,7 +45,7 @@ EDITS = [
 def test_there_are_ten_in_labs_graders_and_the_engine() -> None:
     """Each fits its file, once; all but two are found without a live run."""
     places = [each.file.partition("/")[0] for each in EDITS]
-    assert [places.count(place) for place in ("labs", "graders", "src")] == [4, 3, 3]
+    assert [places.count(place) for place in ("labs", "graders", "packages")] == [4, 3, 3]
     assert sum(each.live for each in EDITS) == 2
     for each in EDITS:
         assert (root() / each.file).read_text("utf-8").count(each.find) == 1, each.edit
@@ -81,7 +82,7 @@ def quick_tests(each: WrongEdit, clone: Path) -> tuple[int, str]:
     """How the test ends among the quick ones of that copy, and what is told."""
     words = ["-n", "0", "-p", "no:cacheprovider", each.found_by, *(["-k", each.of] * bool(each.of))]
     kept = {key: value for key, value in os.environ.items() if not key.startswith("PYTEST_")}
-    own = {"PYTHONPATH": str(clone / "src"), "ROSLINGS_COURSE": str(clone)}
+    own = {"PYTHONPATH": python_path(clone), "ROSLINGS_COURSE": str(clone)}
     done = subprocess.run(
         [sys.executable, "-m", "pytest", *words], cwd=clone, env={**kept, **own},
         capture_output=True, text=True, check=False,

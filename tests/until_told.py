@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
 
-from roslings.errors import INCONCLUSIVE
+from ros2_on_pip.errors import INCONCLUSIVE
 
 MOST_TRIES = 3
 OPEN = "Not everything could be told"

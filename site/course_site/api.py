@@ -7,14 +7,13 @@ import inspect
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from importlib.util import find_spec
 from pathlib import Path
 
 from sphinx.application import Sphinx
 
-import roslings
 from course_site.course import MarkdownDirective
 
-ENGINE = Path(roslings.__file__).parent
 Definition = ast.FunctionDef | ast.ClassDef
 
 
@@ -28,7 +27,7 @@ class Room:
 
 
 class EngineApi(MarkdownDirective):
-    """`{engine-api} evidence verdict ...`: what each room offers."""
+    """`{engine-api} roslings.evidence ...`: what each room offers."""
 
     required_arguments = 1
     final_argument_whitespace = True
@@ -40,15 +39,21 @@ class EngineApi(MarkdownDirective):
 
 def room(name: str) -> Room:
     """Read a room: a module, or a package that says by `__all__` what is public."""
-    module = ENGINE / f"{name}.py"
-    files = [module] if module.is_file() else sorted((ENGINE / name).glob("*.py"))
+    first = _place_of(name)
+    files = sorted(first.parent.glob("*.py")) if first.stem == "__init__" else [first]
     trees = [ast.parse(file.read_text("utf-8")) for file in files]
     public = {each for tree in trees for each in _all_of(tree)}
-    first = module if module.is_file() else ENGINE / name / "__init__.py"
     about = ast.get_docstring(ast.parse(first.read_text("utf-8"))) or ""
     found = {each.name: each for tree in trees for each in _definitions(tree)}
     chosen = [each for key, each in sorted(found.items()) if key in public or _open(key, public)]
     return Room(name, about, tuple(chosen))
+
+
+def _place_of(name: str) -> Path:
+    """The file of a module; of a package its `__init__`."""
+    found = find_spec(name)
+    assert found and found.origin, name
+    return Path(found.origin)
 
 
 def _open(name: str, public: set[str]) -> bool:
@@ -70,7 +75,7 @@ def _definitions(tree: ast.AST) -> Iterator[Definition]:
 
 
 def _room(room: Room) -> str:
-    parts = [f"## `roslings.{room.name}`", _prose(room.about)]
+    parts = [f"## `{room.name}`", _prose(room.about)]
     return "\n\n".join([*parts, *(_definition(each) for each in room.definitions)])
 
 

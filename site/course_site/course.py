@@ -13,8 +13,8 @@ from sphinx.config import Config
 from sphinx.util.docutils import SphinxDirective
 
 import roslings
-from roslings.lessons import Lessons, read_lessons
-from roslings.lessons.glossary import LINK
+from roslings_learn.lessons import Lessons, read_lessons
+from roslings_learn.lessons.glossary import LINK
 
 WATCHED = ("days/path.yaml", "days/*/quiz.yaml", "glossary/*.yaml", "labs/*/card.yaml")
 

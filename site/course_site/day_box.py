@@ -9,7 +9,7 @@ from sphinx.application import Sphinx
 
 from course_site.course import html, lessons_of
 from course_site.path_of_days import day_attributes, labs_of
-from roslings.lessons import Day
+from roslings_learn.lessons import Day
 
 
 def add_box(app: Sphinx, document: nodes.document, page: str) -> None:

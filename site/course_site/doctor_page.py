@@ -18,9 +18,9 @@ from typing import Any
 from sphinx.application import Sphinx
 
 from course_site.course import MarkdownDirective
-from roslings.doctor.finding import Step
-from roslings.doctor.pages import FOLDER, page_of
-from roslings.doctor.registry import Check, all_checks
+from ros_doctor.finding import Step
+from ros_doctor.pages import FOLDER, page_of
+from ros_doctor.registry import Check, all_checks
 
 WORDS_OF_A_STEP = ("do", "say")
 DEEPEST = 3
@@ -100,7 +100,7 @@ def steps_of(function: Callable[..., Any], depth: int = DEEPEST) -> Iterator[Ste
 
 
 def _steps_behind(called: Any, depth: int) -> Iterator[Step]:
-    ours = inspect.isfunction(called) and called.__module__.startswith("roslings.doctor")
+    ours = inspect.isfunction(called) and called.__module__.startswith("ros_doctor")
     if ours and depth:
         yield from steps_of(called, depth - 1)
 

@@ -13,11 +13,11 @@ import re
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from roslings import ros2
+import ros2_on_pip
 from roslings.course import all_labs
-from roslings.lessons import Day, read_lessons
+from roslings_learn.lessons import Day, read_lessons
 
-COMMANDS = Path(ros2.__file__).with_name("COMMANDS.md")
+COMMANDS = Path(ros2_on_pip.__file__).with_name("COMMANDS.md")
 NOT_A_PAGE = ("quiz.yaml", "lesson.ipynb")
 DRILLS = "drills"
 IMPORTS = "imports"

@@ -9,7 +9,7 @@ from docutils import nodes
 from sphinx.application import Sphinx
 
 from course_site.course import MarkdownDirective, html, lessons_of
-from roslings.lessons import Category, Glossary, Term
+from roslings_learn.lessons import Category, Glossary, Term
 
 
 class AllWords(MarkdownDirective):

@@ -14,7 +14,7 @@ from sphinx.util.docutils import SphinxDirective
 from course_site.course import MarkdownDirective, html, lessons_of
 from roslings.course import Lab, all_labs
 from roslings.course.card import NodeContract
-from roslings.lessons import Day, Quiz, Term
+from roslings_learn.lessons import Day, Quiz, Term
 
 
 class PathOfDays(SphinxDirective):

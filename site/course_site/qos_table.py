@@ -14,7 +14,7 @@ from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
 from course_site.course import MarkdownDirective, html
-from roslings.lessons.qos import RULES, Choice, Rule
+from roslings_learn.lessons.qos import RULES, Choice, Rule
 
 PAGE = "reference/qos"
 SIDES = {"offered": "the publisher offers", "asked": "the subscription asks for"}

@@ -16,7 +16,7 @@ from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
 from course_site.course import html, inline_html, lessons_of
-from roslings.lessons import Lessons, One, Order, Prints, Question, Quiz, Several
+from roslings_learn.lessons import Lessons, One, Order, Prints, Question, Quiz, Several
 
 Values = dict[str, Any]
 

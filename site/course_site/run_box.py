@@ -8,7 +8,7 @@ from docutils import nodes
 from sphinx.application import Sphinx
 
 from course_site.course import html, lessons_of
-from roslings.lessons import Day
+from roslings_learn.lessons import Day
 
 SENTENCE_ENDS = re.compile(r"(?<=\.)")
 PRESS = re.compile(r"\b(?:press|hold)\b")

@@ -27,7 +27,7 @@ from sphinx.util import logging
 from sphinx.util.docutils import SphinxRole
 
 from course_site.course import html, inline_html, lessons_of
-from roslings.lessons import Glossary, Term
+from roslings_learn.lessons import Glossary, Term
 
 log = logging.getLogger(__name__)
 

@@ -11,8 +11,8 @@ from collections import Counter
 from pathlib import Path
 from typing import Any
 
-from roslings.drills.course import all_drills
 from roslings.workspace.progress import read_progress
+from roslings_learn.drills.course import all_drills
 
 SCRIPT = "_static/progress.js"
 

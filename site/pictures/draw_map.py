@@ -8,9 +8,9 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from roslings.devices.rover.moving_map import moving_map
-from roslings.devices.rover.rover import Moment, Rover
-from roslings.models.differential_drive import Motion
+from roslings_rover.models.differential_drive import Motion
+from roslings_rover.rover.moving_map import moving_map
+from roslings_rover.rover.rover import Moment, Rover
 
 DRIVE = ((Motion(0.5, 0.0), 2.0), (Motion(0.4, 0.6), 1.8), (Motion(0.5, 0.0), 1.2))
 """Each motion, and for how many seconds."""

@@ -16,13 +16,13 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
+from ros2_on_pip.rates import measure_rate
 from roslings.capabilities.actions.record import ActionsSeen, cancelled_after_s, stopped_after_s
 from roslings.capabilities.robot.record import RobotSeen
 from roslings.checking import ready
 from roslings.course import Lab, lab, root
 from roslings.evidence import ExperimentSeen
 from roslings.experiment import Choices, measure
-from roslings.rates import measure_rate
 from roslings.workspace.inspect import inspect_package
 
 GRADER = Path(__file__).with_name("grade_cancels.py")

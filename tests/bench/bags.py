@@ -21,12 +21,13 @@ from pathlib import Path
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, Reader, StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 
-from roslings.arena.lease import leased_domain
-from roslings.rosbag2.metadata import Topic
-from roslings.rosbag2.reading import opened, read_metadata
-from roslings.rosbag2.writing import BagWriter, Compression, Plan
+from ros2_on_pip.domain_lease import leased_domain
+from ros2_on_pip.rosbag2.metadata import Topic
+from ros2_on_pip.rosbag2.reading import opened, read_metadata
+from ros2_on_pip.rosbag2.writing import BagWriter, Compression, Plan
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "ros2"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "packages/ros2-on-pip/tests"))
 
 from terminal import Shell, surroundings
 

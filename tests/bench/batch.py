@@ -34,16 +34,16 @@ from statistics import mean
 from roslings import course
 from roslings.arena import base_environment
 from roslings.arena.kernel import cores
-from roslings.batch.capacity import Capacity
-from roslings.batch.gradebook import Gradebook, gradebook
-from roslings.batch.grading import unpacked
-from roslings.batch.result import Result
-from roslings.batch.scheduler import GradingRequest, Scheduler, Standing
-from roslings.batch.submissions import find_submissions
 from roslings.course.soak import soak_seconds
 from roslings.evidence import SoakSeen
 from roslings.experiment.run_folder import LOCK, run_folder
 from roslings.workspace.build import colcon
+from roslings_class.capacity import Capacity
+from roslings_class.gradebook import Gradebook, gradebook
+from roslings_class.grading import unpacked
+from roslings_class.result import Result
+from roslings_class.scheduler import GradingRequest, Scheduler, Standing
+from roslings_class.submissions import find_submissions
 
 LOOK_EVERY_S = 5.0
 ALIKE = 10

@@ -19,8 +19,8 @@ import numpy as np
 
 from roslings.capabilities.camera.pixels import FilmLooker, MarkLooker
 from roslings.course import lab
-from roslings.devices.camera import Light, SyntheticCamera
-from roslings.devices.rover import Disc
+from roslings_rover.camera import Light, SyntheticCamera
+from roslings_rover.rover import Disc
 
 sys.path.insert(0, str(lab("pi-camera").solution))
 from pi_camera.ball_finder import find_ball, picture_of  # type: ignore[import-not-found]

@@ -19,7 +19,7 @@ from batch import hand_in
 from distributed import LocalCluster
 
 from roslings import course
-from roslings.batch.command import Choices, grade
+from roslings_class.command import Choices, grade
 
 WORKERS = 2
 

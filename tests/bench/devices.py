@@ -15,10 +15,10 @@ from contextlib import contextmanager
 import serial
 
 from roslings.course import root
-from roslings.devices.board import Board, Chip, Drive, LineReader, Mega, Speeds
-from roslings.devices.camera import SyntheticCamera
-from roslings.devices.emulated import EmulatedMega, built, missing
-from roslings.devices.rover import Rover
+from roslings_rover.board import Board, Chip, Drive, LineReader, Mega, Speeds
+from roslings_rover.camera import SyntheticCamera
+from roslings_rover.emulated import EmulatedMega, built, missing
+from roslings_rover.rover import Rover
 
 SKETCH = root() / "labs" / "serial-bridge" / "firmware" / "rover_mega" / "rover_mega.ino"
 COMMANDS = 300

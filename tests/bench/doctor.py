@@ -19,7 +19,7 @@ import tempfile
 import time
 from pathlib import Path
 
-SOURCE = Path(__file__).resolve().parents[2] / "src"
+SOURCE = Path(__file__).resolve().parents[2] / "packages/ros-doctor/src"
 RUNS = 7
 ROWS = 30
 
@@ -28,7 +28,7 @@ def run(python: str, *flags: str, **env: str) -> tuple[float, str]:
     """Return the seconds that one whole run takes, and what it printed."""
     start = time.monotonic()
     done = subprocess.run(
-        [python, *flags, "-m", "roslings.doctor", "--json"],
+        [python, *flags, "-m", "ros_doctor", "--json"],
         env={"PATH": os.environ["PATH"], "HOME": "/nonexistent", **env},
         cwd=os.sep,
         capture_output=True,
@@ -61,7 +61,7 @@ def show_checks(output: str) -> None:
 def show_cover() -> None:
     """Print how many of the known troubles of beginners have a check."""
     sys.path.insert(0, str(SOURCE))
-    from roslings.doctor.registry import all_checks
+    from ros_doctor.registry import all_checks
 
     checks = all_checks()
     rows = {row for check in checks for row in check.rows}
@@ -73,7 +73,7 @@ def main() -> None:
     with_ros = sys.argv[1] if len(sys.argv) > 1 else sys.executable
     bare = getattr(sys, "_base_executable", sys.executable)
     with tempfile.TemporaryDirectory() as folder:
-        copy = Path(folder) / "course" / "src"
+        copy = Path(folder) / "src"
         shutil.copytree(SOURCE, copy)
         show("bare Python, no ROS", copy, bare, "-S")
     output = show("with this environment", SOURCE, with_ros)

@@ -14,9 +14,9 @@ import sys
 import time
 from collections.abc import Sequence
 
-from roslings.drills import Drill, all_drills
-from roslings.drills.course import of_day
-from roslings.drills.running import check, load
+from roslings_learn.drills import Drill, all_drills
+from roslings_learn.drills.course import of_day
+from roslings_learn.drills.running import check, load
 
 BARE = "import rclpy; rclpy.init(); rclpy.create_node('bare'); print('ready', flush=True)"
 

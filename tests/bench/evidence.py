@@ -1,6 +1,6 @@
 """How large the evidence of each lab's solution is, and what it costs to write and to read it.
 
-    .venv/bin/python tests/bench/evidence.py                  the kept evidence of tests/evidence
+    .venv/bin/python tests/bench/evidence.py                 the kept evidence in its tests
     .venv/bin/python tests/bench/evidence.py kept/evidence.json ...   evidence of `check --evidence`
 
 Lists of objects, packed by zlib as gradebooks once were, beside columns, packed by xz as they are.
@@ -17,11 +17,11 @@ import zlib
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from roslings.authoring.anonymous import for_judging, without_machine
-from roslings.batch.grading import QUICKLY, THOROUGHLY, packed
 from roslings.evidence import Evidence, evidence_json, read_json, thin_json
+from roslings_class.grading import QUICKLY, THOROUGHLY, packed
+from roslings_prove.anonymous import for_judging, without_machine
 
-KEPT = Path(__file__).parents[1] / "evidence" / "schema1"
+KEPT = Path(__file__).parents[2] / "packages/roslings/tests/evidence/schema1"
 TRIES = 9
 COLUMNS = (
     "lab", "JSON, kB: lists", "columns", "packed, kB: lists, zlib", "columns, xz",

@@ -16,9 +16,10 @@ import tempfile
 import time
 from pathlib import Path
 
-from roslings.arena.lease import leased_domain
+from ros2_on_pip.domain_lease import leased_domain
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "ros2"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "packages/ros2-on-pip/tests"))
 
 from launch_shop import package, written
 from terminal import Shell, surroundings

@@ -21,6 +21,7 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
+from ros2_on_pip.rates import measure_rate
 from roslings.arena import Arena, Place, Wall, choose_isolation, opened, ros_environment
 from roslings.course import NodeContract
 from roslings.evidence import ExperimentSeen
@@ -28,9 +29,9 @@ from roslings.experiment import Scene
 from roslings.experiment.simulated import followed_clock
 from roslings.grader import Clock
 from roslings.probe import Probe
-from roslings.rates import measure_rate
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "experiment"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "packages/roslings/tests/experiment"))
 
 from test_clocks import answer
 from watching import HERE as SCRIPTS

@@ -30,15 +30,13 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from hypothesis import HealthCheck, Phase, Verbosity, given, settings, target
 from hypothesis import strategies as st
-from written_png import head_of, png_of
 
+from ros2_on_pip.errors import RoslingsError
 from roslings.arena.bounds import MB
-from roslings.batch.errors import Refused
-from roslings.batch.fingerprints import fingerprint
-from roslings.batch.unpack import package_in
 from roslings.capabilities.bags import diagnosis
 from roslings.course import PictureContract, lab
-from roslings.errors import RoslingsError
+from roslings.hand_in.errors import Refused
+from roslings.hand_in.unpack import package_in
 from roslings.workspace import bounded, code, documents
 from roslings.workspace.bounded import Bookmark, ReaderEnded, read_in_child
 from roslings.workspace.colcon_settings import said_in_child
@@ -47,6 +45,8 @@ from roslings.workspace.manifest import read_manifest
 from roslings.workspace.normal import digest_of_file
 from roslings.workspace.packages import LARGEST_BYTES, insist_on_small_files
 from roslings.workspace.pictures import look_at
+from roslings_class.fingerprints import fingerprint
+from written_png import head_of, png_of
 
 SOLUTION = lab("topics").solution
 EXAMPLES = 300

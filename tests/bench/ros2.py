@@ -21,10 +21,11 @@ from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
+from ros2_on_pip.domain_lease import leased_domain
 from roslings.arena import QUICK_DISCOVERY
-from roslings.arena.lease import leased_domain
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "ros2"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "packages/ros2-on-pip/tests"))
 
 from terminal import Ran, Shell, surroundings
 
@@ -38,7 +39,7 @@ SOURCED = {"FASTRTPS_DEFAULT_PROFILES_FILE": str(QUICK_DISCOVERY)}
 
 PLAIN = (
     "import sys; sys.argv[1:] = ['--ros-args', '-r', '__node:=' + sys.argv[1]];"
-    "from roslings.ros2.demo_nodes_py.talker import main; main()"
+    "from ros2_on_pip.demo_nodes_py.talker import main; main()"
 )
 
 

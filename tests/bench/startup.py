@@ -21,7 +21,11 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 PYTHON = str(ROOT / ".venv/bin/python")
 SCRIPT = str(ROOT / "roslings")
-START = [PYTHON, str(ROOT / "src/roslings/bootstrap/start.py"), "--version"]
+START = [
+    PYTHON,
+    str(ROOT / "packages/roslings-launcher/src/roslings_launcher/start.py"),
+    "--version",
+]
 COMMANDS = {
     "python -c pass": [PYTHON, "-c", "pass"],
     "start.py --version": START,

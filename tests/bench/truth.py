@@ -37,15 +37,15 @@ from pathlib import Path
 from typing import Literal
 
 from roslings.arena.kernel import cores
-from roslings.authoring.prove import Package, Solution, graded, packages_of, proof_of
-from roslings.batch.gradebook import FILE, gradebook
-from roslings.batch.result import Result
-from roslings.batch.scheduler import Standing
-from roslings.batch.version import engine_in, version_of
 from roslings.course import Lab, all_labs
 from roslings.course.labs import MUTANTS
 from roslings.experiment.run_folder import run_folder
 from roslings.grader import Clock
+from roslings_class.gradebook import FILE, gradebook
+from roslings_class.result import Result
+from roslings_class.scheduler import Standing
+from roslings_class.version import engine_in, version_of
+from roslings_prove.prove import Package, Solution, graded, packages_of, proof_of
 
 SEED = 19
 CHUNK = 48
@@ -246,8 +246,8 @@ def tries_in(book: Path) -> dict[str, list[Result]]:
 
 def keep_evidence(folder: Path, book: Path, rows: Iterable[Row]) -> None:
     """Of the last try of each grading that was not right at once."""
-    from roslings.batch.grading import unpacked
     from roslings.evidence import evidence_json
+    from roslings_class.grading import unpacked
 
     with gradebook(book, "labs") as results:
         latest = results.latest()

@@ -19,10 +19,9 @@ from datetime import datetime, timezone
 from pathlib import Path
 
 from drills import bare_s, percentile
-
 from roslings.course import all_labs, root
-from roslings.drills import Drill, all_drills
 from roslings.workspace.progress_file import DrillProgress, LabProgress, Progress, as_json
+from roslings_learn.drills import Drill, all_drills
 
 sys.path.append(str(root() / "tests" / "cli"))
 from watch_terminal import Watched, watching

@@ -11,13 +11,13 @@ from pathlib import Path
 import pytest
 from compiled import uncompiled
 from course_copy import CourseCopy
-from skips import skip_without
 from test_bootstrap_refusals import in_namespace
 
 from roslings import course as real_course
 from roslings.arena import base_environment
-from roslings.bootstrap.virtual import Virtual
 from roslings.workspace.build import colcon
+from roslings_launcher.virtual import Virtual
+from skips import skip_without
 
 
 def test_a_fresh_environment_is_compiled(standing: CourseCopy) -> None:

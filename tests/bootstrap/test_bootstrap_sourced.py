@@ -16,13 +16,13 @@ import pytest
 from compiled import uncompiled
 from course_copy import REAL, CourseCopy, Outcome, plain_environment
 from pythons_here import BASE
+
+from ros2_on_pip.errors import INCONCLUSIVE
+from roslings_launcher.interfaces import packages_of
+from roslings_launcher.packages import installed
+from roslings_launcher.virtual import Virtual
 from skips import skip_without
 from until_told import until_told
-
-from roslings.bootstrap.interfaces import packages_of
-from roslings.bootstrap.packages import installed
-from roslings.bootstrap.virtual import Virtual
-from roslings.errors import INCONCLUSIVE
 
 pytestmark = pytest.mark.slow
 

@@ -13,13 +13,13 @@ from pathlib import Path
 
 import pytest
 
+from ros2_on_pip.domain_lease import leased_domain
 from roslings import course
-from roslings.arena.lease import leased_domain
-from roslings.cli import parser
-from roslings.drills import all_drills
 from roslings.typed import as_typed, program
+from roslings_launcher.cli import parser
+from roslings_learn.drills import all_drills
 
-TALKER = "from roslings.ros2.demo_nodes_py.talker import main; main()"
+TALKER = "from ros2_on_pip.demo_nodes_py.talker import main; main()"
 
 
 @pytest.mark.parametrize(

@@ -16,11 +16,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+
+from ros2_on_pip.errors import INCONCLUSIVE
+from roslings.course import Edit, Lab, Mutant, lab
 from skips import skip_without
 from until_told import Checked, checked, run_until_told, until_told
-
-from roslings.course import Edit, Lab, Mutant, lab
-from roslings.errors import INCONCLUSIVE
 
 TOPICS = lab("topics")
 LONG_S = 120.0

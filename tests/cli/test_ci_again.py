@@ -8,9 +8,9 @@ import sys
 from pathlib import Path
 
 import pytest
-from costs import without_group
 from test_unsteady import read
 
+from costs import without_group
 from roslings.course import root
 
 pytestmark = pytest.mark.slow

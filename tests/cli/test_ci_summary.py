@@ -14,11 +14,11 @@ from tempfile import TemporaryDirectory
 from types import ModuleType
 
 import pytest
+
 from needed.left_out import KEPT as KEPT_BY_NEEDS
 from needed.left_out import UNDRAWN
-
-from roslings.authoring.proofs.kept import kept_here
 from roslings.course import all_labs, root
+from roslings_prove.proofs.kept import kept_here
 
 pytestmark = pytest.mark.slow
 
@@ -30,7 +30,9 @@ KEPT_ONES = {
     for name in kept_here().lines(lab)
     if name.startswith("mutant ")
 }
-KEPT = "tests/authoring/test_authoring_proofs.py::test_what_is_kept_shows_what_it_must"
+KEPT = (
+    "packages/roslings-prove/tests/test_authoring_proofs.py::test_what_is_kept_shows_what_it_must"
+)
 FILES = ("stages", "costs", "due")
 ROGUES = "tests/rogues/test_rogues.py::test_a_rogue_is_contained"
 

@@ -10,15 +10,14 @@ from pathlib import Path
 
 import pytest
 
+from ros2_on_pip.problem import Problem
 from roslings import course
-from roslings.cli import main
-from roslings.errors import exit_code_of
-from roslings.ros2.problem import Problem
 from roslings.verdict import CheckResult, Environment, Timings, Verdict
 from roslings.workspace.errors import CannotRead, NoWorkspace
+from roslings_launcher.cli import exit_code_of, main
 
 ENGINE = (
-    "roslings.arena", "roslings.batch", "roslings.evidence", "roslings.experiment",
+    "roslings.arena", "roslings_class", "roslings.evidence", "roslings.experiment",
     "roslings.judge", "roslings.probe", "roslings.saving", "rclpy", "pytest", "numpy", "matplotlib",
 )  # fmt: skip
 """What measures and judges."""
@@ -27,7 +26,7 @@ SEES = """
 import atexit, json, sys
 told = open(sys.argv.pop(1), "w")
 atexit.register(lambda: json.dump(sorted(sys.modules), told))
-from roslings.cli import main
+from roslings_launcher.cli import main
 sys.exit(main(sys.argv[1:]))
 """
 

@@ -11,11 +11,12 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from until_told import run_until_told
 
-from roslings import cli, course
-from roslings.bootstrap.paths import MAY_BE_A_WORD, PATH_VARIABLES, absolute_variables
-from roslings.cli.door import absolute_paths
+from roslings import course
+from roslings_launcher import cli
+from roslings_launcher.cli.door import absolute_paths
+from roslings_launcher.paths import MAY_BE_A_WORD, PATH_VARIABLES, absolute_variables
+from until_told import run_until_told
 
 PLACES = re.compile(r"FILE|DIR|FOLDER|PATH|DEVICE")
 """What the help calls an option that takes a path."""
@@ -98,7 +99,11 @@ def test_a_home_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
 def variables() -> set[str]:
     """Each variable of ours that the engine, its scripts or its templates read."""
     root = course.root()
-    files = [root / "roslings", root / "setup.bash", *(root / "src/roslings").rglob("*")]
+    files = [
+        root / "roslings",
+        root / "setup.bash",
+        *root.glob("packages/*/src/**/*"),
+    ]
     texts = (path.read_text("utf-8", "replace") for path in files
              if path.is_file() and path.suffix not in (".pyc", ".png"))  # fmt: skip
     return {name for text in texts for name in re.findall(r"ROSLINGS_[A-Z_]+[A-Z]", text)}

@@ -17,12 +17,12 @@ from typing import Any
 import pytest
 from rosbags.rosbag2 import Reader
 from rosbags.typesys import Stores, get_typestore
-from until_told import checked
 
 from roslings import course
 from roslings.course import Edit, Mutant, lab
 from roslings.evidence import evidence_json, read_json
 from roslings.probe.bag import LEFT_OUT, MOST_BYTES
+from until_told import checked
 
 TOPICS = lab("topics")
 TYPES = get_typestore(Stores.ROS2_JAZZY)

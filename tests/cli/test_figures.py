@@ -17,8 +17,8 @@ from pathlib import Path
 
 import pytest
 
-from roslings.cli import parser
 from roslings.course import all_labs, root
+from roslings_launcher.cli import parser
 
 BENCH = root() / "tests" / "bench"
 TABLE = BENCH / "README.md"

@@ -9,11 +9,11 @@ import sys
 from pathlib import Path
 
 import pytest
-from skips import needs
 
-from roslings.cli import main, parser
 from roslings.commands.holding import is_strangers, told_of_no_wall
 from roslings.course import lab
+from roslings_launcher.cli import main, parser
+from skips import needs
 
 READS = """
 import sys

@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from roslings.cli import main, parser
 from roslings.course import lab
 from roslings.platforms import for_others
 from roslings.shapes import SHAPES
+from roslings_launcher.cli import main, parser
 
 
 def refused(package: Path, tmp_path: Path) -> tuple[int, dict[str, str]]:

@@ -6,12 +6,12 @@ from importlib.metadata import entry_points
 
 import pytest
 
-from roslings.commands.upkeep import plugins_without_use
+from roslings.commands.test import plugins_without_use
 
 INSTALLED = {each.name for each in entry_points(group="pytest11")}
 
 
-@pytest.mark.parametrize("rest", [[], ["tests/judge", "-n", "0"], ["-m", "slow"]])
+@pytest.mark.parametrize("rest", [[], ["packages/roslings/tests/judge", "-n", "0"], ["-m", "slow"]])
 def test_what_no_test_asks_for_is_not_loaded(rest: list[str]) -> None:
     """Each loads in every process; a name that is not installed would leave nothing out."""
     left_out = set(plugins_without_use(rest))

@@ -10,7 +10,7 @@ import pytest
 ASKS = """
 import sys
 from pathlib import Path
-import roslings.cli as cli
+import roslings_launcher.cli as cli
 def command(options):
     print(Path("/proc/self/cmdline").read_bytes().replace(b"\\0", b" ").decode())
     print(options.hidden.name, sys.argv[-1])

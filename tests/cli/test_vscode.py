@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
-from roslings.cli import parser
 from roslings.course import all_labs, root
+from roslings_launcher.cli import parser
 
 TASKS: dict[str, Any] = json.loads((root() / ".vscode" / "tasks.json").read_text("utf-8"))
 

@@ -13,9 +13,9 @@ from functools import partial
 from pathlib import Path
 
 import pytest
-from until_told import OPEN, until_told
 
 from roslings.course import lab
+from until_told import OPEN, until_told
 
 pytestmark = pytest.mark.slow
 

@@ -10,16 +10,16 @@ from pathlib import Path
 import pytest
 from watch_terminal import Watched, watching
 
-from roslings.cli import parser
-from roslings.commands.watch.drill import begun as drill_begun
-from roslings.commands.watch.keyboard import Keyboard
-from roslings.commands.watch.lab import begun
-from roslings.commands.watch.session import tell
+from ros2_on_pip.errors import RoslingsError
 from roslings.course import lab
-from roslings.drills import drill
-from roslings.errors import RoslingsError
 from roslings.workspace.inspect import inspect_package
 from roslings.workspace.student import package_of, stage
+from roslings_launcher.cli import parser
+from roslings_learn.commands.watch.drill import begun as drill_begun
+from roslings_learn.commands.watch.keyboard import Keyboard
+from roslings_learn.commands.watch.lab import begun
+from roslings_learn.commands.watch.session import tell
+from roslings_learn.drills import drill
 
 CHILD = drill("child")
 """Its starter has a verdict before anything is run."""

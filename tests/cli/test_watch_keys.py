@@ -10,9 +10,9 @@ from pathlib import Path
 import pytest
 from watch_terminal import watching
 
-from roslings.commands.editing import Place, editor_for, first_to_do
 from roslings.course import all_labs, lab, root
-from roslings.drills import all_drills
+from roslings_learn.commands.watch.editing import Place, editor_for, first_to_do
+from roslings_learn.drills import all_drills
 
 EDITOR = """#!/bin/sh
 echo "# edited" >> "$1"

@@ -12,11 +12,11 @@ from pathlib import Path
 
 import pytest
 from images import GROUPS, Builder, dev_container
+
+from roslings.course import root
+from roslings_class.release import is_for_students
 from skips import needs
 from until_told import is_open, until_told
-
-from roslings.authoring.release import is_for_students
-from roslings.course import root
 
 pytestmark = [
     pytest.mark.slow,

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import os
 import re
+import shutil
 import subprocess
 from pathlib import Path
 
 import pytest
 from images import CONTAINERFILE, DEVCONTAINER, dev_container
 
-from roslings.authoring.release import is_for_students
 from roslings.course import root
+from roslings_class.release import is_for_students, rewrite_texts
 
 IGNORE = root() / ".dockerignore"
 NOT_IN_THE_IMAGE = {"tests", "site", "setup.bash", "build", "example-course"}
@@ -96,8 +97,25 @@ def test_the_image_holds_what_release_leaves_in() -> None:
     assert [name for name in kept if "/solution" in name and not stays_out(name)]  # the example's
 
 
+def test_its_texts_are_those_that_release_writes(tmp_path: Path) -> None:
+    """The edition's own program is not in the image: what the Containerfile does is the same."""
+    (command,) = re.findall(r"find README\.md .*? \+", " ".join(lines()))
+    for way in ("image", "release"):
+        for name in filter(is_for_students, filter(copied, tracked())):
+            (tmp_path / way / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(root() / name, tmp_path / way / name)
+    subprocess.run(["sh", "-c", command], cwd=tmp_path / "image", check=True)
+    rewrite_texts(tmp_path / "release")
+    done = subprocess.run(["diff", "-r", "image", "release"], cwd=tmp_path, capture_output=True,
+                          text=True, check=False)  # fmt: skip
+    assert done.stdout == ""
+    as_it_is = (root() / "README.md").read_text("utf-8")
+    assert (tmp_path / "image/README.md").read_text("utf-8") != as_it_is
+
+
 MADE = (
-    ".venv/bin/python", ".venv-apt/x", ".git/config", "src/roslings/__pycache__/a.pyc",
+    ".venv/bin/python", ".venv-apt/x", ".git/config",
+    "packages/roslings/src/roslings/__pycache__/a.pyc",
     "build/site/index.html", "topics.zip", "labs/topics/interfaces/__pycache__/a.pyc",
     ".mypy_cache/x", "tests/labs/test_labs.py", "days/02-nodes/.ipynb_checkpoints/a",
 )  # fmt: skip

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from tiny_course import read_tiny, write_course
 
-from roslings.lessons.rules import Lesson
+from roslings_learn.lessons.rules import Lesson
 
 
 @pytest.fixture

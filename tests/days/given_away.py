@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from roslings.course import Lab
-from roslings.lessons.rules import Lesson
+from roslings_learn.lessons.rules import Lesson
 
 KEPT = (ast.Import, ast.ImportFrom, ast.ClassDef, ast.FunctionDef, ast.Assign, ast.AnnAssign)
 MAIN = """

@@ -12,10 +12,10 @@ from contextlib import ExitStack
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from lesson_runs import lessons
 from terminals import Terminal, opened
 
-from roslings.lessons.rules import Lesson
+from lesson_runs import lessons
+from roslings_learn.lessons.rules import Lesson
 
 BLOCK = re.compile(r"^```bash\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 PLACED = re.compile(r"Terminal (\d), in [^:\n]+:(?:\n\n|$)" + BLOCK.pattern[1:], re.M | re.DOTALL)

@@ -16,9 +16,8 @@ from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
-from until_told import OPEN, until_told
-
 from roslings.course import root
+from until_told import OPEN, until_told
 
 PATIENCE_S = 240.0
 """Only a page that does not hold its promise waits so long; a first use downloads ROS."""

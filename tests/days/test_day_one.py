@@ -11,7 +11,7 @@ import pytest
 from student import BLOCK, Student, lesson_of, placed, text_of
 from terminals import Terminal, until
 
-from roslings.arena.lease import lease, leased_domain
+from ros2_on_pip.domain_lease import lease, leased_domain
 
 LESSON = lesson_of(1)
 SECTIONS = ("The lab", "The check")

@@ -17,10 +17,10 @@ import pytest
 from student import BLOCK, Student, lesson_of, placed, save_as, text_of
 from terminals import Terminal
 
-from roslings.arena.lease import leased_domain
+from ros2_on_pip.domain_lease import leased_domain
 from roslings.course import lab, root
-from roslings.drills import Drill, all_drills
-from roslings.drills.course import of_day
+from roslings_learn.drills import Drill, all_drills
+from roslings_learn.drills.course import of_day
 
 sys.path.append(str(root() / "tests" / "labs"))
 from half_done import states

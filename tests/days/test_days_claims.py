@@ -12,13 +12,14 @@ from typing import Any
 
 import pytest
 import yaml
-from lesson_runs import lessons, walked
 from pydantic import BaseModel, ConfigDict
-from until_told import until_told
 
-from roslings.arena.lease import leased_domain
+from lesson_runs import lessons, walked
+from ros2_on_pip.domain_lease import leased_domain
 from roslings.course import lab, root
-from roslings.lessons.rules import Lesson
+from roslings_learn.lessons.rules import Lesson
+from sources import python_path
+from until_told import until_told
 
 FORGOTTEN = ("PYTEST_CURRENT_TEST", "ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_DOMAIN_ID")
 ESCAPES = re.compile(r"\x1b\[[0-9;]*m")
@@ -100,7 +101,7 @@ def ready(home: Path, domain: int) -> dict[str, str]:
     return {
         **kept, "HOME": str(home), "ROSLINGS_WS": str(home / "roslings_ws"),
         "PATH": f"{Path(sys.prefix, 'bin')}{os.pathsep}{os.environ['PATH']}",
-        "PYTHONPATH": str(root() / "src"), "ROS_DOMAIN_ID": str(domain),
+        "PYTHONPATH": python_path(), "ROS_DOMAIN_ID": str(domain),
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
     }  # fmt: skip
 
@@ -177,6 +178,6 @@ def printed_by(part: str, folder: Path, more: str = "") -> list[str]:
     (folder / "it.py").write_text(program + more)
     done = subprocess.run(
         [sys.executable, "it.py"], cwd=folder, capture_output=True, text=True, check=True,
-        env={**os.environ, "PYTHONPATH": str(root() / "src")},
+        env={**os.environ, "PYTHONPATH": python_path()},
     )  # fmt: skip
     return done.stdout.splitlines()

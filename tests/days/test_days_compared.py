@@ -13,10 +13,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from lesson_runs import lessons, walked
 
-from roslings.lessons.rules import Lesson
-from roslings.lessons.rules.form import COMPARED, LEAST_COMPARED
+from lesson_runs import lessons, walked
+from roslings_learn.lessons.rules import Lesson
+from roslings_learn.lessons.rules.form import COMPARED, LEAST_COMPARED
 
 if TYPE_CHECKING:  # nbval loads for seconds; only who runs these tests pays for it
     from lessons_as_tests import LessonCell
@@ -110,8 +110,9 @@ KEPT = {
 
 def sanitized(text: str) -> str:
     """As nbval compares it."""
-    from lessons_as_tests import SANITIZER
     from nbval.plugin import get_sanitize_patterns
+
+    from lessons_as_tests import SANITIZER
 
     for pattern, other in get_sanitize_patterns(SANITIZER.read_text("utf-8")):
         text = re.sub(pattern, other, text)

@@ -12,14 +12,14 @@ from pathlib import Path
 import pytest
 from tiny_course import DAY, write_course
 
-from roslings.course import root
-from roslings.jupyter.choosing import chosen_day, place_for
-from roslings.jupyter.copies import Copies
-from roslings.jupyter.errors import NoSuchDay, NotWritten
-from roslings.jupyter.meanings import with_meanings
-from roslings.jupyter.server import Place, command, write_kernel
-from roslings.jupyter.unrun import unrun
-from roslings.lessons import Day, read_lessons
+from roslings_learn.jupyter.choosing import chosen_day, place_for
+from roslings_learn.jupyter.copies import Copies
+from roslings_learn.jupyter.errors import NoSuchDay, NotWritten
+from roslings_learn.jupyter.meanings import with_meanings
+from roslings_learn.jupyter.server import Place, command, write_kernel
+from roslings_learn.jupyter.unrun import unrun
+from roslings_learn.lessons import Day, read_lessons
+from sources import python_path
 
 
 @pytest.fixture
@@ -172,7 +172,7 @@ def test_a_wrong_day_is_wrong_use(copies: Copies) -> None:
     done = subprocess.run(
         [sys.executable, "-m", "roslings", "lab", "9", "--no-browser"],
         env={
-            **os.environ, "PYTHONPATH": str(root() / "src"),
+            **os.environ, "PYTHONPATH": python_path(),
             "ROSLINGS_COURSE": str(copies.course), "ROSLINGS_WS": str(copies.workspace),
         },
         capture_output=True, text=True, check=False,

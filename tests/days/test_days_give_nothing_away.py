@@ -7,11 +7,12 @@ from pathlib import Path
 
 import pytest
 from given_away import module_of, package_of
-from lesson_runs import lessons
-from until_told import checked
 
-from roslings.course import Lab, all_labs, root
-from roslings.lessons.rules import Lesson
+from lesson_runs import lessons
+from roslings.course import Lab, all_labs
+from roslings_learn.lessons.rules import Lesson
+from sources import python_path
+from until_told import checked
 
 LABS = all_labs()
 PAIRS = [(lesson, lab) for lesson in lessons() for lab in LABS if lab.card.day == lesson.day.id]
@@ -22,7 +23,7 @@ PAIRS = [(lesson, lab) for lesson in lessons() for lab in LABS if lab.card.day =
 def test_pasting_all_of_it_does_not_pass(lesson: Lesson, lab: Lab, tmp_path: Path) -> None:
     """It builds and runs, and the lab still asks for more."""
     package = package_of(lesson, lab, tmp_path)
-    env = {**os.environ, "PYTHONPATH": str(root() / "src")}
+    env = {**os.environ, "PYTHONPATH": python_path()}
     found = checked(lab.name, package, folder=tmp_path, env=env)
     assert (found.status, found.verdict["outcome"]) == (1, "fail"), found.ran.stdout
 

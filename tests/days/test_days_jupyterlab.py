@@ -7,20 +7,20 @@ from typing import Any
 
 import pytest
 from jupyterlab import Lab, served
-from lesson_runs import lessons, names
-from lessons_as_tests import surroundings
-from skips import needs
 from tiny_course import CELLS, DAY, Cell, with_cell, write_course
 
+from lesson_runs import lessons, names
+from lessons_as_tests import surroundings
 from roslings.course import root
-from roslings.lessons.rules import Lesson
+from roslings_learn.lessons.rules import Lesson
+from skips import needs
 
 pytestmark = [
     pytest.mark.slow,
     needs("Chromium"),
 ]
 WRITTEN = list(lessons())
-LIVE = """from roslings.notebook import quiz, session, show_graph
+LIVE = """from roslings_learn.notebook import quiz, session, show_graph
 from rclpy.node import Node
 from std_msgs.msg import String
 

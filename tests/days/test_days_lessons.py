@@ -6,13 +6,13 @@ import re
 from pathlib import Path
 
 import pytest
-from lesson_runs import days, lessons, walked
 
+from lesson_runs import days, lessons, walked
 from roslings.course import all_labs, root
-from roslings.drills import all_drills
-from roslings.lessons import read_glossary
-from roslings.lessons.rules import Lesson, broken_rules
-from roslings.lessons.rules.alternatives import untold
+from roslings_learn.drills import all_drills
+from roslings_learn.lessons import read_glossary
+from roslings_learn.lessons.rules import Lesson, broken_rules
+from roslings_learn.lessons.rules.alternatives import untold
 
 WRITTEN = list(lessons())
 each_lesson = pytest.mark.parametrize("lesson", [

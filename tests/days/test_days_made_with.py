@@ -21,18 +21,20 @@ class Given:
     """A line of this file has this pattern."""
 
 
+LEARN = "packages/roslings-learn/src/roslings_learn"
+ENGINE = "packages/roslings/src/roslings"
 SIX = (
-    Given("jupyterlab", "lab", "src/roslings/jupyter/server.py", r'return \[.*"-m", "jupyterlab"'),
+    Given("jupyterlab", "lab", f"{LEARN}/jupyter/server.py", r'return \[.*"-m", "jupyterlab"'),
     Given("nbval", "test", "tests/lessons_as_tests.py", r"^class LessonFile\(IPyNbFile\):"),
     Given("nbval", "test", ".ci/run", r"\./roslings test days --nbval-lax"),
-    Given("ros-jazzy-rclpy", "ros", "src/roslings/notebook/session.py", r"^ +rclpy\.init\($"),
+    Given("ros-jazzy-rclpy", "ros", f"{LEARN}/notebook/session.py", r"^ +rclpy\.init\($"),
     Given("ros-jazzy-rclpy", "ros", "days/02-nodes/lesson.ipynb", r"from rclpy\.node import Node"),
     Given(
         "ros-jazzy-common-interfaces", "ros", "days/03-topics/lesson.ipynb",
         r"from sensor_msgs\.msg import FluidPressure",
     ),
-    Given("pytest", "check", "src/roslings/judge/judge.py", r"pytest\.main\("),
-    Given("matplotlib", "graph", "src/roslings/report/graph_sheet.py", r"^from matplotlib\.figure"),
+    Given("pytest", "check", f"{ENGINE}/judge/judge.py", r"pytest\.main\("),
+    Given("matplotlib", "graph", f"{ENGINE}/report/graph_sheet.py", r"^from matplotlib\.figure"),
 )  # fmt: skip
 
 

@@ -12,11 +12,11 @@ import pytest
 from tiny_course import DAY, write_course
 
 from roslings.course import root
-from roslings.lessons import One, Order, Quiz, Several, read_lessons
-from roslings.lessons.quiz import mixed
-from roslings.notebook import quiz as ask
-from roslings.notebook.quiz_text import as_text, without_links
-from roslings.notebook.quiz_widgets import drawn
+from roslings_learn.lessons import One, Order, Quiz, Several, read_lessons
+from roslings_learn.lessons.quiz import mixed
+from roslings_learn.notebook import quiz as ask
+from roslings_learn.notebook.quiz_text import as_text, without_links
+from roslings_learn.notebook.quiz_widgets import drawn
 
 
 @pytest.fixture

@@ -6,9 +6,9 @@ import re
 from urllib.parse import urlsplit
 
 import pytest
-from lesson_runs import lessons, names
 
-from roslings.lessons.rules import Lesson
+from lesson_runs import lessons, names
+from roslings_learn.lessons.rules import Lesson
 
 READING = "Further reading and watching"
 LINK = re.compile(r"\[[^\]]+\]\(([^)]*)\)")

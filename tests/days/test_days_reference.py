@@ -78,7 +78,7 @@ def test_the_quiz_asks_for_a_recording_and_for_both_in_one_node() -> None:
 
 def test_what_the_wheels_need_is_said_alike() -> None:
     """The Pythons of pyproject.toml, in each text that names them."""
-    project = (root() / "pyproject.toml").read_text("utf-8")
+    project = (root() / "packages/roslings/pyproject.toml").read_text("utf-8")
     (first, after) = map(int, re.findall(r'requires-python = ">=3\.(\d+),<3\.(\d+)"', project)[0])
     for page in (
         "README.md",

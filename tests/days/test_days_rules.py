@@ -19,8 +19,8 @@ from tiny_course import (
     write_course,
 )
 
-from roslings.lessons.rules.__main__ import main
-from roslings.lessons.rules.prose import blocks_of, sentences, slug, words
+from roslings_learn.lessons.rules.__main__ import main
+from roslings_learn.lessons.rules.prose import blocks_of, sentences, slug, words
 
 LONG = "The small lamp on my desk shines each evening when I come home from school and my "
 WRONG: dict[str, tuple[Sequence[Cell], str, str]] = {

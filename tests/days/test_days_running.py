@@ -6,8 +6,9 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from lesson_runs import run_lesson, walk
 from tiny_course import CELLS, DAY, Cell, printed, with_cell, write_course
+
+from lesson_runs import run_lesson, walk
 
 pytestmark = pytest.mark.slow
 

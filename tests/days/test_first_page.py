@@ -16,10 +16,10 @@ from pathlib import Path
 import pytest
 from terminals import Terminal, opened, until
 
-from roslings.arena.lease import leased_domain
+from ros2_on_pip.domain_lease import leased_domain
 from roslings.course import root
-from roslings.devices.rover import default_world
 from roslings.evidence import evidence_json, read_json
+from roslings_rover.rover import default_world
 
 PAGE = root() / "days" / "01-install" / "first-15-minutes.md"
 MOST_COMMANDS = 9

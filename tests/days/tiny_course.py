@@ -8,10 +8,10 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from roslings.lessons.document import read
-from roslings.lessons.path import Path as DayPath
-from roslings.lessons.rules import Lesson, read_lesson
-from roslings.lessons.rules.form import COMPARED
+from roslings_learn.lessons.document import read
+from roslings_learn.lessons.path import Path as DayPath
+from roslings_learn.lessons.rules import Lesson, read_lesson
+from roslings_learn.lessons.rules.form import COMPARED
 
 DAY = "01-lamp"
 PATH = """days:
@@ -129,7 +129,7 @@ WORDS = "## Words of the day\n\n" + "\n".join(f"- [{w}](#word-{w}): It is a {w}.
 
 CELLS = (
     Cell("head", HEAD),
-    Cell("first", "from roslings.notebook import quiz\n\nprint('on')", code=True),
+    Cell("first", "from roslings_learn.notebook import quiz\n\nprint('on')", code=True),
     Cell("everyday", "## Like in everyday life\n\nIt is like a candle. A candle burns down."),
     Cell("words", WORDS),
     Cell(

@@ -11,13 +11,13 @@ from pathlib import Path
 
 import pytest
 from program import PATIENCE_S, environment, run
-from skips import imported, needs
 
-from roslings.arena.lease import leased_domain
+from ros2_on_pip.domain_lease import leased_domain
 from roslings.course import root
-from roslings.devices.board import Board, Chip, Mega
-from roslings.devices.emulated import EmulatedMega, built
-from roslings.devices.rover import Body, Motion, Rover
+from roslings_rover.board import Board, Chip, Mega
+from roslings_rover.emulated import EmulatedMega, built
+from roslings_rover.rover import Body, Motion, Rover
+from skips import imported, needs
 
 LAB = root() / "labs" / "serial-bridge"
 SKETCH = LAB / "firmware" / "rover_mega" / "rover_mega.ino"

@@ -12,14 +12,14 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
-from skips import needs
 
 from roslings.course import root
-from roslings.devices.board import Chip, Drive, LineReader, Mega, Speeds, Spoiler, framed
-from roslings.devices.emulated import EmulatedMega, built
-from roslings.devices.rover import Body, Box, Motion, Pose, Rover, Wheels, World
-from roslings.models.board_lines import LONGEST_LINE
-from roslings.models.differential_drive import moved
+from roslings_rover.board import Chip, Drive, LineReader, Mega, Speeds, Spoiler, framed
+from roslings_rover.emulated import EmulatedMega, built
+from roslings_rover.models.board_lines import LONGEST_LINE
+from roslings_rover.models.differential_drive import moved
+from roslings_rover.rover import Body, Box, Motion, Pose, Rover, Wheels, World
+from skips import needs
 
 SKETCH = root() / "labs" / "serial-bridge" / "firmware" / "rover_mega" / "rover_mega.ino"
 FLOOR = World(room=Box(-50, -50, 50, 50))
@@ -290,7 +290,7 @@ def test_a_sketch_that_does_not_compile_is_told(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """With the compiler's own words."""
-    from roslings.devices.emulated import CannotBuild
+    from roslings_rover.emulated import CannotBuild
 
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     wrong = tmp_path / "wrong.ino"
@@ -302,7 +302,7 @@ def test_a_sketch_that_does_not_compile_is_told(
 
 def test_missing_packages_are_told_with_the_apt_line(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where there is no compiler on the path."""
-    from roslings.devices.emulated import CannotBuild
+    from roslings_rover.emulated import CannotBuild
 
     monkeypatch.setenv("PATH", "")
     with pytest.raises(CannotBuild, match="sudo apt install gcc-avr"):

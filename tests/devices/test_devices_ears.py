@@ -13,13 +13,14 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 import pytest
-from program import SOURCE, environment, run, running
+from program import environment, run, running
 
-from roslings.arena.lease import leased_domain
+from ros2_on_pip.domain_lease import leased_domain
 from roslings.course import lab
-from roslings.devices.rover import Motion, Rover
-from roslings.devices.rover.text_map import ASCII, cells
-from roslings.models.differential_drive import Pose
+from roslings_rover.models.differential_drive import Pose
+from roslings_rover.rover import Motion, Rover
+from roslings_rover.rover.text_map import ASCII, cells
+from sources import python_path
 
 pytestmark = pytest.mark.slow
 
@@ -39,7 +40,7 @@ def solution(name: str, module: str, terminal: dict[str, str]) -> Iterator[None]
     """The node of a lab's solution, while the block runs."""
     start = f"import sys; from {lab(name).card.package}.{module} import main; sys.exit(main())"
     own = terminal | {
-        "PYTHONPATH": f"{lab(name).solution}{os.pathsep}{SOURCE}",
+        "PYTHONPATH": f"{lab(name).solution}{os.pathsep}{python_path()}",
         "PYTHONDONTWRITEBYTECODE": "1",  # nothing is left beside the solution
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
     }

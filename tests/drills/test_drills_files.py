@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from roslings.authoring.release import is_for_students
 from roslings.course import root
 from roslings.course.files import BadCourseFile
-from roslings.drills import Drill, NoSuchDrill, all_drills, drill
-from roslings.drills.course import of_day, problems
+from roslings_class.release import is_for_students
+from roslings_learn.drills import Drill, NoSuchDrill, all_drills, drill
+from roslings_learn.drills.course import of_day, problems
 
 DAY_OF_TEN = Counter(mend=4, listen=3, predict=2, write=1)
 CARD = """

@@ -6,11 +6,21 @@ import json
 from pathlib import Path
 
 import pytest
-from fresh import proofs_of
-from once import once
+from fresh import in_fresh_process
 
-from roslings.authoring.prove import Proof
-from roslings.drills import all_drills, drill
+from once import once
+from roslings_learn.drills import Drill, all_drills, drill
+from roslings_prove.drills import prove_drills
+from roslings_prove.prove import Proof
+
+
+def proofs_of(drills: list[Drill]) -> list[Proof]:
+    """All that must hold of them."""
+    return in_fresh_process(_proofs, drills)
+
+
+def _proofs(drills: list[Drill]) -> list[Proof]:
+    return list(prove_drills(drills))
 
 
 def wrong(proofs: list[Proof]) -> list[str]:

@@ -16,7 +16,6 @@ import pytest
 from judged_words import LABS, evidence_of
 from pydantic import BaseModel, TypeAdapter, ValidationError
 
-from roslings.batch.grading import THOROUGHLY, packed, unpacked
 from roslings.capability import capabilities
 from roslings.evidence import (
     Evidence,
@@ -29,6 +28,7 @@ from roslings.record import Columns, Record
 from roslings.record.columns import IN_COLUMNS, InColumns, rows_of, table_of
 from roslings.record.reading import values_of
 from roslings.record.writing import FEWEST_ROWS, column_of
+from roslings_class.grading import THOROUGHLY, packed, unpacked
 
 Value = Any
 

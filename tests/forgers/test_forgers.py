@@ -15,9 +15,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from asked_for import asked_for
 from behind import HONEST, NEEDED, SLOW, WALLS, Graded, Wall, grade
 from forger import HONEST_SCORE, Forger, forgers
+
+from asked_for import asked_for
 from once import once
 from skips import skip_without
 

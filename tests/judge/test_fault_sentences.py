@@ -11,11 +11,11 @@ from string import Formatter
 import pytest
 
 import roslings.capabilities
-import roslings.drills
 import roslings.judge.faults
+import roslings_learn.drills
 from roslings.judge.faults.base import SENTENCES, Fault, Sentence
 
-ROOMS = (roslings.capabilities, roslings.drills, roslings.judge.faults)
+ROOMS = (roslings.capabilities, roslings_learn.drills, roslings.judge.faults)
 
 
 def _all_faults() -> Iterator[type[Fault]]:

@@ -6,16 +6,16 @@ from collections.abc import Iterator
 
 import pytest
 
-from roslings.authoring.proofs.kept import kept_here
-from roslings.batch.grading import unpacked
 from roslings.course import all_labs, lab
-from roslings.drills.judging import judged
-from roslings.drills.steps import Step
 from roslings.evidence import Evidence, LogLine, ProcessSeen
 from roslings.judge import NothingToJudge, judge
 from roslings.judge.faults import Inconclusive
 from roslings.judge.views import ExperimentView
 from roslings.verdict import CheckResult
+from roslings_class.grading import unpacked
+from roslings_learn.drills.judging import judged
+from roslings_learn.drills.steps import Step
+from roslings_prove.proofs.kept import kept_here
 
 LABS = [each.name for each in all_labs() if each.name != "example"]
 LINES, MEGABYTES = 412_345, 2.5

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
-from ways_to_write import WAYS, written
 
 from roslings.course import lab
 from roslings.evidence import ExperimentSeen, LogLine, ProcessSeen, Qos, Spoken
@@ -15,8 +13,10 @@ from roslings.judge import ExperimentView, Fault
 from roslings.judge.demands import insist_on_at_most, log_each, repeat
 from roslings.judge.faults import LoggedAgain
 from roslings.judge.views import Demand, ProcessView
+from sources import code_of
+from ways_to_write import WAYS, written
 
-ENGINE = Path(__file__).parents[2] / "src" / "roslings"
+ENGINE, LEARN = code_of("roslings"), code_of("roslings_learn")
 LISTENER = lab("topics").card.nodes[1]
 STATUS = lab("nodes").card.nodes[0]
 OK = ("Publishing: 'OK 1'", "Publishing: 'OK 2'")
@@ -112,10 +112,10 @@ LINES_OF_A_PROCESS = {
 
 def _readers() -> Iterator[str]:
     """Modules that judge, and read `seen.lines` or `rosout` of evidence."""
-    for room in ("judge", "capabilities", "drills"):
-        for file in sorted((ENGINE / room).rglob("*.py")):
+    for room in (ENGINE / "judge", ENGINE / "capabilities", LEARN / "drills"):
+        for file in sorted(room.rglob("*.py")):
             if any(map(_reads, ast.walk(ast.parse(file.read_text("utf-8"))))):
-                yield file.relative_to(ENGINE).as_posix()
+                yield file.relative_to(room.parent).as_posix()
 
 
 def _reads(node: ast.AST) -> bool:

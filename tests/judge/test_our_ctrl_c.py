@@ -11,14 +11,14 @@ from roslings.capabilities.bags.demands import read_to_the_end
 from roslings.capabilities.bags.faults import ReadingNeverEnds
 from roslings.capabilities.bags.record import BagGiven, BagsSeen
 from roslings.course import lab
-from roslings.drills.card import DrillCard
-from roslings.drills.judging import judged
-from roslings.drills.steps import PROGRAM, steps_of
 from roslings.evidence import Ending, ExperimentSeen, LogLine, ProcessSeen
 from roslings.exits import without_interrupt
 from roslings.judge import ExperimentView, exit_cleanly
 from roslings.judge.demands import come_up
 from roslings.judge.faults import DidNotComeUp, Fault, UncleanExit
+from roslings_learn.drills.card import DrillCard
+from roslings_learn.drills.judging import judged
+from roslings_learn.drills.steps import PROGRAM, steps_of
 
 ASKED_NS = 100
 OURS = (

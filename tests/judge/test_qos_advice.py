@@ -15,7 +15,6 @@ from pathlib import Path
 from typing import Any, get_args
 
 import pytest
-from skips import imported
 
 import roslings
 from roslings.capabilities.qos import demands as times
@@ -23,11 +22,12 @@ from roslings.capabilities.qos import faults as of_times
 from roslings.capabilities.qos.contract import AskContract, Liveliness, OfferContract, TimesContract
 from roslings.capabilities.qos.record import JoinSeen, QosSeen
 from roslings.course import NodeContract, QosContract, TopicContract, all_labs, root
-from roslings.drills.course import all_drills
 from roslings.evidence import Endpoint, ExperimentSeen, GraphSeen, Qos
 from roslings.judge import ExperimentView, have_just_this_qos, match_qos
 from roslings.judge.faults import EndpointKind, Fault, Matched, python_words, qos_conflicts
 from roslings.judge.faults.qos import CALLS, OtherQos
+from roslings_learn.drills.course import all_drills
+from skips import imported
 
 rclpy_qos = imported("rclpy.qos")
 KINDS: tuple[EndpointKind, ...] = get_args(EndpointKind)

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from roslings.batch.result import Result
 from roslings.course import Lab
 from roslings.grader import Clock
 from roslings.workspace.inspect import inspect_package
+from roslings_class.result import Result
 
 Kind = Literal["empty", "starter", "idle"]
 SCRIPTS = re.compile(r"'console_scripts': \[.*?\]", re.DOTALL)

@@ -11,14 +11,14 @@ import sys
 from pathlib import Path
 
 import pytest
-from few import few_labs
 
-from roslings.bootstrap.groups import names
+from few import few_labs
 from roslings.course import Lab, Mutant, all_labs, lab, root
 from roslings.course.files import BadCourseFile
 from roslings.course.task import is_current, task_text, write_task
 from roslings.workspace.inspect import inspect_package
 from roslings.workspace.sources import files
+from roslings_launcher.groups import names
 
 LABS = {each.name: each for each in all_labs()}
 MUTANTS = {

@@ -7,9 +7,9 @@ import shutil
 from pathlib import Path
 
 import pytest
-from until_told import checked
 
 from roslings.course import lab
+from until_told import checked
 
 SPIN = "        rclpy.spin(Talker())"
 LOOP = "while True: print('again', file=__import__('sys').{stream})"

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 from half_done import HalfDone, states
-from until_told import checked
 
 from roslings.course import Lab, all_labs
+from until_told import checked
 
 STATES = [
     pytest.param(state, id=state.name, marks=[pytest.mark.slow, pytest.mark.twice])

@@ -62,7 +62,7 @@ def test_a_fresh_clone_answers_before_anything_is_installed(
     words: list[str], tmp_path: Path
 ) -> None:
     """With Python's standard library, and nothing else: the first word of many is `./roslings`."""
-    start = root() / "src/roslings/bootstrap/start.py"
+    start = root() / "packages/roslings-launcher/src/roslings_launcher/start.py"
     bare = [sys.executable, "-I", "-S", str(start), *words]
     environment = {"HOME": str(tmp_path), "PATH": "/usr/bin:/bin"}
     ran = subprocess.run(

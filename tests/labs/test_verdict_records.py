@@ -17,8 +17,8 @@ from verdicts import (
     verdicts_of,
 )
 
-from roslings.authoring.prove import Solution
 from roslings.course import all_labs
+from roslings_prove.prove import Solution
 
 PASSED, LOST, UNTOLD = (
     Said("pass", 4.0, None),

@@ -20,16 +20,16 @@ from functools import cache
 from pathlib import Path
 
 import pytest
+from nothing import Nothing
+
 from asked_for import asked_for
 from few import few_labs
-from nothing import Nothing
 from once import once
+from roslings.course import Lab, Mutant, all_labs
+from roslings_prove.proofs.command import newest_commit
+from roslings_prove.prove import Package, Proof, Wrong, gradings_fit
 from skips import skip_without
 from until_told import checked
-
-from roslings.authoring.proofs.command import newest_commit
-from roslings.authoring.prove import Package, Proof, Wrong, gradings_fit
-from roslings.course import Lab, Mutant, all_labs
 
 UNTIL_S = float(os.environ.get("ROSLINGS_MUTANTS_UNTIL", "inf"))
 """After this moment of time.time() no package is begun, and the tests of those left are skipped."""

@@ -50,8 +50,8 @@ Verdicts = dict[str, dict[str, Said]]
 
 def record(file: Path, labs: Sequence[str], jobs: int | None) -> None:
     """Grade what the file does not know yet."""
-    from roslings.authoring.prove import Package, packages_of
     from roslings.course import all_labs
+    from roslings_prove.prove import Package, packages_of
 
     known = verdicts_in(file)
     packages: list[Package] = [
@@ -69,8 +69,8 @@ def record(file: Path, labs: Sequence[str], jobs: int | None) -> None:
 
 def verdicts_of(packages: Collection[object], jobs: int | None) -> Verdicts:
     """Grade them; what could not be told is tried once more, as `grade` does."""
-    from roslings.authoring.prove import graded
     from roslings.experiment.run_folder import run_folder
+    from roslings_prove.prove import graded
 
     with run_folder() as scratch:
         results = graded(packages, scratch, lambda _: None, jobs)  # type: ignore[arg-type]

@@ -26,10 +26,10 @@ from typing import Literal
 import yaml
 from pydantic import BaseModel, ConfigDict
 
-from roslings.arena.lease import leased_domain
+from ros2_on_pip.domain_lease import leased_domain
 from roslings.course import Lab, lab, root
 
-sys.path.append(str(root() / "tests" / "days"))
+sys.path += [str(root() / "tests"), str(root() / "tests" / "days")]
 from terminals import PATIENCE_S, Terminal, opened, surroundings
 
 COLUMNS, LINE_PX, WIDE_PX, EDGE_PX = 82, 18.0, 664.0, 12.0
@@ -49,17 +49,17 @@ from base64 import b64encode
 found = picture()
 print(found.kind, b64encode(found.still or found.content).decode())
 """
-GRAPH = "from roslings.notebook.graph import graph_picture as picture"
+GRAPH = "from roslings_learn.notebook.graph import graph_picture as picture"
 BALL = """
-from roslings.notebook import session
-from roslings.notebook.image import image_picture
+from roslings_learn.notebook import session
+from roslings_learn.notebook.image import image_picture
 def picture():
     with session() as ros:
         return image_picture(ros.collect("/ball/image", count=1, timeout_s=60)[0])
 """
 DRIVE = """
-from roslings.notebook import session
-from roslings.notebook.rover_map import path_picture
+from roslings_learn.notebook import session
+from roslings_learn.notebook.rover_map import path_picture
 def place(odometry):
     return odometry.pose.pose.position
 def picture():

@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from costs import COSTS, Costs, without_group
 
+from costs import COSTS, Costs, without_group
 from needed.left_out import LeftOut, read, told
 
 PLUGIN = "left-out-by-needs"

@@ -17,11 +17,10 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from machine import TABLE
-
 from needed.opened import Opened, Watch
 from needed.records import Record, made_with
 from needed.tree import Tree, few
-from roslings.commands.upkeep import plugins_without_use
+from roslings.commands.test import plugins_without_use
 
 LESSONS = "days/*/lesson.ipynb"
 ASKED = "slow and not twice"
@@ -49,7 +48,7 @@ class Recorder:
 
         To find them, pytest compiles all tests: after that, whoever opens a source reads its text.
         """
-        words = ["--collect-only", "-q", "-n", "0", "-m", ASKED, "tests"]
+        words = ["--collect-only", "-q", "-n", "0", "-m", ASKED, "tests", "packages"]
         done = self._pytest(words, capture_output=True)
         if done.returncode:
             raise NoRecord(f"the tests cannot be collected:\n{done.stdout}{done.stderr}")
@@ -59,7 +58,7 @@ class Recorder:
 
     def compile_all(self) -> None:
         """So that modules are imported from their bytecode, whoever asks first."""
-        places = (each for each in ("src", "tests", "graders", "site", "days", ".ci"))
+        places = (each for each in ("packages", "tests", "graders", "site", "days", ".ci"))
         words = [sys.executable, "-m", "compileall", "-q", *places]
         subprocess.run(words, cwd=self.root, env=environment(), check=False, capture_output=True)
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import sys
-from pathlib import Path
 
-for folder in ("rogues", "export"):
-    sys.path.insert(0, str(Path(__file__).parents[1] / folder))
+from sources import ROOT
+
+for folder in ("tests/rogues", "packages/roslings-class/tests/export"):
+    sys.path.insert(0, str(ROOT / folder))

@@ -14,11 +14,12 @@ import sys
 from pathlib import Path
 
 import pytest
-from once import once
 from played import furnish
-from until_told import run_until_told
 
+from once import once
 from roslings.course import root
+from sources import our_modules
+from until_told import run_until_told
 
 COURSE = root() / "example-course"
 README = COURSE / "README.md"
@@ -153,5 +154,5 @@ def test_its_submissions_are_graded(installed: dict[str, str], tmp_path: Path) -
 
 def test_the_engine_does_not_name_it() -> None:
     """Nobody changed it for this course."""
-    files = (root() / "src" / "roslings").rglob("*.py")
+    files = our_modules()
     assert not [file for file in files if "valve_course" in file.read_text("utf-8")]

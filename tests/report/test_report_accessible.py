@@ -7,17 +7,17 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from skips import imported
 from written_evidence import evidence, messages, steady, talking
 from written_verdicts import full_score, inconclusive, three_faults, too_slow, verdict
 
-from roslings.batch.export import hand_out
-from roslings.batch.gradebook import gradebook
-from roslings.batch.result import Result
 from roslings.course import lab
 from roslings.report.html import Asked, Own, html_of
 from roslings.report.typed import Typed
 from roslings.verdict import Verdict
+from roslings_class.gradebook import gradebook
+from roslings_class.handing_out import hand_out
+from roslings_class.result import Result
+from skips import imported
 
 Axe = imported("axe_playwright_python.sync_playwright").Axe
 

@@ -27,12 +27,12 @@ from stage import (
     stage,
 )
 
-from roslings.arena.lease import leased_domain
-from roslings.authoring.proofs.command import newest_commit
-from roslings.batch.result import Result
+from ros2_on_pip.domain_lease import leased_domain
 from roslings.course import Edit
 from roslings.judge.sheet import dependants
 from roslings.verdict import CheckResult
+from roslings_class.result import Result
+from roslings_prove.proofs.command import newest_commit
 
 Entry = Attempt | Parcel
 

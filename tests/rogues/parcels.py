@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from rogue import LAB, Truth
+
 from written_png import head_of, png_of
 
 Make = Callable[[Path], None]

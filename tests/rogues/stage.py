@@ -22,12 +22,13 @@ from pathlib import Path
 from rogue import LAB
 
 from roslings.arena import base_environment, kernel
-from roslings.batch.gradebook import gradebook
-from roslings.batch.grading import unpacked
-from roslings.batch.result import Result
-from roslings.batch.signed_gradebook import take_key
 from roslings.course import root
 from roslings.evidence import Evidence
+from roslings_class.gradebook import gradebook
+from roslings_class.grading import unpacked
+from roslings_class.result import Result
+from roslings_class.signed_gradebook import take_key
+from sources import python_path
 
 HERE = Path(__file__).parent
 NOBODY = 65534
@@ -65,7 +66,7 @@ if calls:
 os.execv(sys.argv[1], sys.argv[1:])
 """
 """The instructor's session keeps a key in the kernel, where the kernel keeps any."""
-COURSE = ("src", "graders", "labs", "days", "glossary", "pyproject.toml")
+COURSE = ("packages", "graders", "labs", "days", "glossary", "pyproject.toml")
 SHARED_PLACES = ("/tmp", "/var/tmp", "/dev/shm", "/", "/run", "/etc", "/opt", "/usr")
 
 
@@ -156,7 +157,7 @@ class Stage:
         return {
             **kept,
             **own,
-            "PYTHONPATH": str(self.course / "src"),
+            "PYTHONPATH": python_path(self.course),
             "PYTHONDONTWRITEBYTECODE": "1",
         }
 
@@ -410,7 +411,7 @@ def known(made: Stage, token: str, port: int, domain: int) -> dict[str, str]:
         "mark": made.mark, "token": token, "secret": SECRET, "out": str(made.out),
         "course": str(made.course), "home": str(made.home), "hidden": str(made.hidden),
         "submissions": str(made.submissions), "tmp": str(made.scratch), "port": str(port),
-        "address": own_address(), "domain": str(domain), "witness": "roslings.batch.fork_server",
+        "address": own_address(), "domain": str(domain), "witness": "roslings_class.fork_server",
         "terminals": str(Path("/dev/pts").stat().st_dev),
     }  # fmt: skip
 

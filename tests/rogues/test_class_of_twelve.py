@@ -14,7 +14,6 @@ import pytest
 from gallery import Seen, seen_of, untrue
 from parcels import PARCELS, Parcel
 from rogue import LAB, Attempt, Truth, attempts
-from skips import needs, skip_without
 from stage import (
     LONG_S,
     SANDBOX,
@@ -27,6 +26,8 @@ from stage import (
     signs_of,
     stage,
 )
+
+from skips import needs, skip_without
 
 HONEST = ("Ada Adler", "Ben Baum", "Cem Can")
 SILENT = "root_outside-run"

@@ -25,7 +25,6 @@ import pytest
 from gallery import Seen, seen_of, untrue
 from parcels import PARCELS, Parcel
 from rogue import LAB, Attempt, Truth, attempts
-from skips import needs, skip_without
 from stage import (
     LONG_S,
     SANDBOX,
@@ -38,9 +37,10 @@ from stage import (
     quiet,
     stage,
 )
-from until_told import checked
 
 from roslings.course import Mutant
+from skips import needs, skip_without
+from until_told import checked
 
 MANY = int(os.environ.get("ROSLINGS_MANY", "24"))
 SAMPLE = max(4, MANY // 20)

@@ -24,18 +24,18 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from asked_for import asked_for
 from gallery import Entry, Gallery, Seen, hang, hang_in_turns, next_to, turns, untrue
-from once import once
 from parcels import PARCELS, Parcel
 from rogue import LAB, Attempt, attempts
-from skips import needs, skip_without
 from stage import SANDBOX, TIME, UNTIL_S
 
-from roslings.batch.errors import Refused
-from roslings.batch.unpack import package_in
+from asked_for import asked_for
+from once import once
+from roslings.hand_in.errors import Refused
+from roslings.hand_in.unpack import package_in
 from roslings.workspace.errors import WorkspaceError
 from roslings.workspace.inspect import inspect_package
+from skips import needs, skip_without
 
 ENTRIES: dict[str, Entry] = {each.name: each for each in (*attempts(), *PARCELS)}
 HARMLESS = ("exits_0_from_atexit-run", "fake_std_msgs", "reads-build", "zip_link")

@@ -8,12 +8,12 @@ from __future__ import annotations
 import pytest
 from gallery import hang
 from rogue import Attempt, rogues
-from skips import needs
 from stage import SANDBOX
 
 from roslings.course import Edit
+from skips import needs
 
-ARENA = "src/roslings/arena"
+ARENA = "packages/roslings/src/roslings/arena"
 NO_FILTER = Edit(
     file=f"{ARENA}/process.py",
     find="return filters if (self.sandbox or self.user) and all(filters) else ()",

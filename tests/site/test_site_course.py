@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from lesson_runs import kept_for_the_site, lessons, walked
 from site_rules import HEAVIEST_BYTES, Look, breaches, weight_bytes
-from skips import imported
 
+from lesson_runs import kept_for_the_site, lessons, walked
 from roslings.course import root
-from roslings.lessons import read_lessons
+from roslings_learn.lessons import read_lessons
+from skips import imported
 
 imported("axe_playwright_python")
 

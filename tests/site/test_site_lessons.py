@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from roslings.course import root
-from roslings.lessons import BadLessons, Problem, read_lessons
+from roslings_learn.lessons import BadLessons, Problem, read_lessons
 
 LESSONS = read_lessons(root())
 TERMS = LESSONS.glossary.by_id.values()

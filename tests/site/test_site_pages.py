@@ -8,12 +8,12 @@ from typing import Any
 
 import pytest
 from site_rules import Look, breaches, pages_of
-from skips import imported
 from two_days_site import Visit
 
 from roslings.course import root
-from roslings.lessons.document import read
-from roslings.lessons.path import Path as DayPath
+from roslings_learn.lessons.document import read
+from roslings_learn.lessons.path import Path as DayPath
+from skips import imported
 
 pytestmark = pytest.mark.slow
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from skips import imported
 from two_days_site import Visit
 
-from roslings.lessons.qos import RULES, broken_rules
+from roslings_learn.lessons.qos import RULES, broken_rules
+from skips import imported
 
 pytestmark = pytest.mark.slow
 

@@ -10,10 +10,10 @@ from typing import Any
 import pytest
 from two_days_site import Visit
 
-from roslings.lessons import read_lessons
-from roslings.lessons.quiz import Chosen
-from roslings.notebook.quiz_text import as_text, without_links
-from roslings.notebook.quiz_widgets import drawn
+from roslings_learn.lessons import read_lessons
+from roslings_learn.lessons.quiz import Chosen
+from roslings_learn.notebook.quiz_text import as_text, without_links
+from roslings_learn.notebook.quiz_widgets import drawn
 
 pytestmark = pytest.mark.slow
 

@@ -12,9 +12,9 @@ import pytest
 from two_days_site import Visit
 
 from roslings.course import root
-from roslings.drills.course import all_drills
 from roslings.verdict import Environment, Timings, Verdict
 from roslings.workspace import progress
+from roslings_learn.drills.course import all_drills
 
 sys.path.append(str(root() / "site"))
 from course_site.yours import tell

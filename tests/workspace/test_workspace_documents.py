@@ -5,10 +5,10 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
-from roslings.batch.result import Order
 from roslings.course import lab
 from roslings.workspace.documents import LARGEST_BYTES, text_of
 from roslings.workspace.inspect import inspect_package
+from roslings_class.result import Order
 
 LAB = lab("black-box")
 (NAME,) = LAB.card.documents

@@ -7,16 +7,16 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from few import few
 
-from roslings.batch.errors import Refused
-from roslings.batch.unpack import package_in
-from roslings.cli import main
+from few import few
 from roslings.course import Lab, all_labs, lab
-from roslings.notebook.verdict import check
+from roslings.hand_in.errors import Refused
+from roslings.hand_in.unpack import package_in
 from roslings.workspace import errors as trouble
 from roslings.workspace import progress
 from roslings.workspace.student import diff, pack, package_of
+from roslings_launcher.cli import main
+from roslings_learn.notebook.verdict import check
 
 LABS = [each.name for each in all_labs()]
 NAMES = ("package.xml", "<name>", "setup.cfg", "resource/")
@@ -126,9 +126,9 @@ def test_watch_begins_the_lab_by_itself(
     workspace: Path, topics: Lab, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """Its starter is put there, beside what is finished."""
-    from roslings.cli import parser
-    from roslings.commands.watch.keyboard import Keyboard
-    from roslings.commands.watch.lab import begun
+    from roslings_launcher.cli import parser
+    from roslings_learn.commands.watch.keyboard import Keyboard
+    from roslings_learn.commands.watch.lab import begun
 
     finish(workspace, *others("topics"))
     session = begun(topics, parser().parse_args(["watch", "topics"]), Keyboard())

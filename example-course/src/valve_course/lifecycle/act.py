@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
+from ros2_on_pip.near_names import nearest
 from roslings.capabilities.services.calling import Caller
 from roslings.course import NodeContract
 from roslings.experiment import Scene
-from roslings.matching import nearest
 from roslings.probe.content import message_class
 from valve_course.lifecycle.record import LifecycleSeen, StepSeen
 

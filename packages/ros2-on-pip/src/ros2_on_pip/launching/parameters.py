@@ -1,0 +1,237 @@
+"""The parameters of a node: from dictionaries, files and single values to words of its command.
+
+What becomes of which value is as in Jazzy's launch_ros: a text of the launch file stays a text;
+what a substitution gives is read as YAML, so that `2` is a number, except where `value_type=str`
+says otherwise.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from pathlib import Path, PurePath
+from typing import TYPE_CHECKING, Any, get_args, get_origin
+
+from ros2_on_pip.launching.substitution import (
+    Parts,
+    SomeSubstitutionsType,
+    Substitution,
+    SubstitutionFailure,
+    parts_of,
+    performed,
+)
+from ros2_on_pip.launching.substitutions import truth
+from ros2_on_pip.launching.text import parts_in
+
+if TYPE_CHECKING:
+    from ros2_on_pip.launching.context import LaunchContext
+
+PLAIN = (bool, int, float, str)
+Words = tuple[str, str]
+"""An option and its value: `-p name:=1`, or `--params-file FILE`."""
+
+
+class ParameterValue:
+    """A value that is read as one type."""
+
+    def __init__(self, value: Any, *, value_type: Any = None) -> None:
+        self.value, self.value_type = value, value_type
+
+    def evaluate(self, context: LaunchContext) -> Any:
+        """The value. Raises SubstitutionFailure."""
+        found = value_of(context, self.value, as_text=self.value_type is str)
+        if kind := listed_by(self.value_type):
+            return _list_of(kind, found)
+        if self.value_type in PLAIN and not isinstance(found, self.value_type):
+            return self._cast(found)
+        return found
+
+    def _cast(self, value: Any) -> Any:
+        if self.value_type is bool:
+            return truth(str(value), "a parameter of type bool")
+        try:
+            return self.value_type(value)
+        except (TypeError, ValueError):
+            name = self.value_type.__name__
+            raise SubstitutionFailure(f"{value!r} is no value of type {name}") from None
+
+
+def listed_by(value_type: Any) -> Any:
+    """What `List[float]`, or `list[float]`, lists; None for any other type."""
+    (kind,) = get_args(value_type) if get_origin(value_type) is list else (None,)
+    return kind
+
+
+def _list_of(kind: type[Any], value: Any) -> list[Any]:
+    if isinstance(value, list) and all(isinstance(one, kind) for one in value):
+        return value
+    raise SubstitutionFailure(f"{value!r} is no list in which each value is {_CALLED[kind]}")
+
+
+_CALLED = {
+    bool: "true or false", int: "a whole number", float: "a number with a point", str: "a text",
+}  # fmt: skip
+
+
+class Parameter:
+    """One parameter with its name."""
+
+    def __init__(
+        self, name: SomeSubstitutionsType, value: Any, *, value_type: Any = None,
+        description: SomeSubstitutionsType = "",
+    ) -> None:  # fmt: skip
+        self.name = parts_of(name, "the name of a Parameter")
+        self.value = ParameterValue(value, value_type=value_type)
+
+
+class ParameterFile:
+    """A parameter file, in which `$(...)` is filled in where that is wanted."""
+
+    def __init__(
+        self, param_file: SomeSubstitutionsType, *,
+        allow_substs: bool | SomeSubstitutionsType = False,
+    ) -> None:  # fmt: skip
+        self.param_file = parts_of(param_file, "param_file of ParameterFile")
+        switch = str(allow_substs) if isinstance(allow_substs, bool) else allow_substs
+        self.allow_substs = parts_of(switch, "allow_substs of ParameterFile")
+
+    def evaluate(self, context: LaunchContext) -> Path:
+        """The file that the node reads. Raises SubstitutionFailure."""
+        file = existing_file(performed(context, self.param_file))
+        if not truth(performed(context, self.allow_substs), "allow_substs"):
+            return file
+        place = context.new_file(".yaml")
+        place.write_text(performed(context, parts_in(file.read_text("utf-8"))), encoding="utf-8")
+        return place
+
+
+def existing_file(name: str) -> Path:
+    """The parameter file `name`. Raises SubstitutionFailure where there is none."""
+    file = Path(name).absolute()
+    if not file.is_file():
+        raise SubstitutionFailure(
+            f"there is no parameter file {name}. A file of your package must be installed: add it"
+            " to data_files in setup.py, and build again"
+        )
+    return file
+
+
+def checked_parameters(parameters: Any) -> list[Any]:
+    """The list as it stands. Raises TypeError where it is none, or holds something else."""
+    if isinstance(parameters, str | Mapping) or not isinstance(parameters, Iterable):
+        raise TypeError(
+            "parameters must be a list of dictionaries and files: parameters=[{'rate': 2.0}],"
+            f" and not {parameters!r}"
+        )
+    return [_checked(one) for one in parameters]
+
+
+def _checked(one: Any) -> Any:
+    if isinstance(one, Mapping | Parameter | ParameterFile):
+        return one
+    return ParameterFile(parts_of(one, "each of the parameters, which is no dictionary,"))
+
+
+def parameter_words(context: LaunchContext, parameters: Iterable[Any], node: str) -> list[Words]:
+    """What the command of a node says about its parameters, in order.
+
+    `node` is the full name, or `/**` where it is not known. Raises SubstitutionFailure.
+    """
+    return [_words(context, one, node) for one in parameters]
+
+
+def _words(context: LaunchContext, one: Any, node: str) -> Words:
+    if isinstance(one, Parameter):
+        return rule(context, one.name, one.value)
+    if isinstance(one, ParameterFile):
+        return "--params-file", str(one.evaluate(context))
+    import yaml
+
+    file = context.new_file(".yaml")
+    tree = {node: {"ros__parameters": dict(_flat(context, one))}}
+    file.write_text(yaml.safe_dump(tree, default_flow_style=False), encoding="utf-8")
+    return "--params-file", str(file)
+
+
+def rule(context: LaunchContext, name: Parts, value: Any) -> Words:
+    """`-p name:=value` with the value in YAML."""
+    import yaml
+
+    text = yaml.safe_dump(value_of(context, value), default_flow_style=True, width=10**6)
+    return "-p", f"{performed(context, name)}:={text.removesuffix('...' + chr(10)).strip()}"
+
+
+def _flat(
+    context: LaunchContext, tree: Mapping[Any, Any], prefix: str = ""
+) -> Iterable[tuple[str, Any]]:
+    for key, value in tree.items():
+        name = prefix + performed(context, parts_of(key, "the name of a parameter"))
+        if isinstance(value, Mapping):
+            yield from _flat(context, value, f"{name}.")
+        else:
+            yield name, _named_value(context, name, value)
+
+
+def _named_value(context: LaunchContext, name: str, value: Any) -> Any:
+    try:
+        return value_of(context, value)
+    except SubstitutionFailure as failure:
+        raise SubstitutionFailure(f"parameter '{name}': {failure}") from None
+
+
+def value_of(context: LaunchContext, value: Any, *, as_text: bool = False) -> Any:
+    """The value of a parameter. Raises SubstitutionFailure."""
+    if isinstance(value, ParameterValue):
+        return value.evaluate(context)
+    if isinstance(value, PurePath):
+        return str(value)
+    if isinstance(value, PLAIN):
+        return str(value) if as_text else value
+    if isinstance(value, Substitution):
+        return _read(performed(context, [value]), as_text)
+    if isinstance(value, Iterable) and not isinstance(value, Mapping | bytes):
+        return _many(context, list(value), as_text)
+    raise SubstitutionFailure(
+        f"{value!r} is no value of a parameter: it is a bool, an int, a float, a str, or a list of"
+        " one of them"
+    )
+
+
+def _many(context: LaunchContext, values: list[Any], as_text: bool) -> Any:
+    """A list of values; texts and substitutions side by side are put together to one text."""
+    if any(isinstance(one, Substitution) for one in values):
+        return _read(performed(context, parts_of(values, "each part of a value")), as_text)
+    found = [value_of(context, one) for one in values]
+    if {type(one) for one in found} == {int, float}:
+        return [float(one) for one in found]
+    return _uniform(found)
+
+
+def _uniform(values: Any) -> list[Any]:
+    kinds = {type(one) for one in values}
+    if len(kinds) != 1 or not kinds <= set(PLAIN):
+        raise SubstitutionFailure(
+            f"{values!r}: a list as a parameter must not be empty, and all in it must have one"
+            " type: bool, int, float or str"
+        )
+    return list(values)
+
+
+def _read(text: str, as_text: bool) -> Any:
+    if as_text:
+        return text
+    import yaml
+
+    try:
+        value = yaml.safe_load(text)
+    except yaml.YAMLError:
+        value = None
+    if isinstance(value, PLAIN):
+        return value
+    if isinstance(value, list):
+        return _uniform(value)
+    if text.strip() == "":
+        return ""
+    raise SubstitutionFailure(
+        f"'{text}' is no value of a parameter. If it is meant to be a text:"
+        " ParameterValue(..., value_type=str) of launch_ros.parameter_descriptions"
+    )

@@ -1,0 +1,209 @@
+"""What `./roslings grade` does: find the submissions, grade them, hand out what came of it."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from ros2_on_pip.typed_paths import from_here
+from roslings import course
+from roslings.arena import Isolation
+from roslings.course import Lab
+from roslings.course.soak import soak_seconds
+from roslings.experiment import insist_on_wall
+from roslings.experiment.run_folder import LOCK, run_folder
+from roslings.experiment.walls import closed_places
+from roslings.report import Progress
+from roslings_class.alone import alone_in
+from roslings_class.capacity import Capacity
+from roslings_class.dask_pool import DaskPool, dask_pool
+from roslings_class.downloads import submissions_at
+from roslings_class.errors import BatchError
+from roslings_class.gradebook import Gradebook, gradebook
+from roslings_class.grades import LateRule
+from roslings_class.handing_out import Settings, hand_out, keep
+from roslings_class.messages import (
+    closed_lines,
+    root_lines,
+    soak_line,
+    standing_line,
+    summary_lines,
+)
+from roslings_class.moodle_worksheet import read_worksheet
+from roslings_class.roster import insist_on_owners, read_roster
+from roslings_class.scheduler import GradingRequest, Scheduler, Standing
+from roslings_class.signed_gradebook import take_key
+from roslings_class.submissions import Submission
+from roslings_class.worker_pool import Limits
+
+
+class AlreadyGrading(BatchError):
+    """Another command works on the same gradebook."""
+
+    def __init__(self, folder: Path) -> None:
+        super().__init__(
+            f"Another ./roslings grade works in {from_here(folder)} now.",
+            "Wait for it, or give another folder: --out DIR",
+        )
+
+
+@dataclass(frozen=True)
+class Choices:
+    """The options of the command."""
+
+    lab: str
+    submissions: Path
+    out: Path
+    jobs: int | None = None
+    hidden: Path | None = None
+    trust: bool = False
+    clock: str = "auto"
+    keeps_evidence: bool = True
+    limit_s: float = Limits().seconds
+    roster: Path | None = None
+    rule: LateRule | None = None
+    dask: str | None = None
+    """The address of a cluster's scheduler."""
+    soak_s: float | None = None
+    """How long the nodes are left running besides; None: as the card says."""
+    alone: bool = False
+    """Whether there is never a second one, not even one that only waits."""
+    assignment: str = ""
+    """What Canvas calls the lab."""
+
+
+@dataclass(frozen=True)
+class Report:
+    """What the command says at its end."""
+
+    lines: list[str]
+    unclear: int
+    """Submissions of which nobody could tell."""
+
+
+def grade(choices: Choices) -> Report:
+    """Grade all submissions, or go on where an earlier run was ended.
+
+    Raises BatchError, CourseError, and what the gradebook's disk refuses.
+    """
+    lab = course.lab(choices.lab, choices.hidden)
+    _ = lab.card, lab.hints  # a mistake in the course is told before anything is run
+    students = read_roster(choices.roster) if choices.roster else ()
+    with submissions_at(choices.submissions, students) as submissions:
+        return _graded(choices, lab, submissions)
+
+
+def _graded(choices: Choices, lab: Lab, submissions: list[Submission]) -> Report:
+    settings = _settings(choices, submissions)
+    lines: list[str] = []
+    if not choices.dask and not choices.trust:
+        wall = insist_on_wall(lab, choices.submissions, choices.out)
+        choices, lines = _at_once(choices, wall), [*root_lines(wall.as_root)]
+        if wall.wall == "user":
+            lines.extend(closed_lines(closed_places()))
+    _make(choices)
+    with alone_in(choices.out, AlreadyGrading), gradebook(choices.out, lab.name) as book:
+        told = take_key(book, choices.out)
+        keep(book, settings)
+        names = [each.name for each in submissions]
+        told += _anew(set(names) & book.forged().keys())
+        _grade_all(choices, submissions, book, soak_seconds(lab.card, choices.soak_s))
+        latest = book.latest()
+        unclear = sum(latest[name].word == "inconclusive" for name in names)
+        lines = [
+            *lines, *told, *summary_lines(book, names), soak_line(latest.values()),
+            *hand_out(book, lab, choices.out),
+        ]  # fmt: skip
+        return Report(lines, unclear)
+
+
+def _anew(names: set[str]) -> list[str]:
+    """Verdicts that do not count, for their evidence is not what was measured."""
+    if not names:
+        return []
+    return [
+        "Measured anew, for the evidence in the gradebook was not what was measured:\n"
+        f"  {', '.join(sorted(names))}"
+    ]
+
+
+def _at_once(choices: Choices, wall: Isolation) -> Choices:
+    """Users of one machine share its network: one at a time, none can speak in another's place."""
+    return replace(choices, jobs=1, alone=True) if wall.wall == "user" else choices
+
+
+def _make(choices: Choices) -> None:
+    """The folder of the gradebook, for nobody else's eyes. Raises BatchError."""
+    out = choices.out.absolute()
+    if out.is_relative_to(choices.submissions.absolute()):
+        problem = f"{from_here(choices.out)} lies among the submissions: it would be graded as one."
+        raise BatchError(problem, "Give a place outside of that folder: --out ../grades")
+    try:
+        out.mkdir(mode=0o700, parents=True, exist_ok=True)
+    except OSError as error:
+        problem = f"{from_here(choices.out)} cannot be made: {error.strerror}."
+        raise BatchError(problem, "Give a place where you may write: --out ~/grades") from error
+
+
+def _settings(choices: Choices, submissions: list[Submission]) -> Settings:
+    """A class list that cannot be read, or is of others, is told before anything is run.
+
+    Raises BadTable, NobodyInTheList.
+    """
+    if choices.roster:
+        read_worksheet(choices.roster)
+        insist_on_owners(choices.roster, [each.name for each in submissions])
+    times = {each.name: each.submitted for each in submissions if each.submitted}
+    roster = choices.roster.absolute() if choices.roster else None
+    hidden = choices.hidden.absolute() if choices.hidden else None
+    return Settings(
+        roster=roster, rule=choices.rule, times=times, hidden=hidden, assignment=choices.assignment
+    )
+
+
+def _grade_all(
+    choices: Choices, submissions: list[Submission], book: Gradebook, soak_s: float
+) -> None:
+    with run_folder() as scratch, Progress() as progress:
+        request = GradingRequest(
+            lab=choices.lab, scratch=scratch, lock=scratch / LOCK, clock=choices.clock,
+            hidden=choices.hidden.absolute() if choices.hidden else None,
+            strangers=not choices.trust, keeps_evidence=choices.keeps_evidence,
+            limits=Limits(choices.limit_s), soak_s=soak_s,
+        )  # fmt: skip
+        teller = Teller(progress)
+        if choices.dask is None:
+            capacity = Capacity(fixed=choices.jobs, alone=choices.alone)
+            Scheduler(request, book, capacity, teller).run(submissions)
+        else:
+            lab = course.lab(choices.lab, request.hidden)
+            with dask_pool(choices.dask, lab, choices.trust, request.limits) as workers:
+                Scheduler(request, book, ClusterCapacity(workers), teller).run(submissions, workers)
+
+
+@dataclass
+class ClusterCapacity:
+    """As many as the cluster has threads, workers that come later too."""
+
+    workers: DaskPool
+    fixed: int | None = None
+
+    def now(self, working: int, soaking: int = 0) -> int:
+        """One more than there are threads waits on its way."""
+        return self.workers.threads() + 1
+
+
+@dataclass
+class Teller:
+    """Says how far the work is, when that has changed."""
+
+    progress: Progress
+    said: tuple[int, int] | None = None
+
+    def __call__(self, standing: Standing) -> None:
+        """Say it: always on a terminal, where the line is drawn anew, else only what is new."""
+        now = (standing.done, standing.unclear)
+        if sys.stderr.isatty() or now != self.said:
+            self.progress.step(standing_line(standing))
+            self.said = now

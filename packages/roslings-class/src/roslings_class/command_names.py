@@ -1,0 +1,15 @@
+"""The commands of this package, for a command line that gathers them. Imports nothing."""
+
+COMMANDS = (
+    ("teachers", "grade", "grade many submissions", "roslings_class.commands.grade"),
+    ("teachers", "regrade", "judge saved evidence again; runs nothing",
+     "roslings_class.commands.regrade"),
+    ("teachers", "override", "give a score by hand, with its reason",
+     "roslings_class.commands.override"),
+    ("teachers", "export", "what a grading platform needs for a lab",
+     "roslings_class.commands.export"),
+    ("teachers", "cluster", "a scheduler or worker for grade --dask",
+     "roslings_class.commands.cluster"),
+    ("teachers", "release", "make the students' edition, without solutions",
+     "roslings_class.commands.release"),
+)  # fmt: skip

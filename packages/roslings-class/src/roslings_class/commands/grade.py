@@ -1,0 +1,110 @@
+"""`./roslings grade`: grade many submissions."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ros2_on_pip.errors import INCONCLUSIVE, OK
+from roslings.commands.options import (
+    hidden_option,
+    lab_options,
+    soak_option,
+    trust_option,
+    whole_number,
+)
+
+if TYPE_CHECKING:
+    from roslings_class.grades import LateRule
+
+
+def add_options(word: argparse.ArgumentParser) -> None:
+    """What it takes."""
+    lab_options(word)
+    word.add_argument(
+        "submissions", metavar="SUBMISSIONS", type=Path,
+        help="Moodle's or Canvas's zip of the class; or a folder of folders, .zip and .tar.gz"
+        " files, or a CSV file with their paths",
+    )  # fmt: skip
+    word.add_argument(
+        "--out", metavar="DIR", type=Path, required=True,
+        help="where the gradebook goes; the same command goes on where it was ended",
+    )  # fmt: skip
+    word.add_argument(
+        "--jobs", metavar="N", type=whole_number, help="how many at once (default: measured)"
+    )
+    hidden_option(word)
+    trust_option(word)
+    word.add_argument("--clock", choices=("auto", "sim", "wall"), default="auto")
+    word.add_argument(
+        "--limit", metavar="SECONDS", type=whole_number, default=900,
+        help="the most that one grading may take (default: 900)",
+    )  # fmt: skip
+    soak_option(word, "half a minute, or what the card says")
+    word.add_argument(
+        "--dask", metavar="ADDRESS", help="grade on a Dask cluster, for example tcp://10.0.0.5:8786"
+    )
+    word.add_argument(
+        "--evidence", action="store_true", help="with --dask: bring the evidence back as well"
+    )
+    roster_options(word)
+
+
+def roster_options(word: argparse.ArgumentParser) -> None:
+    """Who is in the class, and what being late costs."""
+    word.add_argument(
+        "--roster", metavar="FILE", type=Path,
+        help="the class list, a CSV file with name, id, email; tells who is missing",
+    )  # fmt: skip
+    word.add_argument(
+        "--deadline", metavar="TIME", help="for example 2026-11-30T23:59; late days are counted"
+    )
+    word.add_argument(
+        "--late-points", metavar="P", type=float, default=0.0, help="what each day late costs"
+    )
+    word.add_argument(
+        "--late-free", metavar="N", type=int, default=0, help="late days that cost nothing"
+    )
+    word.add_argument(
+        "--canvas-assignment", metavar="NAME", default="",
+        help='the head of the column in canvas.csv, for example "Lab 3 (48151)"',
+    )  # fmt: skip
+
+
+def run(options: argparse.Namespace) -> int:
+    """Grade many submissions; 3 where some are still inconclusive."""
+    from roslings_class.command import Choices, grade
+
+    choices = Choices(
+        options.lab, options.submissions, options.out, jobs=options.jobs, hidden=options.hidden,
+        trust=options.trust, clock=options.clock, limit_s=options.limit,
+        roster=options.roster, rule=_late_rule(options), dask=options.dask,
+        keeps_evidence=not options.dask or options.evidence, soak_s=options.soak,
+        assignment=options.canvas_assignment,
+    )  # fmt: skip
+    try:
+        report = grade(choices)
+    except KeyboardInterrupt:
+        print("\nWhat is graded is kept. The same command goes on from here.", file=sys.stderr)
+        raise
+    print("\n".join(report.lines))
+    return INCONCLUSIVE if report.unclear else OK
+
+
+def _late_rule(options: argparse.Namespace) -> LateRule | None:
+    from roslings_class.errors import BatchError
+    from roslings_class.grades import LateRule
+    from roslings_class.submissions import as_time
+
+    if not options.deadline:
+        return None
+    try:
+        deadline = as_time(options.deadline)
+    except ValueError:
+        problem = f"{options.deadline!r} is no date and time."
+        raise BatchError(problem, "Write it as 2026-11-30T23:59.") from None
+    return LateRule(
+        deadline=deadline, points_a_day=options.late_points, free_days=options.late_free
+    )

@@ -1,0 +1,180 @@
+"""Grade one submission, in a process of its own: unpack, measure, judge, answer."""
+
+from __future__ import annotations
+
+import lzma
+import signal
+import time
+import zlib
+from dataclasses import dataclass
+from pathlib import Path
+from types import FrameType
+
+from pydantic import BaseModel
+
+from roslings import course
+from roslings.arena import NoFreeDomain, NoFreeUser
+from roslings.course import Lab
+from roslings.evidence import Evidence, PackageSeen, read_json, thin_json
+from roslings.experiment import Choices, MeasuringFailed, measure
+from roslings.experiment.soaking import SOAKING
+from roslings.hand_in.errors import Refused
+from roslings.hand_in.unpack import in_its_own_words, package_in
+from roslings.judge.loaded import judge_for
+from roslings.report.html.intervals import watched
+from roslings.report.whole_file import write_whole
+from roslings.saving import asked_rates
+from roslings.verdict import Verdict
+from roslings.workspace.bounded import Bookmark
+from roslings.workspace.errors import MachineTrouble, WorkspaceError
+from roslings.workspace.inspect import read_bounded, read_package
+from roslings_class.fingerprints import Fingerprint, fingerprint
+from roslings_class.result import Order, Result, broken
+from roslings_class.unusual import unusual
+from roslings_class.version import version_of
+
+NO_FINGERPRINT = Fingerprint("", frozenset())
+
+
+class Stopped(BaseException):
+    """The command wants this process to end: leave every block, and end what it started."""
+
+
+@dataclass(frozen=True)
+class Measured:
+    """A verdict, the evidence for it, and the code's fingerprint."""
+
+    verdict: Verdict
+    evidence: Evidence
+    fingerprint: Fingerprint
+
+
+def main(order: Order) -> None:
+    """The process's whole life."""
+    signal.signal(signal.SIGTERM, _stop)
+    answer(order)
+
+
+def _stop(number: int, frame: FrameType | None) -> None:
+    raise Stopped
+
+
+def answer(order: Order) -> Result:
+    """Grade, and put the answer into the order's room: evidence first, then the result, whole."""
+    result, evidence = grade(order)
+    if evidence and order.keeps_evidence:
+        order.evidence.write_bytes(packed(evidence))
+    put(result, order)
+    return result
+
+
+def put(result: Result, order: Order) -> None:
+    """The result into the order's room, where the command looks for it."""
+    write_whole(order.answer, result.model_dump_json(by_alias=True).encode())
+
+
+QUICKLY, THOROUGHLY = 0, 6
+"""Presets of xz: what every grading keeps, and what is kept for years in a repository."""
+_XZ = b"\xfd7zXZ\0"
+
+
+def packed(evidence: Evidence, preset: int = QUICKLY) -> bytes:
+    """The evidence as the gradebook keeps it: in columns, packed by xz."""
+    return lzma.compress(thin_json(evidence), preset=preset)
+
+
+def unpacked(content: bytes) -> Evidence:
+    """The same evidence; gradebooks of before columns hold it packed by zlib."""
+    unpack = lzma.decompress if content.startswith(_XZ) else zlib.decompress
+    return read_json(unpack(content))
+
+
+def grade(order: Order) -> tuple[Result, Evidence | None]:
+    """Grade one submission; what goes wrong with it is a result as well."""
+    began_s = time.monotonic()
+    try:
+        lab = course.lab(order.lab, order.hidden)
+        found = _measured(order, lab)
+    except Refused as refusal:
+        return _refused(order, refusal, time.monotonic() - began_s), None
+    except (MeasuringFailed, MachineTrouble, NoFreeDomain, NoFreeUser) as trouble:
+        return broken(order, str(trouble), time.monotonic() - began_s), None
+    result = Result(
+        submission=order.submission, digest=order.digest, attempt=order.attempt, state="graded",
+        verdict=found.verdict, seconds=time.monotonic() - began_s, lab_version=version_of(lab),
+        source=found.fingerprint.whole, marks=tuple(sorted(found.fingerprint.marks)),
+        rates=rates_of(found.evidence, lab), unusual=unusual(found.evidence),
+    )  # fmt: skip
+    return result, found.evidence
+
+
+def _measured(order: Order, lab: Lab) -> Measured:
+    """The way of `check`: read, measure, judge."""
+    began_ns = time.monotonic_ns()
+    package = package_in(order.path, lab.card.package, order.room)
+    read = _read(package, lab, order)
+    files = read.seen
+    files.handed_in_as = order.handed_in_as
+    choices = Choices(
+        order.seed, order.clock, hidden=order.hidden, builds=order.builds,
+        builds_as_kin=order.builds_as_kin, strangers=order.strangers, for_others=order.strangers,
+        soak_s=order.soak_s,
+    )  # fmt: skip
+
+    def note(step: str) -> None:
+        if step == SOAKING:
+            order.soaking.touch()
+
+    with judge_for(lab, order.strangers) as judge:
+        evidence = measure(lab.name, package, files, choices, note)
+        verdict = judge(evidence, began_ns)
+    return Measured(verdict, evidence, Fingerprint(read.whole, frozenset(read.marks)))
+
+
+class Read(BaseModel):
+    """What stands in a package's files; `whole` and `marks` are of its fingerprint."""
+
+    seen: PackageSeen
+    whole: str
+    marks: list[int]
+
+
+def _read(package: Path, lab: Lab, order: Order) -> Read:
+    """All that is read of it, by one child. Raises Refused, and what has to do with the disk."""
+
+    def read(bookmark: Bookmark) -> str:
+        seen = read_package(package, lab.card, bookmark)
+        print_of_it = _fingerprint(package, bookmark)
+        found = Read(seen=seen, whole=print_of_it.whole, marks=sorted(print_of_it.marks))
+        return found.model_dump_json()
+
+    try:
+        return Read.model_validate_json(read_bounded(package, read))
+    except MachineTrouble:
+        raise
+    except WorkspaceError as error:
+        raise in_its_own_words(error, (order.path, order.room)) from error
+
+
+def _fingerprint(package: Path, bookmark: Bookmark) -> Fingerprint:
+    """A package that cannot be tokenised is graded all the same."""
+    try:
+        return fingerprint(package, bookmark.put)
+    except (OSError, RecursionError):
+        return NO_FINGERPRINT
+
+
+def rates_of(evidence: Evidence, lab: Lab) -> dict[str, float]:
+    """Topic of the card to the rate that was measured, in Hz; the first experiment counts."""
+    found: dict[str, float] = {}
+    for each in watched(evidence, asked_rates(lab)):
+        if each.asked and each.rate:
+            found.setdefault(each.asked.topic, round(each.rate.hz, 4))
+    return found
+
+
+def _refused(order: Order, refusal: Refused, seconds: float) -> Result:
+    return Result(
+        submission=order.submission, digest=order.digest, attempt=order.attempt, state="refused",
+        reason=refusal.reason, next_step=refusal.next_step, seconds=seconds,
+    )  # fmt: skip

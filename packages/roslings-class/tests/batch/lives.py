@@ -1,0 +1,59 @@
+"""What processes of a worker pool do in these tests: answer, hang, break off."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+
+from roslings.report.whole_file import write_whole
+from roslings_class.grading import main as grading
+from roslings_class.result import Order, Result
+
+
+def by_name(order: Order) -> None:
+    """The submission's name says what to do."""
+    verb = order.submission.partition("-")[0]
+    {"refuse": refuse, "hang": hang, "raise": fail, "vanish": vanish, "grade": grading,
+     "busy": busy}[verb](order)  # fmt: skip
+
+
+def refuse(order: Order) -> None:
+    """Answer at once."""
+    _answer(order, "refused")
+
+
+def busy(order: Order) -> None:
+    """Unclear at the first try; the second is clear, and notes who works beside it."""
+    rooms = len(list(order.room.parent.iterdir()))
+    _answer(order, "broken" if order.attempt == 1 else "refused", f"{rooms} at work")
+
+
+def hang(order: Order) -> None:
+    """Start a process, ignore SIGTERM and never end."""
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    child = subprocess.Popen([sys.executable, "-c", "import time; time.sleep(600)"])
+    (order.path.parent / "hangs").write_text(f"{os.getpid()} {child.pid}")
+    time.sleep(600)
+
+
+def fail(order: Order) -> None:
+    """Break off with a traceback."""
+    raise OSError("the disk is on fire")
+
+
+def vanish(order: Order) -> None:
+    """Killed from outside."""
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+def _answer(order: Order, state: str, reason: str = "because") -> None:
+    result = Result.model_validate(
+        {
+            "submission": order.submission, "digest": order.digest, "attempt": order.attempt,
+            "state": state, "reason": reason,
+        }
+    )  # fmt: skip
+    write_whole(order.answer, result.model_dump_json().encode())

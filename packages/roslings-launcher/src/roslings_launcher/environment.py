@@ -1,0 +1,174 @@
+"""The environment made ready: the one way from whatever is there to what a command needs."""
+
+import os
+import shutil
+import sys
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from roslings_launcher import sizes
+from roslings_launcher.bytecode import compile_packages
+from roslings_launcher.errors import Trouble, say, wrapped
+from roslings_launcher.installing import TOOLS, Installer
+from roslings_launcher.interfaces import GROUP, Interfaces
+from roslings_launcher.lock import locked
+from roslings_launcher.machine import require_wheels, this_machine
+from roslings_launcher.packages import forget_damaged
+from roslings_launcher.place import Place, require_usable
+from roslings_launcher.record import Record
+from roslings_launcher.seeds import interpreter
+from roslings_launcher.sourced import SourcedRos, find_sourced
+from roslings_launcher.virtual import Virtual
+
+
+@dataclass(frozen=True)
+class EnvironmentRequest:
+    """What a command asks for."""
+
+    command: str
+    groups: tuple[str, ...]
+
+
+def make_ready(root: Path, request: EnvironmentRequest) -> None:
+    """Afterwards the environment in `root` holds the groups of `request`.
+
+    Raises:
+        Trouble: it cannot be made here; an environment that stood before still stands.
+    """
+    ros = find_sourced(os.environ)
+    require_usable(root)
+    if not ros:
+        require_wheels(this_machine())
+    work = _Work(Place(root, ".venv-apt" if ros else ".venv"), request, ros, _wheels())
+    with locked(work.place.lock):
+        work.do()
+
+
+def _wheels() -> Path | None:
+    named = os.environ.get("ROSLINGS_WHEELS")
+    if not named:
+        return None
+    folder = Path(named).absolute()
+    if not any(folder.glob("*.whl")):
+        raise Trouble(
+            f"ROSLINGS_WHEELS names a folder without wheels: {folder}",
+            "Fill it on a machine with a network: ./roslings wheels DIR",
+        )
+    return folder
+
+
+@dataclass(frozen=True)
+class _Work:
+    place: Place
+    request: EnvironmentRequest
+    ros: SourcedRos | None
+    wheels: Path | None
+
+    @property
+    def record(self) -> Record:
+        return Record(self.place)
+
+    @property
+    def virtual(self) -> Virtual:
+        return Virtual(self.place.environment)
+
+    def do(self) -> None:
+        self._mend_move()
+        if self.record.holds(self.request.groups) and self.virtual.runs():
+            return  # another ./roslings was quicker
+        stood = self.record.complete
+        try:
+            self._make()
+        except BaseException:
+            if not stood and not self.record.groups:
+                self.virtual.remove()
+            raise
+
+    def _mend_move(self) -> None:
+        old = self.record.home
+        if old is None or old == self.place.root:
+            return
+        say(wrapped(f"This folder was moved or copied from {old}. Mending its environment."))
+        groups = self.record.groups
+        self.record.put_aside()
+        self.virtual.moved_from(old / self.place.name)
+        self.virtual.see(self.place.root)
+        if self.virtual.runs() and not forget_damaged(self.virtual.site):
+            if GROUP in groups:
+                self._interfaces().name_headers()
+            compile_packages(self.virtual)  # a copy may have given its files new times
+            self.record.write(groups, self._installer().libraries())
+
+    def _make(self) -> None:
+        started_s = time.monotonic()
+        if GROUP in self.request.groups:
+            self._interfaces().require_compiler()
+        if not self.virtual.runs():
+            self._start_anew()
+        elif not self.record.complete:
+            say("The last set-up was interrupted. Mending it.")
+            forget_damaged(self.virtual.site)
+        self.virtual.see(self.place.root)
+        groups = {*self.record.groups, *self.request.groups}
+        self._install(self._to_install())
+        if GROUP in groups:
+            self._interfaces().build()
+        compile_packages(self.virtual)
+        self.record.write({TOOLS, *groups}, self._installer().libraries())
+        say(f"The environment is ready, after {time.monotonic() - started_s:.0f} s.\n")
+
+    def _start_anew(self) -> None:
+        """The groups of an environment that broke are forgotten with it."""
+        python = self.ros.python if self.ros else interpreter()
+        say(f"Making the environment in {self.place.name}, once.")
+        self.virtual.make(python, sees_system=self.ros is not None)
+
+    def _to_install(self) -> list[str]:
+        """The groups wanted now or before, without those that the sourced ROS brings."""
+        wanted = [*self.request.groups, *sorted(self.record.groups - set(self.request.groups))]
+        return [group for group in wanted if group not in self._from_ros()]
+
+    def _from_ros(self) -> set[str]:
+        if not self.ros:
+            return set()
+        return {"ros", GROUP, "colcon"} if shutil.which("colcon") else {"ros", GROUP}
+
+    def _install(self, groups: Sequence[str]) -> None:
+        installer = self._installer()
+        new = [group for group in (TOOLS, *groups) if group not in self.record.groups]
+        self._announce(new)
+        installer.require_tools()
+        packages = installer.missing(groups)
+        if packages:
+            wheels = self._wheels_of(packages, new or groups)
+            say(f"Installing {_counted(packages)}.")
+            self.record.put_aside()
+            installer.install(packages, wheels)
+
+    def _announce(self, new: Sequence[str]) -> None:
+        """How much comes from the network, before it does. A changed pin comes without a size."""
+        mb = sizes.megabytes(sys.version_info[:2], new)
+        if self.wheels:
+            say(f"Installing from {self.wheels}, with no network.")
+        elif mb:
+            say(f"`{self.request.command}` needs up to {mb:.0f} MB from the network, once.")
+
+    def _wheels_of(self, packages: Sequence[str], groups: Sequence[str]) -> Path:
+        if self.wheels:
+            self._installer().require_wheels(packages)
+            return self.wheels
+        total_mb = sizes.megabytes(sys.version_info[:2], groups)
+        self._installer().fetch(packages, self.place.wheels, total_mb)
+        return self.place.wheels
+
+    def _interfaces(self) -> Interfaces:
+        return Interfaces(self.place, self.virtual, sourced=self.ros is not None)
+
+    def _installer(self) -> Installer:
+        return Installer(self.place, self.virtual, self.wheels, sees_path=self.ros is not None)
+
+
+def _counted(packages: Sequence[str]) -> str:
+    return packages[0] if len(packages) == 1 else f"{len(packages)} packages"

@@ -1,0 +1,1 @@
+"""What a learner types to read and to practise."""

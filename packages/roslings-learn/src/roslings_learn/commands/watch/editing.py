@@ -1,0 +1,64 @@
+"""Open the student's package in an editor."""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+import shutil
+import subprocess
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from ros2_on_pip.typed_paths import shown
+
+TO_DO = re.compile(r"#\s*TODO\b")
+
+
+@dataclass(frozen=True)
+class Place:
+    """A line of a file."""
+
+    file: Path
+    line: int = 1
+
+
+def edit(package: Path) -> None:
+    """Open the first file that has something to do; say where it is where no editor is known."""
+    place = first_to_do(package)
+    command = editor_for(place, package)
+    if command is None:
+        print(f"\nOpen {shown(place.file)}, line {place.line}, in your editor.", flush=True)
+        return
+    subprocess.run(command, check=False)
+
+
+def first_to_do(package: Path) -> Place:
+    """The first line with a TODO; else the first file of the package's own code."""
+    files = sorted(_code_of(package)) if package.is_dir() else [package]
+    for file in files:
+        lines = file.read_text("utf-8", "replace").splitlines()
+        for number, line in enumerate(lines, start=1):
+            if TO_DO.search(line):
+                return Place(file, number)
+    return Place(files[0]) if files else Place(package)
+
+
+def editor_for(place: Place, package: Path) -> list[str] | None:
+    """VS Code where this is its terminal, or where nothing else is set; else $VISUAL or $EDITOR."""
+    set_one = os.environ.get("VISUAL") or os.environ.get("EDITOR")
+    code = shutil.which("code")
+    if code and (os.environ.get("TERM_PROGRAM") == "vscode" or not set_one):
+        return [code, str(package), "--goto", f"{place.file}:{place.line}"]
+    if set_one and (words := shlex.split(set_one)) and shutil.which(words[0]):
+        return [*words, str(place.file)]
+    return None
+
+
+def _code_of(package: Path) -> Iterator[Path]:
+    hidden = ("test", "build", "install", "log")
+    for file in package.rglob("*.py"):
+        inside = file.relative_to(package).parts
+        if inside[0] not in hidden and file.name not in ("__init__.py", "setup.py"):
+            yield file

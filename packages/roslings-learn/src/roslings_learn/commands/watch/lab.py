@@ -1,0 +1,102 @@
+"""A lab that is watched."""
+
+from __future__ import annotations
+
+import argparse
+import time
+from contextlib import closing
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ros2_on_pip.typed_paths import from_here
+from roslings.commands.showing import replace_kept, show
+from roslings.course import Lab
+from roslings.typed import program
+from roslings.workspace import progress
+from roslings.workspace.errors import NotThere
+from roslings.workspace.student import package_of, start
+from roslings_learn.commands.watch.keyboard import Keyboard
+from roslings_learn.commands.watch.session import Session, tell
+
+if TYPE_CHECKING:
+    from roslings.checking import Ready
+    from roslings.saving import Graded
+
+
+def begun(lab: Lab, options: argparse.Namespace, keys: Keyboard) -> LabSession:
+    """The starter is put there for who has none."""
+    options.lab = lab.name
+    if options.path is None and _package_there(lab) is None:
+        print(f"The starter of {lab.name!r} is in {from_here(start(lab).package)}.")
+    return LabSession(keys, package_of(lab, options.path), lab.outline.day, lab, options)
+
+
+def _package_there(lab: Lab) -> Path | None:
+    return next((each.package for each in progress.status() if each.lab.name == lab.name), None)
+
+
+@dataclass
+class LabSession(Session):
+    """A package that is built and graded at each save."""
+
+    lab: Lab
+    options: argparse.Namespace
+    graded: Graded | None = field(default=None, init=False)
+
+    def run(self) -> bool:
+        """With all loaded that is the same for each check."""
+        from roslings.checking import ready_again_and_again
+
+        with closing(ready_again_and_again(self.lab)) as each_ready:
+            ready = next(each_ready)
+            for _ in self.turns():
+                self._check(ready)
+                ready = next(each_ready)  # only the save is waited for
+                if self.is_done() and self.keys.keys:
+                    print(f"\nDone. To hand it in: {program()} pack {self.lab.name}")
+                self.say_that_it_waits()
+        return self.goes_on
+
+    def _check(self, ready: Ready) -> None:
+        """What is wrong with the package now may be right at the next save."""
+        try:
+            self._insist_on_folder()
+            package = package_of(self.lab, self.options.path)
+            self.graded = ready.grade(package, time.monotonic_ns())
+            verdict = self.graded.verdict
+            show(verdict, self.options, replace_kept(self.lab, verdict))
+        except Exception as error:
+            self.graded = None
+            tell(error)
+
+    def _insist_on_folder(self) -> None:
+        """What is watched is there: a package that lies elsewhere now is followed by nobody."""
+        if not self.folder.exists():
+            raise NotThere(self.folder, f"{program()} start {self.lab.name}")
+
+    def show_hint(self, step: int) -> None:
+        """For the first check that failed."""
+        if self.graded is None:
+            print("\nThere is no verdict to give a hint for.", flush=True)
+        else:
+            show(self.graded.verdict, argparse.Namespace(**{**vars(self.options), "hint": step}))
+
+    def show_graph(self) -> None:
+        """As the last check saw it, when most nodes of the lab ran at once."""
+        from roslings.report import graph_text
+
+        experiments = self.graded.evidence.experiments.values() if self.graded else ()
+        names = {node.node for node in self.lab.card.nodes}
+        graphs = (seen.graph for seen in experiments if seen.graph.nodes)
+        fullest = max(graphs, key=lambda graph: len(names & {*graph.nodes}), default=None)
+        print(f"\n{graph_text(fullest)}" if fullest else "\nNo node has run yet.", flush=True)
+
+    def is_done(self) -> bool:
+        """The last check passed."""
+        return self.graded is not None and self.graded.verdict.outcome == "pass"
+
+    @property
+    def title(self) -> str:
+        """The day and what it is about."""
+        return f"Day {self.lab.outline.day}: {self.lab.outline.title}"

@@ -1,0 +1,27 @@
+"""Why no lesson can be opened, with the next step."""
+
+from __future__ import annotations
+
+from ros2_on_pip.errors import RoslingsError
+from roslings_learn.lessons import Day
+
+
+class NoLessonToOpen(RoslingsError):
+    """The day that was asked for cannot be opened."""
+
+
+class NoSuchDay(NoLessonToOpen):
+    """The course has no such day."""
+
+    def __init__(self, wanted: str, days: tuple[Day, ...]) -> None:
+        there = "\n".join(f"  {day.number}  {day.id}" for day in days)
+        super().__init__(f"There is no day {wanted!r}. The days are:\n{there}")
+
+
+class NotWritten(NoLessonToOpen):
+    """The day has no lesson yet."""
+
+    def __init__(self, day: Day) -> None:
+        super().__init__(
+            f"{day.name} has no notebook yet. To see the days that have one: ./roslings lab"
+        )

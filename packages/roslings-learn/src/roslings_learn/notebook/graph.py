@@ -1,0 +1,27 @@
+"""The live graph below a cell."""
+
+from __future__ import annotations
+
+from roslings_learn.notebook.picture import Picture, show, svg_picture
+from roslings_learn.notebook.place import settle_in
+
+
+def show_graph() -> None:
+    """Show which node talks to which, on what topic, as it is at this moment.
+
+    Every node of this ROS domain is there, also those of your terminals.
+    """
+    show(graph_picture())
+
+
+def graph_picture() -> Picture:
+    """The picture that `show_graph` shows."""
+    settle_in()
+    from ros2_on_pip.discovery import Eye
+    from roslings.probe.graph import read_graph
+    from roslings.report import describe_graph
+    from roslings.report.html.graph_svg import graph_svg
+
+    with Eye() as eye:
+        seen = read_graph(eye.settle().node)
+    return svg_picture(graph_svg(seen), describe_graph(seen))

@@ -1,0 +1,75 @@
+"""Where a kernel stands: its ROS domain, which no other notebook of this computer uses.
+
+Two notebooks that are open at once would hear each other's nodes. So each kernel leases its
+domain as an arena does: by a bound TCP port on loopback, which the kernel of the operating system
+takes back when the process ends, however it ends.
+"""
+
+from __future__ import annotations
+
+import os
+import socket
+import sys
+from pathlib import Path
+
+from ros2_on_pip.domain_lease import SAFE_DOMAINS, NoFreeDomain, domains_in_use, lease
+from ros2_on_pip.surroundings import domain_id, prepare
+
+LOGS_ON_STDOUT = "RCUTILS_LOGGING_USE_STDOUT"
+LOGS = {LOGS_ON_STDOUT: "1", "RCUTILS_LOGGING_BUFFERED_STREAM": "0"}
+"""A node's log lines stand among the cell's other output, and not in red as an error does."""
+
+ON_THE_SITE = "ROSLINGS_SITE"
+"""Set where the website runs a lesson: the quiz has a page of its own there, for example."""
+
+_held: dict[int, socket.socket] = {}
+"""The domain of this process, with its lease; empty until a cell first needs it."""
+
+
+def settle_in() -> int:
+    """The ROS domain of this kernel. The first call leases it and fills in the environment.
+
+    Raises NoFreeDomain, BadDomain (ROS_DOMAIN_ID is no number).
+    """
+    if not _held:
+        _fill_in()
+        domain, held = _lease(domain_id())
+        _held[domain] = held
+    return next(iter(_held))
+
+
+def on_the_site() -> bool:
+    """The website is built, and nobody sits before this notebook."""
+    return bool(os.environ.get(ON_THE_SITE))
+
+
+def _fill_in() -> None:
+    prepare()
+    for name, value in LOGS.items():
+        os.environ.setdefault(name, value)
+    path = os.environ.get("PATH", os.defpath).split(os.pathsep)
+    own = str(Path(sys.executable).parent)
+    if own not in path:
+        os.environ["PATH"] = os.pathsep.join([own, *path])
+
+
+def _lease(wanted: int) -> tuple[int, socket.socket]:
+    held = lease(wanted)
+    if held is not None:
+        return wanted, held
+    busy = domains_in_use()
+    for domain in (each for each in SAFE_DOMAINS if each not in busy):
+        held = lease(domain)
+        if held is not None:
+            _tell(wanted, domain)
+            return domain, held
+    raise NoFreeDomain
+
+
+def _tell(wanted: int, domain: int) -> None:
+    """Children of this kernel go along; a terminal must be told by its person."""
+    os.environ["ROS_DOMAIN_ID"] = str(domain)
+    print(
+        f"Another notebook uses ROS domain {wanted}, so this one uses {domain}."
+        f" In a terminal, to see its nodes: export ROS_DOMAIN_ID={domain}"
+    )

@@ -1,0 +1,83 @@
+"""The rover's map below a cell: where it is now, or which way it went."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+from roslings_learn.notebook.errors import Trouble
+from roslings_learn.notebook.picture import Picture, show
+from roslings_rover.models.differential_drive import Body, Pose
+from roslings_rover.models.world import default_world
+from roslings_rover.rover.moving_map import moving_map
+from roslings_rover.rover.rover import Moment
+
+if TYPE_CHECKING:
+    from roslings_rover.rover.notebook import LiveRover
+
+
+class NoWay(Trouble):
+    """A drive needs places."""
+
+    def __init__(self) -> None:
+        super().__init__(
+            "There is no place to draw. Give odometry: show_path(ros.collect('/odom', count=20))"
+        )
+
+
+def show_map(rover: LiveRover) -> None:
+    """Show the map of the rover that `ros.rover()` gave; its drive until now is seen once more."""
+    pose = rover.pose
+    degrees = math.degrees(pose.heading_rad)
+    alt = (
+        f"The rover's map. It is at x {pose.x_m:.2f} m, y {pose.y_m:.2f} m,"
+        f" heading {degrees:.0f} degrees."
+    )
+    still = rover.map(moves=False).encode()
+    show(Picture(rover.map().encode(), "image/svg+xml", alt, still=still))
+
+
+def show_path(odometry: Sequence[Any]) -> None:
+    """Show the drive that a list of nav_msgs/Odometry tells, on the rover's map.
+
+    Also takes what `collect(..., stamps=True)` gave. Raises NoWay.
+    """
+    show(path_picture(odometry))
+
+
+def path_picture(odometry: Sequence[Any]) -> Picture:
+    """The picture that `show_path` shows. Raises NoWay."""
+    trail = _trail([getattr(each, "message", each) for each in odometry])
+    if not trail:
+        raise NoWay
+    moving, still = (_drawn(trail, moves).encode() for moves in (True, False))
+    return Picture(moving, "image/svg+xml", _in_words(trail), still=still)
+
+
+def _trail(messages: Sequence[Any]) -> list[Moment]:
+    """As their stamps tell; each 0.1 s after the one before where these do not grow."""
+    times_s = [each.header.stamp.sec + each.header.stamp.nanosec * 1e-9 for each in messages]
+    if any(later <= earlier for earlier, later in pairwise(times_s)):
+        times_s = [0.1 * number for number in range(len(messages))]
+    return [Moment(time_s, _pose(each)) for time_s, each in zip(times_s, messages, strict=True)]
+
+
+def _pose(odometry: Any) -> Pose:
+    place, turned = odometry.pose.pose.position, odometry.pose.pose.orientation
+    return Pose(place.x, place.y, 2 * math.atan2(turned.z, turned.w))
+
+
+def _in_words(trail: Sequence[Moment]) -> str:
+    places = [(each.pose.x_m, each.pose.y_m) for each in trail]
+    (x0, y0), (x1, y1) = places[0], places[-1]
+    way_m = sum(math.dist(a, b) for a, b in pairwise(places))
+    return (
+        f"A drive on the rover's map, {way_m:.2f} m long in {len(places)} places:"
+        f" from x {x0:.2f} m, y {y0:.2f} m to x {x1:.2f} m, y {y1:.2f} m."
+    )
+
+
+def _drawn(trail: Sequence[Moment], moves: bool) -> str:
+    return moving_map(default_world(), trail, Body().radius_m, dots=True, moves=moves)

@@ -1,0 +1,135 @@
+"""What a student may do to a drill's file, and what comes of it."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from pathlib import Path
+
+import pytest
+from fresh import in_fresh_process
+
+from roslings_learn.drills import Drill, drill, running
+from roslings_learn.drills.judging import DrillVerdict
+
+
+def check(one: Drill, file: Path) -> DrillVerdict:
+    """The verdict on the program in `file`."""
+    return in_fresh_process(running.check, one, file)
+
+
+def changed(tmp_path: Path, name: str, before: str, after: str, of: str = "starter") -> Path:
+    """A program of a drill with one thing changed."""
+    source = getattr(drill(name), of)
+    file = tmp_path / source.name
+    text = source.read_text("utf-8")
+    assert text.count(before) == 1
+    file.write_text(text.replace(before, after), "utf-8")
+    return file
+
+
+def test_a_file_that_python_cannot_read_is_not_run(tmp_path: Path) -> None:
+    """File, line and Python's words."""
+    file = changed(tmp_path, "no_spin", "def main():", "def main()")
+    verdict = check(drill("no_spin"), file)
+    assert verdict.first and verdict.first.fault == "SyntaxErrorInCode"
+    assert verdict.headline.startswith("starter.py, line ")
+    assert "expected ':'" in verdict.headline
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("stream", ["stdout", "stderr"])
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [
+        ("    rclpy.spin(Tick())", "    tick = Tick()\n    {loop}"),
+        ("        self.count += 1", "        {loop}"),
+    ],
+    ids=["instead of spin", "in a callback"],
+)
+def test_a_program_that_prints_without_end_is_told_its_lines(
+    tmp_path: Path, before: str, after: str, stream: str
+) -> None:
+    """At once, and never that nobody can tell.
+
+    On a busy computer it has printed too little to be called endless; it never spins then, too.
+    """
+    loop = f"while True: print('tick', file=__import__('sys').{stream})"
+    file = changed(tmp_path, "first_node", before, after.format(loop=loop), of="solution")
+    verdict = check(drill("first_node"), file)
+    assert verdict.outcome == "fail" and verdict.first
+    assert verdict.first.fault in ("PrintsWithoutEnd", "NeverSpins")
+    told = re.search(r"it wrote [\d,]+ lines", verdict.headline)
+    assert bool(told) == (verdict.first.fault == "PrintsWithoutEnd")
+
+
+def test_a_wrong_answer_is_told_without_the_right_one(tmp_path: Path) -> None:
+    """The right one is for the student to find."""
+    file = changed(tmp_path, "full_name", "ANSWER = None", "ANSWER = '/wheel'")
+    verdict = check(drill("full_name"), file)
+    assert verdict.first and verdict.first.fault == "WrongAnswer"
+    assert "/left/front/wheel" not in verdict.first.model_dump_json()
+
+
+def test_only_the_answer_may_be_changed(tmp_path: Path) -> None:
+    """The question is about this program."""
+    file = changed(tmp_path, "full_name", '="left/front"', '="left"', of="solution")
+    verdict = check(drill("full_name"), file)
+    assert verdict.first and verdict.first.fault == "ProgramChanged"
+
+
+def test_an_answer_may_be_right_in_other_words(tmp_path: Path) -> None:
+    """4 and 4.0 are one number."""
+    file = changed(tmp_path, "every_other", "ANSWER = None", "ANSWER = 4.0")
+    verdict = check(drill("every_other"), file)
+    assert verdict.outcome == "pass"
+    assert "1 / 0.125" in verdict.because
+
+
+def test_a_program_of_other_shape_passes(tmp_path: Path) -> None:
+    """What is judged is what it does."""
+    file = tmp_path / "mine.py"
+    file.write_text(
+        "import rclpy\n"
+        "from std_msgs.msg import Float64\n"
+        "rclpy.init()\n"
+        "node = rclpy.create_node('doubler')\n"
+        "out = node.create_publisher(Float64, '/doubled', 10)\n"
+        "double = lambda heard: out.publish(Float64(data=2 * heard.data))\n"
+        "node.create_subscription(Float64, '/number', double, 10)\n"
+        "while rclpy.ok():\n"
+        "    rclpy.spin_once(node)\n"
+    )
+    assert check(drill("doubler"), file).outcome == "pass"
+
+
+def test_a_wrong_sum_is_told_with_both_numbers(tmp_path: Path) -> None:
+    """What went in, and what came out."""
+    file = changed(tmp_path, "doubler", "* 2", "+ 2", of="solution")
+    verdict = check(drill("doubler"), file)
+    assert verdict.first and verdict.first.fault == "WrongReaction"
+    assert verdict.headline == "after /number (data: 2.5), /doubled carries data: 4.5"
+
+
+OWN_CHECK = """
+from roslings_learn.drills.steps import Step
+
+
+def demand(view):
+    assert view.seen.graph.nodes == ["/tower"], "it is no tower"
+
+
+def steps(card):
+    yield Step("tower", "It is a tower.", demand)
+"""
+
+
+def test_a_drill_may_bring_a_check_of_its_own(tmp_path: Path) -> None:
+    """For what no card can say."""
+    folder = tmp_path / "01_no_spin"
+    shutil.copytree(drill("no_spin").folder, folder)
+    (folder / "check.py").write_text(OWN_CHECK)
+    one = Drill("no_spin", "02-nodes", 1, folder)
+    verdict = check(one, one.solution)
+    assert verdict.first and (verdict.first.id, verdict.first.fault) == ("tower", "Unmet")
+    assert "it is no tower" in (verdict.first.measured or "")

@@ -1,0 +1,250 @@
+"""What a cell shows: pictures with words, errors in a line or two, programs, verdicts, quizzes."""
+
+from __future__ import annotations
+
+import base64
+import html
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+from xml.etree import ElementTree
+
+from kernels import Kernel
+
+from sources import python_path, sources
+
+
+def alt_of(shown: dict[str, str]) -> str:
+    """The text alternative, the same for eyes and for terminals."""
+    found = re.search(r' alt="([^"]+)"', shown["text/html"])
+    assert found, shown["text/html"][:200]
+    return html.unescape(found[1])
+
+
+def content_of(shown: dict[str, str]) -> bytes:
+    """The picture itself."""
+    found = re.search(r' src="data:[^,]+;base64,([^"]+)"', shown["text/html"])
+    assert found
+    return base64.b64decode(found[1])
+
+
+def test_the_graph_is_a_picture_with_words(cells: Kernel) -> None:
+    """A drawing of its own, on a white sheet, light."""
+    ran = cells.run("with session() as ros:\n    ros.start(Talker)\n    show_graph()")
+    (shown,) = ran.shown
+    assert "/talker publishes on /words" in alt_of(shown)
+    drawing = ElementTree.fromstring(content_of(shown))
+    assert drawing.tag == "{http://www.w3.org/2000/svg}svg"
+    assert "/talker" in "".join(drawing.itertext())
+    assert "background:#fff" in shown["text/html"] and len(shown["text/html"]) < 50_000
+
+
+def test_an_empty_graph_says_so(cells: Kernel) -> None:
+    """Outside of a session, with nothing there."""
+    (shown,) = cells.run("show_graph()").shown
+    assert "no node was seen" in alt_of(shown)
+
+
+def test_intervals_of_messages_and_of_a_topic(cells: Kernel) -> None:
+    """Stamps that were collected, or a topic's name."""
+    ran = cells.run("""
+with session() as ros:
+    ros.start(Talker)
+    plot_intervals(ros.collect("/words", count=5, stamps=True))
+    plot_intervals("/words", count=4)
+""")
+    assert ran.error == "", ran
+    assert "4 periods" in alt_of(ran.shown[0]) and "3 periods of /words" in alt_of(ran.shown[1])
+
+
+ON_THE_SITE = """
+import os
+class Steady(Node):
+    def __init__(self):
+        super().__init__("steady")
+        self.publisher = self.create_publisher(String, "even", 10)
+        self.timer = self.create_timer(0.2, self.tell)
+    def tell(self):
+        self.publisher.publish(String(data="x"))
+class Sleepy(Steady):
+    def tell(self):
+        super().tell()
+        import time
+        time.sleep(0.3)
+os.environ["ROSLINGS_SITE"] = "1"
+try:
+    for kind in (Steady, Sleepy):
+        with session() as ros:
+            ros.start(kind)
+            plot_intervals("/even", count=6)
+            print(len(ros.collect("/even", count=2)), "more")
+finally:
+    del os.environ["ROSLINGS_SITE"]
+"""
+
+
+def test_on_the_site_a_timer_is_plotted_in_simulated_time(cells: Kernel) -> None:
+    """A busy computer is not in it; a callback that sleeps is slow by itself, and shown so."""
+    ran = cells.run(ON_THE_SITE)
+    assert ran.error == "", ran
+    assert ran.text.count("2 more") == 2, "the nodes live by the wall's clock again"
+    even, slow = map(alt_of, ran.shown)
+    assert "the shortest 200.0 ms, the longest 200.0 ms" in even
+    assert b"simulated seconds" in content_of(ran.shown[0])
+    assert b"simulated seconds" not in content_of(ran.shown[1])
+    shortest = re.search(r"the shortest ([\d.]+) ms", slow)
+    assert shortest and float(shortest[1]) > 250
+
+
+def test_intervals_need_stamps_and_two_messages(cells: Kernel) -> None:
+    """Each says how to get them."""
+    assert "stamps=True" in cells.run("plot_intervals([String()])").said
+    assert "too few" in cells.run("plot_intervals([])").said
+
+
+def test_messages_are_shown_as_they_come(cells: Kernel) -> None:
+    """Each in one piece; a session is opened where there is none."""
+    ran = cells.run(
+        "with session() as ros:\n    ros.start(Talker)\n    watch_topic('/words', count=2)"
+    )
+    assert re.search(
+        r"  1    0\.000 s  data: hi \d+\n  2    0\.\d{3} s  data: hi \d+\n", ran.text
+    ), ran
+    assert cells.run("watch_topic('/words', count=1, timeout_s=0.2)").error == "NothingHeard"
+
+
+def test_the_rover_drives_on_its_map(cells: Kernel) -> None:
+    """Map, path and camera, each with its words."""
+    ran = cells.run("""
+from geometry_msgs.msg import Twist
+go = Twist()
+go.linear.x = 0.3
+with session() as ros:
+    rover = ros.rover()
+    ros.say("/cmd_vel", go)
+    ros.until(lambda: rover.pose.x_m > 0.02, "the rover to move")
+    show_map(rover)
+    show_path(ros.collect("/odom", count=5))
+    show_image(ros.collect("/camera/image_raw", count=1)[0])
+""")
+    assert ran.error == "", ran
+    words = [alt_of(shown) for shown in ran.shown]
+    assert "It is at x 0." in words[0] and "A drive on the rover's map" in words[1]
+    assert "640 by 480 pixels, encoding rgb8" in words[2]
+    drawn = [content_of(shown) for shown in ran.shown]
+    assert b"@keyframes drive" in drawn[0] and b"@keyframes drive" in drawn[1]
+    assert drawn[2].startswith(b"\x89PNG")
+
+
+IMAGE = """
+from sensor_msgs.msg import Image
+image = Image(width=2, height=1, encoding="bgr8", step=8, data=bytes([255, 0, 0, 0, 0, 255, 9, 9]))
+"""
+
+
+def test_a_picture_with_filled_rows_and_blue_first(cells: Kernel) -> None:
+    """What fills up a row is no pixel; bgr8 begins with blue."""
+    import io
+
+    import png
+
+    (shown,) = cells.run(IMAGE + "show_image(image)").shown
+    width, height, rows, _ = png.Reader(io.BytesIO(content_of(shown))).read()
+    assert (width, height) == (2, 1)
+    assert [list(row) for row in rows] == [[0, 0, 255, 255, 0, 0]]
+    assert "R 255, G 0, B 0" in alt_of(shown)
+
+
+def test_a_picture_that_does_not_fit_says_what_would(cells: Kernel) -> None:
+    """Sizes, encodings, and things that are no pictures."""
+    assert "need step 9" in cells.run(IMAGE + "image.width = 3\nshow_image(image)").said
+    assert "rgb8" in cells.run(IMAGE + "image.encoding = 'yuv'\nshow_image(image)").said
+    assert "is no picture" in cells.run("show_image(String())").said
+    assert "no place" in cells.run("show_path([])").said
+
+
+def test_an_assert_is_told_in_a_line(cells: Kernel) -> None:
+    """And is an error all the same."""
+    ran = cells.run("assert 1 == 2, 'Still 1: make it 2.'")
+    assert ran.error == "AssertionError" and ran.told == "Not yet: Still 1: make it 2."
+    assert cells.run("x = 1\nassert x == 2").told == "Not yet: this is not true: x == 2"
+
+
+def test_other_errors_end_in_the_students_line(cells: Kernel) -> None:
+    """No line of a library."""
+    ran = cells.run("import json\n\ndef read():\n    return json.loads('{')\n\nread()")
+    assert ran.error == "JSONDecodeError"
+    assert "Line 4 of the cell, in read" in ran.told and "decoder.py" not in ran.told
+
+
+def test_a_syntax_error_stays_as_python_shows_it(cells: Kernel) -> None:
+    """With the arrow below the place."""
+    ran = cells.run("print('a'")
+    assert ran.error == "SyntaxError" and "^" in ran.told
+
+
+def test_a_terminals_command_is_printed(cells: Kernel) -> None:
+    """With its exit code where it is not 0, and an end where it has none."""
+    assert cells.run("terminal('echo one; echo two >&2')").text == "one\ntwo\n"
+    assert "(exit code 3)" in cells.run("terminal('exit 3')").text
+    assert "does not end by itself" in cells.run("terminal('sleep 100', timeout_s=0.3)").text
+
+
+def test_a_program_speaks_and_ends_by_ctrl_c(cells: Kernel, tmp_path: Path) -> None:
+    """Its lines come at once, and Ctrl-C reaches Python code."""
+    script = tmp_path / "ticks.py"
+    script.write_text(
+        "import sys, time\n"
+        "print('begun')\n"
+        "try:\n    time.sleep(1000)\n"
+        "except KeyboardInterrupt:\n    print('bye'); sys.exit(7)\n"
+    )
+    ran = cells.run(f"""
+with session() as ros:
+    program = ros.run("{sys.executable} -S {script}")
+    print(program.says("egu"), program.runs, program.stop(), program.lines, program.runs)
+""")
+    assert "begun True 7 ['begun', 'bye'] False" in ran.text, ran
+
+
+def test_a_program_that_never_says_it(cells: Kernel) -> None:
+    """One that ended, and one that goes on."""
+    begin = "with session() as ros:\n    ros.run"
+    ran = cells.run(begin + "('echo no; exit 2').says('yes')")
+    assert ran.error == "ProgramEnded" and "exit code 2" in ran.said and "\nno" in ran.said
+    ran = cells.run(begin + "('sleep 100').says('yes', timeout_s=0.2)")
+    assert ran.error == "NeverSaid" and "(nothing)" in ran.said
+
+
+def test_a_check_of_nothing_says_how_to_begin(cells: Kernel) -> None:
+    """No error, one line."""
+    ran = cells.run("check('topics')\ncheck('tropics')")
+    first, second = ran.text.splitlines()[:2]
+    assert first.endswith("./roslings start topics") and "tropics" in second
+    assert ran.error == ""
+
+
+def test_a_kernel_without_ros_is_told_in_a_line() -> None:
+    """Python alone, with nothing installed: the first import says what to do."""
+    source = (
+        f"import sys; sys.path[:0] = {list(map(str, sources()))!r}; import roslings_learn.notebook"
+    )
+    environment = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
+    done = subprocess.run(
+        [sys.executable, "-I", "-S", "-c", source], env=environment, capture_output=True,
+        text=True, check=False,
+    )  # fmt: skip
+    last = done.stderr.splitlines()[-1]
+    assert "NoRos" in last and "./roslings lab" in last
+
+
+def test_importing_is_quiet_outside_of_notebooks() -> None:
+    """A program that imports it gets no IPython."""
+    source = "import roslings_learn.notebook, sys; print('IPython' in sys.modules)"
+    done = subprocess.run(
+        [sys.executable, "-c", source], capture_output=True, text=True, check=True,
+        env={**os.environ, "PYTHONPATH": python_path()},
+    )  # fmt: skip
+    assert done.stdout.strip() == "False"

@@ -1,0 +1,54 @@
+"""Judge the solution by a card with another word: first what was seen of it, then it anew.
+
+This is the whole life of a process that `prove` starts, in place of an ordinary grading.
+"""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from pydantic import BaseModel
+
+from roslings import course
+from roslings.judge import judge
+from roslings_class import grading
+from roslings_class.result import Order, Result
+
+LIFE = f"{__name__}:main"
+NOTE = "wanted.json"
+
+
+class Wanted(BaseModel):
+    """What must come of the solution by the other card; it lies beside that card's course."""
+
+    seen: Path
+    """The packed evidence of the solution, measured by the card as it is."""
+    must_fail: bool
+
+    def is_met(self, result: Result) -> bool:
+        """Nothing else has to be tried."""
+        if result.verdict is None:
+            return False
+        return result.verdict.outcome == ("fail" if self.must_fail else "pass")
+
+
+def main(order: Order) -> None:
+    """Answer from the evidence where that is enough; else grade."""
+    assert order.course is not None
+    os.environ["ROSLINGS_COURSE"] = str(order.course)
+    wanted = Wanted.model_validate_json((order.course / NOTE).read_text("utf-8"))
+    result = judged(order, wanted)
+    if wanted.is_met(result):
+        grading.put(result, order)
+    else:
+        grading.main(order)
+
+
+def judged(order: Order, wanted: Wanted) -> Result:
+    """What the other card makes of the same evidence."""
+    evidence = grading.unpacked(wanted.seen.read_bytes())
+    return Result(
+        submission=order.submission, digest=order.digest, attempt=order.attempt, state="graded",
+        verdict=judge(course.lab(order.lab), evidence),
+    )  # fmt: skip

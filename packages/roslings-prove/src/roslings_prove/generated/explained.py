@@ -1,0 +1,86 @@
+"""`labs/LAB/generated.yaml`: the generated packages that nothing catches, and why that is right.
+
+    - package: topics-number-talker.py:14-1b1ecb9f
+      diff: |
+        -        self.publisher = self.create_publisher(String, 'chatter', 10)
+        +        self.publisher = self.create_publisher(String, 'chatter', 11)
+      equivalent: The queue is never full.
+
+Instead of `equivalent`, `not_judged` names a line of the card's `not_judged`, word for word.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from pathlib import Path
+
+from pydantic import Field, RootModel, model_validator
+
+from roslings.course import Lab
+from roslings.course.contract import Contract
+from roslings.course.files import BadCourseFile, read_yaml
+from roslings_prove.generated.choice import Generated
+
+FILE = "generated.yaml"
+
+
+class Explanation(Contract):
+    """Why one generated package may get every point."""
+
+    package: str
+    diff: str = Field(description="The lines that are changed, each with - or +")
+    equivalent: str = Field(default="", description="Why it does what the solution does")
+    not_judged: str = Field(default="", description="A line of the card's `not_judged`")
+
+    @model_validator(mode="after")
+    def _one_reason(self) -> Explanation:
+        """Raises ValueError, which is told with file and line."""
+        if bool(self.equivalent) == bool(self.not_judged):
+            raise ValueError("give one reason: `equivalent: ...` or `not_judged: ...`")
+        return self
+
+    @property
+    def why(self) -> str:
+        """The reason, in words."""
+        return self.equivalent or f"not judged: {self.not_judged}"
+
+
+class Explanations(RootModel[tuple[Explanation, ...]]):
+    """All of a lab."""
+
+
+def explained(lab: Lab, packages: Collection[Generated]) -> dict[str, Explanation]:
+    """Package's name to why it may survive. Raises BadCourseFile."""
+    file = lab.folder / FILE
+    if not file.is_file():
+        return {}
+    known = {each.name: each for each in packages}
+    entries = read_yaml(file, Explanations).root
+    for number, entry in enumerate(entries):
+        if problem := _problem(entry, known, lab.card.not_judged):
+            raise BadCourseFile(file, _line(file, number), problem)
+    return {entry.package: entry for entry in entries}
+
+
+def _problem(
+    entry: Explanation, known: Mapping[str, Generated], not_judged: Collection[str]
+) -> str:
+    package = known.get(entry.package)
+    if package is None:
+        return f"no generated package has the name {entry.package!r}: take the entry out"
+    if _plain(entry.diff) != _plain(package.changed):
+        return f"the diff of {entry.package} is another one:\n{package.changed}"
+    if entry.not_judged and entry.not_judged not in not_judged:
+        return f"the card has no such line under not_judged: {entry.not_judged!r}"
+    return ""
+
+
+def _plain(diff: str) -> list[str]:
+    return [line.rstrip() for line in diff.strip("\n").splitlines()]
+
+
+def _line(file: Path, number: int) -> int:
+    """Where the entry begins, from 1."""
+    from roslings.course.files import line_in
+
+    return line_in(file, (number,))

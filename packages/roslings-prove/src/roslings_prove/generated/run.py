@@ -1,0 +1,128 @@
+"""`./roslings prove LAB --generated`: make wrong packages, grade them, keep what came of each."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from roslings import course
+from roslings.course import Lab
+from roslings.experiment.run_folder import run_folder
+from roslings_class.alone import alone_in
+from roslings_class.errors import BatchError
+from roslings_class.gradebook import gradebook
+from roslings_class.result import Result
+from roslings_class.scheduler import Watcher
+from roslings_prove.generated.choice import Generated, generated
+from roslings_prove.generated.explained import Explanation, explained
+from roslings_prove.generated.kills import keep_kills
+from roslings_prove.generated.life import LIFE
+from roslings_prove.generated.packages import Fate, Wrong, fate_of
+from roslings_prove.generated.table import Line, Outcome, told
+from roslings_prove.proofs.kept import kept_here
+from roslings_prove.prove import Proof, graded, mixed
+
+BOOK = "labs"
+
+
+class AlreadyProving(BatchError):
+    """Another command keeps its results there."""
+
+    def __init__(self, folder: Path) -> None:
+        problem = f"Another ./roslings prove --generated keeps its results in {folder} now."
+        super().__init__(problem, "Wait for it, or give another folder: --keep DIR")
+
+
+@dataclass(frozen=True)
+class Keeping:
+    """Where results stay, so that an interrupted run goes on."""
+
+    folder: Path
+    kills: Path | None = None
+    """The folder of kept proofs, where some kills are named."""
+    so_far: bool = False
+    """Nothing is graded: what is known is told."""
+
+
+def usual_place() -> Path:
+    """Beside the course; git does not see it."""
+    return course.root() / ".roslings" / "generated"
+
+
+def proofs_for(
+    keep: Path | None, so_far: bool, keep_kills: bool
+) -> Callable[[Sequence[Lab], Watcher, int | None], Iterator[Proof | Line]]:
+    """Proves labs as the command's options say."""
+    kills = kept_here().path if keep_kills else None
+    return partial(prove_generated, keeping=Keeping(keep or usual_place(), kills, so_far))
+
+
+def prove_generated(
+    labs: Sequence[Lab], watcher: Watcher, jobs: int | None, keeping: Keeping
+) -> Iterator[Proof | Line]:
+    """What came of the generated packages of labs.
+
+    Raises BadCourseFile before anything is run, and AlreadyProving.
+    """
+    made = {lab.name: generated(lab) for lab in labs}
+    reasons = {lab.name: explained(lab, made[lab.name]) for lab in labs}
+    packages = [Wrong(each) for lab in labs for each in made[lab.name]]
+    if keeping.so_far:
+        results = _kept_in(keeping.folder)
+        yield _how_far(packages, results)
+    else:
+        results = _graded(packages, watcher, jobs, keeping.folder)
+    known = {each.change: results[each.name] for each in packages if each.name in results}
+    yield from told([_outcome(lab, known, reasons[lab.name]) for lab in labs])
+    if keeping.kills:
+        yield from _kept_kills(labs, known, keeping.folder, keeping.kills)
+
+
+def _graded(
+    packages: Collection[Wrong], watcher: Watcher, jobs: int | None, kept: Path
+) -> Mapping[str, Result]:
+    with alone_in(kept, AlreadyProving), run_folder() as scratch:
+        return graded(
+            mixed(packages), scratch, watcher, jobs, book=str(kept.absolute()),
+            keeps_evidence=True, life=LIFE,
+        )  # fmt: skip
+
+
+def _kept_in(folder: Path) -> Mapping[str, Result]:
+    folder.mkdir(parents=True, exist_ok=True)
+    with gradebook(folder, BOOK) as book:
+        return book.latest()
+
+
+def _how_far(packages: Collection[Wrong], results: Mapping[str, Result]) -> Proof:
+    """Nothing is proven by a part of them."""
+    done = sum(each.name in results for each in packages)
+    rest = "" if done == len(packages) else "only they are counted: run it without --so-far"
+    return Proof(f"{done} of {len(packages)} packages are graded", rest, is_open=True)
+
+
+def _outcome(
+    lab: Lab, known: Mapping[Generated, Result], reasons: Mapping[str, Explanation]
+) -> Outcome:
+    """Of those that were graded."""
+    fates = {each: fate_of(result) for each, result in known.items() if each.lab == lab}
+    names = {each.name for each in fates}
+    return Outcome(lab.name, fates, {name: why for name, why in reasons.items() if name in names})
+
+
+def _kept_kills(
+    labs: Sequence[Lab], results: Mapping[Generated, Result], kept: Path, folder: Path
+) -> Iterator[Line]:
+    with gradebook(kept, BOOK) as book:
+        for lab in labs:
+            killed = [
+                (each, result) for each, result in results.items()
+                if each.lab == lab and fate_of(result) is Fate.KILLED
+            ]  # fmt: skip
+            count = keep_kills(lab, killed, book, folder)
+            yield Line(
+                f"{lab.name}: {count} kills are named. ./roslings prove --record {lab.name}"
+                " measures them."
+            )

@@ -1,0 +1,75 @@
+"""What a grading opens is what its proof is said to be measured by: the kernel tells.
+
+A proof is stale when something of its lab's closure is another (`authoring/proofs/closure.py`). The
+closure is read from imports and texts, and a program that is started in another way would be
+missing in it. So each lab's solution is checked while inotify watches the engine.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from needed.opened import Opened, Watch
+from roslings.course import Lab, all_labs, root
+from roslings_prove.proofs.closure import with_parents
+from roslings_prove.proofs.digests import Measuring, measuring
+from sources import code_of
+from until_told import run_until_told
+
+PACKAGES = root() / "packages"
+JUDGING = ("__main__.py", "commands", "judge", "report", "capabilities")
+"""What the command itself is made of: it reads, judges and tells."""
+ACTS = "act"
+"""The module of a capability that measures: what only it leads to is no part of judging."""
+
+pytestmark = [pytest.mark.slow, pytest.mark.alone]
+
+
+@cache
+def now() -> Measuring:
+    """What measures this course."""
+    return measuring()
+
+
+@cache
+def judging() -> frozenset[str]:
+    """All that the command may import besides, and what it starts of its own."""
+    places = [*(code_of("roslings") / part for part in JUDGING), code_of("roslings_launcher")]
+    files = [file for place in places for file in (place, *place.rglob("*.py")) if file.is_file()]
+    modules = [now().modules.tree.name_of(file) for file in files if file.stem != ACTS]
+    return now().modules.reached({each for name in modules for each in with_parents(name)})
+
+
+def opened_by_a_check(lab: Lab, folder: Path) -> Opened:
+    """Of the folder with our packages."""
+    places = (each for each in (PACKAGES, *PACKAGES.rglob("*")) if each.is_dir())
+    folders = [str(each.relative_to(PACKAGES)) for each in places]
+    command = [sys.executable, "-m", "roslings", "check", lab.name, "--solution"]
+    with Watch(PACKAGES, folders) as watch:
+        done = run_until_told(command, cwd=folder)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return watch.opened()
+
+
+def unknown(lab: Lab, opened: Opened) -> Iterator[str]:
+    """What was opened and is neither measuring nor judging."""
+    known = now().closure(lab) | judging()
+    files = {file for name in known for file in now().modules.code(name).files}
+    for name in sorted(opened.files | opened.modules):
+        file = PACKAGES / name
+        if not name.endswith(".py"):
+            if file.is_file() and ".pyc" not in name and file not in files:
+                yield name
+        elif file.is_file() and now().modules.tree.name_of(file) not in known:
+            yield name
+
+
+@pytest.mark.parametrize("lab", all_labs(), ids=lambda lab: lab.name)
+def test_all_that_a_grading_opens_is_known(lab: Lab, tmp_path: Path) -> None:
+    """Modules, and files that lie beside them."""
+    assert list(unknown(lab, opened_by_a_check(lab, tmp_path))) == []

@@ -1,0 +1,106 @@
+"""A board that runs until Ctrl-C, for a student whose bridge needs something to talk to."""
+
+from __future__ import annotations
+
+import fcntl
+import math
+import os
+import tempfile
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+
+from roslings_rover.asked import listening
+from roslings_rover.board.mega import Mega
+from roslings_rover.board.on_pty import Board
+from roslings_rover.board.wire import Wire
+from roslings_rover.chip import BAUD, Chip
+from roslings_rover.errors import DeviceTrouble
+from roslings_rover.rover import Rover
+
+TELL_EVERY_S = 1.0
+
+
+class PortTaken(DeviceTrouble):
+    """Another board runs under this name."""
+
+    def __init__(self, name: Path) -> None:
+        super().__init__(
+            f"A board runs already on {name}. End it with Ctrl-C there, or give another --port."
+        )
+
+
+class NoPlaceForPort(DeviceTrouble):
+    """The port's name cannot be made."""
+
+    def __init__(self, name: Path, because: str) -> None:
+        super().__init__(f"The port {name} cannot be made: {because}. Give another --port.")
+
+
+def usual_port() -> Path:
+    """Where the board is when nobody says where."""
+    return Path(tempfile.gettempdir()) / "ttyROVER"
+
+
+def run(name: Path, sketch: Path | None = None) -> None:
+    """Run a board on the port `name` until Ctrl-C; with `sketch`, the real one, emulated.
+
+    Raises PortTaken, NoPlaceForPort, CannotBuild.
+    """
+    with ExitStack() as stack:
+        stack.enter_context(_alone_on(name))
+        chip = _chip(stack, sketch)
+        board = stack.enter_context(Board(chip, name, Wire(BAUD)))
+        stack.enter_context(board.running())
+        asked = stack.enter_context(listening())
+        print(f"The board is on {name}")
+        print("It tells its wheel speeds 50 times a second. Ctrl-C ends it.", flush=True)
+        told = ""
+        while not asked.wait(TELL_EVERY_S) and board.trouble is None:
+            if (news := describe(chip)) != told:
+                print(news, flush=True)
+                told = news
+        print()
+        if board.trouble:
+            raise board.trouble
+
+
+def describe(chip: Chip) -> str:
+    """What the motors get and where the rover is; at most 80 columns."""
+    truth = chip.truth
+    pose = truth.pose
+    return (
+        f"PWM {truth.left_pwm:4d} {truth.right_pwm:4d}"
+        f"   wheels {truth.left_rad_s:6.2f} {truth.right_rad_s:6.2f} rad/s"
+        f"   x {pose.x_m:5.2f} y {pose.y_m:5.2f} m {math.degrees(pose.heading_rad):5.0f} degrees"
+    )
+
+
+def _chip(stack: ExitStack, sketch: Path | None) -> Chip:
+    if sketch is None:
+        return Mega(Rover())
+    from roslings_rover.emulated import EmulatedMega, built
+
+    return stack.enter_context(EmulatedMega(built(sketch)))
+
+
+@contextmanager
+def _alone_on(name: Path) -> Iterator[None]:
+    """The name is ours while the block runs; a board that was killed leaves it free."""
+    if name.exists() and not name.is_symlink():
+        raise NoPlaceForPort(name, "a file of this name is there")
+    with ExitStack() as held:
+        _lock(name, held)
+        yield
+
+
+def _lock(name: Path, held: ExitStack) -> None:
+    """Take a lock that ends with `held`, or with this process."""
+    try:
+        lock = os.open(f"{name}.lock", os.O_CREAT | os.O_WRONLY, 0o600)
+        held.callback(os.close, lock)
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        raise PortTaken(name) from None
+    except OSError as error:
+        raise NoPlaceForPort(name, error.strerror or str(error)) from error

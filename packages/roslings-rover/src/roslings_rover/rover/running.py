@@ -1,0 +1,86 @@
+"""Run the rover, with its map, until Ctrl-C."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from roslings_rover.asked import listening
+from roslings_rover.errors import DeviceTrouble
+from roslings_rover.rover.displays import Display, View, opened
+from roslings_rover.rover.keys import driving
+from roslings_rover.rover.node import RoverNode
+from roslings_rover.rover.rover import Rover
+from roslings_rover.rover.words import position
+
+
+class CannotSave(DeviceTrouble):
+    """The picture of the map cannot be written there."""
+
+    def __init__(self, file: Path, because: str) -> None:
+        super().__init__(f"The map cannot be saved as {file}: {because}. Give another FILE.")
+
+
+def run(
+    view: View = "auto",
+    picture: Path | None = None,
+    seed: int = 0,
+    keys: bool = False,
+    listens: bool = False,
+    tf: bool = False,
+) -> Rover:
+    """Run the rover until Ctrl-C; returns it as it then is. With `keys`, this terminal drives it.
+
+    One that `listens` shows what others say; with `tf` it also publishes /tf, where the type of
+    that topic is installed. Raises NoWindow, CannotSave, NoTerminal.
+    """
+    picture = picture and _as_typed(picture)
+    if picture:
+        _require_place_for(picture)
+    rover = RoverNode(Rover(seed=seed), listens=listens, tf=tf)
+    with driving(keys) as look, rover as node, listening() as asked:
+        node.by_keys = keys
+        with opened(view, node) as display:
+            _go_on(node, display, asked, look)
+        print(f"\nThe rover is at {position(node)}.\nIt went {node.rover.way_m:.2f} m.")
+        if picture:
+            _save(node.rover, picture)
+    return node.rover
+
+
+def _go_on(
+    node: RoverNode, display: Display, asked: threading.Event, look: Callable[[], None]
+) -> None:
+    due_s = time.monotonic()
+    while not (asked.is_set() or display.closed):
+        look()
+        node.turn()
+        if time.monotonic() >= due_s:
+            display.show(node)
+            due_s = time.monotonic() + display.every_s
+
+
+def _as_typed(path: Path) -> Path:
+    """What was given relative to this folder is told so again."""
+    return path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path
+
+
+def _require_place_for(picture: Path) -> None:
+    if picture.suffix.lower() not in (".png", ".svg", ".pdf"):
+        raise CannotSave(picture, "its name must end in .png, .svg or .pdf")
+    if not picture.parent.is_dir():
+        raise CannotSave(picture, f"there is no folder {picture.parent}")
+    if picture.is_dir():
+        raise CannotSave(picture, "that is a folder")
+
+
+def _save(rover: Rover, picture: Path) -> None:
+    from roslings_rover.rover.picture import save
+
+    try:
+        save(rover, picture)
+    except OSError as error:
+        raise CannotSave(picture, error.strerror or str(error)) from error
+    print(f"Saved {picture}")

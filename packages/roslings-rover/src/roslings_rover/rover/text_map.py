@@ -1,0 +1,164 @@
+"""The rover's map in letters, for a terminal without a window."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+from roslings_rover.models.differential_drive import Pose
+from roslings_rover.models.world import Ball, World
+from roslings_rover.rover.rover import Rover
+
+Kind = Literal["floor", "wall", "path", "ball", "rover", "said"]
+LETTER_HEIGHT = 2.0
+"""A letter in a terminal is about twice as high as it is wide."""
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One letter of the map, and what it shows."""
+
+    letter: str
+    kind: Kind
+    hue: int | None = None
+
+
+FLOOR = Cell(" ", "floor")
+
+
+@dataclass(frozen=True)
+class Letters:
+    """What a terminal can show: pictures of UTF-8, or the plain letters of ASCII."""
+
+    frame: tuple[str, str, str, str, str, str]
+    """Corners (upper left, upper right, lower left, lower right), then along and upright."""
+    halves: tuple[str, str, str]
+    """An obstacle in the upper half, in the lower half, in both."""
+    arrows: str
+    """The rover that looks east, and on, counter-clockwise, in equal steps."""
+    ball: str
+    dots: bool
+    """Braille dots draw the path four times as fine as letters."""
+
+
+UNICODE = Letters(("┌", "┐", "└", "┘", "─", "│"), ("▀", "▄", "█"), "→↗↑↖←↙↓↘", "●", dots=True)
+ASCII = Letters(("+", "+", "+", "+", "-", "|"), ("#", "#", "#"), ">^<v", "o", dots=False)
+BRAILLE = 0x2800
+DOT_BITS = ((0x01, 0x08), (0x02, 0x10), (0x04, 0x20), (0x40, 0x80))
+"""Unicode's bit for each dot, by row and column within a letter."""
+
+
+def size_for(world: World, columns: int, lines: int) -> tuple[int, int]:
+    """Columns and lines of the largest undistorted map within so many, its frame included."""
+    wide_m = world.room.east_m - world.room.west_m
+    high_m = world.room.north_m - world.room.south_m
+    letters_a_line = LETTER_HEIGHT * wide_m / high_m
+    high = max(3, min(lines - 2, int((columns - 2) / letters_a_line)))
+    return int(high * letters_a_line) + 2, high + 2
+
+
+def text_map(rover: Rover, columns: int, lines: int, letters: Letters = UNICODE) -> list[str]:
+    """The map as plain lines, north above, at most so many columns and lines."""
+    return ["".join(cell.letter for cell in row) for row in cells(rover, columns, lines, letters)]
+
+
+def cells(
+    rover: Rover, columns: int, lines: int, letters: Letters, said: str = ""
+) -> list[list[Cell]]:
+    """The map, letter by letter; what is `said` stands over the rover."""
+    sheet = Sheet(rover.world, *size_for(rover.world, columns, lines), letters)
+    sheet.put_obstacles()
+    sheet.put_path(rover.path)
+    for ball in rover.world.balls:
+        sheet.put_ball(ball)
+    sheet.put_words(rover.pose, said)
+    sheet.put_rover(rover.pose)
+    return list(sheet.rows())
+
+
+class Sheet:
+    """A map that is being drawn."""
+
+    def __init__(self, world: World, columns: int, lines: int, letters: Letters) -> None:
+        self._world, self._letters = world, letters
+        self._wide, self._high = columns - 2, lines - 2
+        self._cells = [[FLOOR] * self._wide for _ in range(self._high)]
+
+    def rows(self) -> Iterator[list[Cell]]:
+        """The lines from above, with the room's walls around them."""
+        north_west, north_east, south_west, south_east, along, upright = self._letters.frame
+        yield self._wall(north_west + along * self._wide + north_east)
+        for row in self._cells:
+            yield [*self._wall(upright), *row, *self._wall(upright)]
+        yield self._wall(south_west + along * self._wide + south_east)
+
+    def put_obstacles(self) -> None:
+        """Obstacles, half a letter fine."""
+        upper, lower, both = self._letters.halves
+        letter_of = {(True, False): upper, (False, True): lower, (True, True): both}
+        for line in range(self._high):
+            for column in range(self._wide):
+                halves = (
+                    self._is_blocked(column, line + 0.25),
+                    self._is_blocked(column, line + 0.75),
+                )
+                if halves in letter_of:
+                    self._cells[line][column] = Cell(letter_of[halves], "wall")
+
+    def put_path(self, path: list[Pose]) -> None:
+        """Where the rover went."""
+        for pose in path:
+            column, line = self._position(pose.x_m, pose.y_m)
+            cell = self._cell(column, line)
+            if cell and cell.kind in ("floor", "path"):
+                self._set(column, line, Cell(self._dotted(cell, column, line), "path"))
+
+    def put_ball(self, ball: Ball) -> None:
+        """One ball."""
+        self._set(*self._position(ball.x_m, ball.y_m), Cell(self._letters.ball, "ball", ball.hue))
+
+    def put_rover(self, pose: Pose) -> None:
+        """The rover, as an arrow."""
+        arrows = self._letters.arrows
+        turn = round(pose.heading_rad / (2 * math.pi) * len(arrows)) % len(arrows)
+        self._set(*self._position(pose.x_m, pose.y_m), Cell(arrows[turn], "rover"))
+
+    def put_words(self, pose: Pose, words: str) -> None:
+        """In the line above the rover, below it where there is none; moved to where it fits."""
+        column, line = self._position(pose.x_m, pose.y_m)
+        shown = words[: self._wide]
+        left = min(max(int(column) - len(shown) // 2, 0), self._wide - len(shown))
+        row = int(line) - 1 if int(line) else int(line) + 1
+        for place, letter in enumerate(shown, left):
+            self._set(place, row, Cell(letter, "said"))
+
+    def _wall(self, text: str) -> list[Cell]:
+        return [Cell(letter, "wall") for letter in text]
+
+    def _dotted(self, cell: Cell, column: float, line: float) -> str:
+        if not self._letters.dots:
+            return "."
+        before = ord(cell.letter) - BRAILLE if cell.kind == "path" else 0
+        bit = DOT_BITS[int(line % 1 * 4)][int(column % 1 * 2)]
+        return chr(BRAILLE + (before | bit))
+
+    def _is_blocked(self, column: int, line: float) -> bool:
+        room = self._world.room
+        x_m = room.west_m + (column + 0.5) / self._wide * (room.east_m - room.west_m)
+        y_m = room.north_m - line / self._high * (room.north_m - room.south_m)
+        return any(shape.gap(x_m, y_m) <= 0 for shape in self._world.obstacles)
+
+    def _position(self, x_m: float, y_m: float) -> tuple[float, float]:
+        """Column and line, with fractions; what lies on a wall is drawn inside of it."""
+        room = self._world.room
+        column = (x_m - room.west_m) / (room.east_m - room.west_m) * self._wide
+        line = (room.north_m - y_m) / (room.north_m - room.south_m) * self._high
+        return min(max(column, 0.0), self._wide - 1e-6), min(max(line, 0.0), self._high - 1e-6)
+
+    def _cell(self, column: float, line: float) -> Cell:
+        return self._cells[int(line)][int(column)]
+
+    def _set(self, column: float, line: float, cell: Cell) -> None:
+        self._cells[int(line)][int(column)] = cell

@@ -1,0 +1,200 @@
+"""`./roslings rover`, and real `ros2` commands in other processes that drive it and look at it."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from program import Program, environment, run, running
+from rosbags.highlevel import AnyReader
+
+from ros2_on_pip.domain_lease import leased_domain
+from roslings_rover.rover import Ball, Box, Circle, Motion, Rover, World
+from roslings_rover.rover.node import RoverNode
+from roslings_rover.rover.text_map import ASCII, UNICODE, text_map
+from roslings_rover.rover.words import about_tf
+from skips import imported
+
+FORWARD = "{linear: {x: 0.5}}"
+PUB = ["ros2", "topic", "pub", "--once", "/cmd_vel", "geometry_msgs/msg/Twist"]
+
+
+@pytest.fixture
+def terminal(tmp_path: Path) -> Iterator[dict[str, str]]:
+    """The environment of a terminal on a domain of its own."""
+    with leased_domain() as domain:
+        yield environment(domain, tmp_path)
+
+
+@pytest.fixture
+def rover(terminal: dict[str, str], tmp_path: Path) -> Iterator[Program]:
+    """A rover that runs and prints lines."""
+    with running(["rover", "--view", "lines", "--save", "map.png"], terminal, tmp_path) as program:
+        program.wait_for("standing")
+        yield program
+
+
+def test_one_command_makes_it_move_and_it_stops_by_itself(
+    rover: Program, terminal: dict[str, str], tmp_path: Path
+) -> None:
+    """The newcomer's first success: the command that the screen shows, typed as it stands there."""
+    shown = rover.wait_for(r"^ros2 topic pub")
+    assert FORWARD in shown
+    done = run([*PUB, FORWARD], terminal, tmp_path)
+    assert done.returncode == 0, done.stderr
+    line = rover.wait_for(r"x 0\.[3-9].* standing")
+    assert re.search(r"x 0\.\d+ m, y 0\.00 m, heading 0 degrees", line)
+    assert rover.interrupt() == 0
+    assert re.search(r"It went 0\.\d+ m", "\n".join(rover.lines))
+    assert (tmp_path / "map.png").stat().st_size > 5000
+    assert not (tmp_path / ".ros").exists()
+
+
+@pytest.mark.slow
+def test_its_topics_have_the_usual_names_and_types(
+    rover: Program, terminal: dict[str, str], tmp_path: Path
+) -> None:
+    """What `ros2 topic list -t` and `ros2 topic echo` say of it."""
+    listed = run(["ros2", "topic", "list", "-t"], terminal, tmp_path).stdout
+    assert "/cmd_vel [geometry_msgs/msg/Twist]" in listed
+    assert "/odom [nav_msgs/msg/Odometry]" in listed
+    assert "/scan [sensor_msgs/msg/LaserScan]" in listed
+    odom = run(["ros2", "topic", "echo", "--once", "/odom"], terminal, tmp_path).stdout
+    assert "frame_id: odom" in odom and "child_frame_id: base_link" in odom
+    scan = run(["ros2", "topic", "echo", "--once", "/scan"], terminal, tmp_path).stdout
+    assert "range_max: 6.0" in scan
+    field = ["ros2", "topic", "echo", "--once", "/camera/image_raw", "--field"]
+    assert "1920" in run([*field, "step"], terminal, tmp_path).stdout
+    assert "/tf [" not in listed  # it would change the graphs that lessons show
+    assert "/tf" not in "\n".join(rover.lines)
+
+
+@pytest.mark.slow
+def test_asked_to_it_publishes_tf(terminal: dict[str, str], tmp_path: Path) -> None:
+    """20 times a second, beside /odom, and from one to the other."""
+    imported("tf2_msgs")
+    with running(["rover", "--view", "lines", "--tf"], terminal, tmp_path) as rover:
+        rover.wait_for("says /odom, /scan, /tf")
+        rover.wait_for("standing")
+        listed = run(["ros2", "topic", "list", "-t"], terminal, tmp_path).stdout
+        assert "/tf [tf2_msgs/msg/TFMessage]" in listed
+        words = ["ros2", "topic", "echo", "--once", "/tf"]
+        moved = run(words, terminal, tmp_path).stdout
+        assert "frame_id: odom" in moved and "child_frame_id: base_link" in moved
+        bag = ["ros2", "bag", "record", "--topics", "/tf", "/odom"]
+        with running([*bag, "-o", "drive"], terminal, tmp_path) as recorder:
+            recorder.wait_for("All requested topics are subscribed")
+            run(["ros2", "topic", "echo", "--once", "/tf"], terminal, tmp_path)
+            assert recorder.interrupt() == 0
+    with AnyReader([tmp_path / "drive"]) as reader:
+        counts = {c.topic: c.msgcount for c in reader.connections}
+        first = next(iter(reader.messages()))
+        assert reader.deserialize(first[2], first[0].msgtype)
+    assert abs(counts["/tf"] - counts["/odom"]) <= 2 and counts["/tf"] > 2
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("distro", "step"), [
+    ("", "sudo apt install g++"), ("jazzy", "sudo apt install ros-jazzy-tf2-msgs"),
+])  # fmt: skip
+def test_where_tf_has_no_type_the_next_step_is_on_the_screen(
+    monkeypatch: pytest.MonkeyPatch, distro: str, step: str
+) -> None:
+    """And only where /tf was asked for; it fits beside the map."""
+    monkeypatch.setenv("ROS_DISTRO", distro)
+    asked = about_tf(RoverNode(Rover(), tf=True))
+    assert step in " ".join(word.strip() for word in asked)
+    assert max(map(len, asked)) <= 32
+    assert about_tf(RoverNode(Rover(), tf=True, publishes_tf=True)) == ()
+    assert about_tf(RoverNode(Rover())) == ("(with /tf: rover --tf)",)
+
+
+@pytest.mark.slow
+def test_a_command_that_is_no_number_is_told_and_not_followed(
+    rover: Program, terminal: dict[str, str], tmp_path: Path
+) -> None:
+    """And one that asks a wheeled robot to fly is told, too."""
+    run([*PUB, "{linear: {x: .nan}}"], terminal, tmp_path)
+    rover.wait_for("no finite number")
+    run([*PUB, "{linear: {z: 1.0}}"], terminal, tmp_path)
+    rover.wait_for(r"linear\.z does nothing")
+    assert rover.process.poll() is None
+    assert not [line for line in rover.lines if "moving" in line]
+
+
+@pytest.mark.slow
+def test_a_second_rover_is_told(rover: Program, terminal: dict[str, str], tmp_path: Path) -> None:
+    """Two on one domain would both move."""
+    with running(["rover", "--view", "lines"], terminal, tmp_path) as second:
+        second.wait_for("second rover")
+        rover.wait_for("second rover")
+
+
+@pytest.mark.parametrize(
+    ("words", "changes", "says"),
+    [
+        (["--save", "no/such/map.png"], {}, "there is no folder no/such"),
+        (["--save", "map.txt"], {}, "must end in .png"),
+        (["--view", "window"], {}, "--view terminal"),
+        ([], {"ROS_DOMAIN_ID": "abc"}, "whole number"),
+    ],
+)
+def test_what_it_cannot_do_is_said_with_the_next_step(
+    terminal: dict[str, str], tmp_path: Path, words: list[str], changes: dict[str, str], says: str
+) -> None:
+    """Wrong use, never a traceback."""
+    done = run(["rover", *words], terminal | changes, tmp_path)
+    assert done.returncode == 2
+    assert says in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+# --- the map -----------------------------------------------------------------------------------
+
+
+def test_the_map_fits_and_keeps_its_shape() -> None:
+    """Framed, at most as large as asked; the plain letters are ASCII."""
+    for letters in (UNICODE, ASCII):
+        drawn = text_map(Rover(), 46, 21, letters)
+        assert len(drawn) <= 21
+        assert {len(line) for line in drawn} == {len(drawn[0])}
+        assert len(drawn[0]) <= 46
+    assert "".join(text_map(Rover(), 46, 21, ASCII)).isascii()
+
+
+def test_the_map_shows_what_there_is() -> None:
+    """North is above, the arrow points where the rover looks, the path is dotted."""
+    world = World(Box(0, 0, 10, 10), (Circle(8, 8, 1),), (Ball(1, 9),))
+    rover = Rover(world)
+    rover.pose = rover.path[0] = rover.pose.__class__(2.0, 2.0, 0.0)
+    rover.drive(Motion(0.5, 0.0))
+    rover.step(6.0)
+    drawn = text_map(rover, 42, 22, ASCII)
+    rows = {letter: [i for i, line in enumerate(drawn) if letter in line[1:-1]] for letter in "o#>"}
+    assert max(rows["o"]) < max(rows["#"]) < min(rows[">"])
+    assert drawn[rows[">"][0]].index(">") > 15
+    rover.drive(Motion(0.0, 1.57))
+    rover.step(1.1)
+    assert "^" in "".join(text_map(rover, 42, 22, ASCII))
+
+
+@pytest.mark.slow
+def test_a_notebook_sees_the_map_and_ends_the_node(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """A drawing for the cell, and no thread left."""
+    import threading
+
+    from roslings_rover.rover.notebook import start
+
+    with leased_domain() as domain:
+        monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
+        monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+        with start() as rover:
+            assert rover.map().startswith("<svg ") and rover.map() == rover._repr_svg_()
+            assert rover.pose.x_m == 0.0
+    assert "rover" not in [thread.name for thread in threading.enumerate()]
+    assert os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] == "LOCALHOST"

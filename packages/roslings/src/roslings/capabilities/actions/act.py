@@ -1,0 +1,406 @@
+"""Experiments with actions: give goals, cancel them, be a server of them."""
+
+from __future__ import annotations
+
+import functools
+import math
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+from ros2_on_pip.near_names import nearest
+from ros2_on_pip.rates import measure_rate
+from roslings.arena import Process
+from roslings.capabilities.actions.contract import RESTLESS, ActionContract
+from roslings.capabilities.actions.goals import Goal, GoalGiver, GoalTaker, read_actions
+from roslings.capabilities.actions.record import (
+    HEARS,
+    ActionEnd,
+    ActionsSeen,
+    GoalLimits,
+    answer_to,
+    cancelled_after_s,
+    stopped_after_s,
+)
+from roslings.capabilities.robot.act import STANDS_WITHIN_S, Robot
+from roslings.capabilities.robot.record import RobotSeen
+from roslings.capabilities.services.act import TURNS_WITHIN_S, await_end
+from roslings.course import NodeContract, RateContract
+from roslings.experiment.on_the_wall import (
+    CANARY_WITHIN_S,
+    FIRST_MESSAGE_WITHIN_S,
+    longest_wait_s,
+    singing,
+    trouble,
+)
+from roslings.experiment.own_time import OwnTime
+from roslings.experiment.scene import Scene
+from roslings.experiment.timing import accounting
+from roslings.rates import own_rate
+
+ANSWER_WITHIN_S = 5.0
+HEARS_WITHIN_S = 6.0
+"""A node that answers no question for so long of its own time is blocked."""
+
+ENDS_WITHIN_S = 45.0
+"""A goal that is under way, and whose robot moves, may take so long."""
+
+RESTS_S = 8.0
+"""A robot that has not moved for so long will not get there."""
+
+IDLE_S = 4.0
+"""Nor will one that was told nothing at all for so long."""
+
+STRAYS_S = 12.0
+"""Nor will one that has not come nearer for so long: a slow one turns about in less."""
+
+MOVED_M = 0.03
+MOVED_RAD = 0.1
+CANCELS_WITHIN_S = 5.0
+"""No end for so long after a request to cancel is none; a late one is told as late."""
+
+REFUSED_S = 0.5
+"""A goal whose cancel was refused may still be about to end by itself; it is not awaited longer."""
+
+SENDS_WITHIN_S = 6.0
+SHOWS_WITHIN_S, SHOWS_MORE_WITHIN_S = 3.0, 1.0
+"""For a feedback, and for the next ones when one was not shown."""
+
+
+CALM_S = 0.7
+"""So long a robot is watched after it stands: it must not be told to drive on."""
+
+RESTLESS_AFTER_S = 1.0
+"""So soon it can be seen."""
+
+
+@dataclass
+class Director:
+    """Gives goals to the action of one running node, as clients do, and watches its robot."""
+
+    scene: Scene
+    process: Process
+    node: NodeContract
+    action: ActionContract
+    robot: Robot
+    _silent: bool = field(default=False, init=False)
+    _first_s: float = field(default=math.inf, init=False)
+    """When the first goal was given."""
+
+    def __post_init__(self) -> None:
+        """Waits until the node's action is there, and the node has heard where the robot is.
+
+        A goal that comes before is rightly refused: on a busy computer, it may.
+        """
+        self.scene.seen.recording(ActionsSeen).limits = GoalLimits(
+            answer_within_s=ANSWER_WITHIN_S,
+            hears_within_s=HEARS_WITHIN_S,
+            idle_s=IDLE_S,
+            cancels_within_s=CANCELS_WITHIN_S,
+        )
+        await_action(self.scene)
+        if self._turned():
+            self._await_news()
+            self._turned()
+
+    def _await_news(self) -> None:
+        """Wait until the robot has told once more where it is.
+
+        A node of several threads may answer while the thread that is to hear the robot still waits
+        for a processor.
+        """
+        told = self.robot.told
+        if told:
+            self.scene.until(lambda: self.robot.told > told, FIRST_MESSAGE_WITHIN_S)
+
+    @contextmanager
+    def giving(self) -> Iterator[GoalGiver | None]:
+        """A client that is matched with the server; None where there is none to give goals to."""
+        end = self._end()
+        if end is None or self._silent:
+            yield None
+            return
+        with GoalGiver(self.scene.probe, end.action, end.type) as giver:
+            matched = self.scene.until(lambda: giver.ready, FIRST_MESSAGE_WITHIN_S)
+            yield giver if matched else None
+
+    def drive(self, part: str, goal: Mapping[str, float]) -> None:
+        """Give a goal, wait for its end, and watch until the robot stands."""
+        with self.giving() as giver:
+            if given := self._give(giver, part, goal):
+                self._look_whether_it_hears()
+                self._await_end(given)
+                self._watch_rest(given)
+
+    def cancel(self, part: str, goal: Mapping[str, float], after_m: float) -> None:
+        """Give a goal, cancel it when the robot has gone so far, and watch until it stands.
+
+        The turn is waited for before the goal is given: who waits for it on the way arrives.
+        """
+        with self.giving() as giver, self.scene.timed():
+            given = self._give(giver, part, goal)
+            if given and self._look_whether_it_hears():
+                on_its_way = self._await_way(given, after_m)
+                with accounting(self.scene, part):
+                    self._cancel(given)
+                    self._watch_rest(given)
+                self._note_lateness(given)
+                self._silent = not (on_its_way and given.ended)
+
+    def give_and_cancel(self, part: str, goal: Mapping[str, float]) -> None:
+        """Give a goal, and see whether it is accepted; if it is, it is cancelled at once."""
+        with self.giving() as giver:
+            if given := self._give(giver, part, goal):
+                self._cancel(given)
+
+    def give_and_cancel_each(self, parts: Sequence[str], goal: Mapping[str, float]) -> None:
+        """The same goal for each part, one after the other, until one of them does not end."""
+        with self.giving() as giver:
+            for part in parts:
+                given = self._give(giver, part, goal)
+                if given is None:
+                    break
+                self._cancel(given)
+                self._silent = self._silent or not given.ended
+
+    def disturb(
+        self, part: str, goal: Mapping[str, float], other: Mapping[str, float], after_m: float
+    ) -> None:
+        """Give a goal, and another one on the way; watch what becomes of the first."""
+        with self.giving() as giver:
+            given = self._give(giver, part, goal)
+            if given and self._look_whether_it_hears():
+                on_its_way = self._await_way(given, after_m)
+                second = self._give(giver, f"{part}: another", other)
+                if on_its_way:
+                    self._await_end(given)
+                if second and not second.ended:
+                    self._cancel(second)
+
+    # --- the parts ------------------------------------------------------------------------
+
+    def _give(self, giver: GoalGiver | None, part: str, goal: Mapping[str, float]) -> Goal | None:
+        """The goal, where it was accepted."""
+        if giver is None or self._silent:
+            return None
+        self._first_s = min(self._first_s, time.monotonic())
+        given = giver.give(dict(goal), part)
+        with accounting(self.scene, answer_to(part)):
+            accepted = given.await_answer(ANSWER_WITHIN_S, lambda: self.process.alive)
+        if given.seen.answered_ns is None:
+            self._silent = True
+            self._look_whether_it_hears()
+        return given if accepted else None
+
+    def _note_lateness(self, given: Goal) -> None:
+        """A late end that this computer may have made late is no reason to judge."""
+        limit_s, seen = self.action.cancels_within_s, self.scene.seen
+        drive = seen.part(RobotSeen).drive
+        took_s = [cancelled_after_s(given.seen), drive and stopped_after_s(given.seen, drive)]
+        late_s = max([each - limit_s for each in took_s if each and limit_s], default=0.0)
+        held_s = seen.stall_s + given.seen.cpu_wait_s
+        if 0.0 < late_s <= held_s:
+            seen.machine_fault = (
+                f"a goal was cancelled {late_s:.2f} s late, and this computer held your node or the"
+                f" check up for {held_s:.2f} s"
+            )
+
+    def _look_whether_it_hears(self) -> bool:
+        """Does the node run its other callbacks meanwhile? Where it does not: nothing more."""
+        near = nearest(self.node.node, self.scene.seen.graph.nodes)
+        if near is None or not self.process.alive:
+            return False
+        stuck = self.scene.seen.stuck
+        if near.found not in stuck and not self._turned() and self.process.alive:
+            stuck.append(near.found)
+        self._silent = self._silent or bool(stuck)
+        return not stuck
+
+    def _turned(self) -> bool:
+        """Wait until the node has run the callbacks of all that came: it is complete, and spins.
+
+        The graph shows an action server before its constructor has ended, and long before it has
+        heard where the robot is.
+        """
+        near = nearest(self.node.node, self.scene.seen.graph.nodes)
+        if near is None or not self.process.alive:
+            return True
+        with accounting(self.scene, HEARS):
+            return self.scene.turned(near.found, HEARS_WITHIN_S)
+
+    def _await_end(self, given: Goal) -> None:
+        """Wait for the goal's end, as long as the robot moves and the node hears."""
+        if self.scene.seen.stuck:
+            return
+        rest = Rest(self.robot, given.seen.goal, OwnTime(self.scene.arena))
+
+        def over() -> bool:
+            return given.ended or rest.is_over() or self._restless(given)
+
+        with accounting(self.scene, given.seen.part):
+            self.scene.until(over, ENDS_WITHIN_S)
+        self._silent = not given.ended
+
+    def _await_way(self, given: Goal, way_m: float) -> bool:
+        """Wait until the robot has gone so far, or clearly does not go; whether it has."""
+        begin = self.robot.pose
+        rest = Rest(self.robot, given.seen.goal, OwnTime(self.scene.arena))
+
+        def there() -> bool:
+            return self.robot.distance_to(begin.x_m, begin.y_m) >= way_m
+
+        def over() -> bool:
+            return there() or given.ended or rest.is_over() or self._restless(given)
+
+        self.scene.until(over, ENDS_WITHIN_S)
+        return there()
+
+    def _restless(self, given: Goal) -> bool:
+        """Its loop has no pause: it takes all processors that it can get, and tells nothing new."""
+        limit = self.action.feedback
+        passed_s = time.monotonic() - self._first_s
+        if limit is None or passed_s < RESTLESS_AFTER_S:
+            return False
+        told = self.scene.probe.count(given.seen.feedback_topic)
+        return told > RESTLESS * limit.high_hz * passed_s
+
+    def _cancel(self, given: Goal) -> None:
+        """Ask for it, and wait for the goal's end; not for long where the node says no."""
+        own = OwnTime(self.scene.arena)
+        given.cancel()
+        self.scene.until(lambda: given.ended or given.cancel_refused, CANCELS_WITHIN_S)
+        if given.cancel_refused:
+            self.scene.until(lambda: given.ended, REFUSED_S)
+        given.seen.cpu_wait_s = own.waited_in_turn_s()
+
+    def _watch_rest(self, given: Goal) -> None:
+        """Watch until the robot stands, and a little longer."""
+        self.scene.until(lambda: self.robot.stands, STANDS_WITHIN_S)
+        calm_s = time.monotonic() + CALM_S
+        self.scene.until(lambda: time.monotonic() > calm_s, 2 * CALM_S)
+        given.seen.watched_until_ns = time.monotonic_ns()
+
+    def _end(self) -> ActionEnd | None:
+        """The action to use: the nearest by name among those of the right type."""
+        ends = [e for e in self.scene.seen.part(ActionsSeen).ends if e.kind == "server"]
+        right = [e for e in ends if e.type == self.action.type]
+        near = nearest(self.action.action, (e.action for e in right))
+        return next((e for e in right if near and e.action == near.found), None)
+
+
+def await_action(scene: Scene) -> None:
+    """Wait until a node performs an action; the fullest sight is kept, as of the graph."""
+
+    def there() -> bool:
+        ends = read_actions(scene.probe.eye, scene.seen.graph.nodes)
+        if len(ends) >= len(scene.seen.part(ActionsSeen).ends):
+            scene.seen.recording(ActionsSeen).ends = ends
+        return any(end.kind == "server" for end in ends)
+
+    scene.appears(there, "an action")
+
+
+class Rest:
+    """Tells that a robot will not get to a point: it stands, or has not come nearer, for long."""
+
+    def __init__(self, robot: Robot, goal: Mapping[str, float], own: OwnTime | None = None) -> None:
+        """`own` is the time of the node that is to command the robot, from now on."""
+        self._robot, self._goal, self._own = robot, goal, own
+        self._nearest_m = math.inf
+        self._moved_s = self._nearer_s = time.monotonic()
+        self._pose, self._told = robot.pose, len(robot.seen.commands)
+
+    def is_over(self) -> bool:
+        """It has been so for long enough."""
+        now_s = time.monotonic()
+        if self._own and len(self._robot.seen.commands) == self._told:
+            return self._own.is_past(IDLE_S)
+        if self._moves():
+            self._pose, self._moved_s = self._robot.pose, now_s
+        distance_m = self._robot.distance_to(self._goal["x"], self._goal["y"])
+        if distance_m < self._nearest_m - MOVED_M:
+            self._nearest_m, self._nearer_s = distance_m, now_s
+        return now_s - self._moved_s > RESTS_S or now_s - self._nearer_s > STRAYS_S
+
+    def _moves(self) -> bool:
+        pose = self._robot.pose
+        turned_rad = abs(math.remainder(pose.heading_rad - self._pose.heading_rad, math.tau))
+        went_m = self._robot.distance_to(self._pose.x_m, self._pose.y_m)
+        return went_m > MOVED_M or turned_rad > MOVED_RAD
+
+
+@contextmanager
+def timed_feedback(scene: Scene, action: ActionContract) -> Iterator[None]:
+    """A canary runs beside while the block lasts: it tells whether a rate can be believed."""
+    limit, seen = action.feedback, scene.seen
+    assert limit is not None, f"the card says no rate for {action.action}"
+    with singing(limit.hz, scene.arena.domain_id):
+        scene.probe.listen_to_canary(limit.hz)
+        scene.until(lambda: bool(seen.canary and seen.canary.messages), CANARY_WITHIN_S)
+        before = [process.waits_ns() for process in scene.arena.processes]
+        with scene.timed():
+            yield
+        for process, before_ns in zip(scene.arena.processes, before, strict=True):
+            if now_ns := process.waits_ns():
+                process.seen.cpu_wait_s = longest_wait_s(before_ns, now_ns)
+    _note_trouble(scene, limit)
+
+
+def _note_trouble(scene: Scene, limit: RateContract) -> None:
+    """Whatever was seen of the rate, nobody will watch for longer."""
+    seen = scene.seen
+    for topic in {goal.feedback_topic for goal in seen.part(ActionsSeen).goals}:
+        scene.probe.note_longest_watch(topic)
+        rate = own_rate(measure_rate(scene.probe.messages(topic)), seen)
+        seen.machine_fault = seen.machine_fault or trouble(seen, rate, limit)
+
+
+# --- the other side ----------------------------------------------------------------------------
+
+
+@contextmanager
+def taking(scene: Scene, action: ActionContract, accepts: bool = True) -> Iterator[GoalTaker]:
+    """A server of our own for as long as the block lasts."""
+    with GoalTaker(scene.probe, action.action, action.type, accepts) as taker:
+        yield taker
+
+
+def lead(
+    scene: Scene,
+    process: Process,
+    taker: GoalTaker,
+    feedback: Sequence[Mapping[str, float]],
+    shown: Sequence[str],
+    how: Literal["succeed", "abort"],
+    result: Mapping[str, Any],
+) -> None:
+    """Take the client's goal, send it feedback, each when the one before is shown, and end it."""
+    scene.until_own(lambda: _took_goal(scene, taker), SENDS_WITHIN_S)
+    if not taker.has_goal:
+        return
+    within_s = SHOWS_WITHIN_S
+    for each, text in zip(feedback, shown, strict=True):
+        taker.tell(dict(each))
+        if not scene.until_own(functools.partial(scene.is_written, process, text), within_s):
+            within_s = SHOWS_MORE_WITHIN_S
+    taker.end(how, dict(result))
+
+
+def _took_goal(scene: Scene, taker: GoalTaker) -> bool:
+    """A client that looks elsewhere may soon be gone: note where it looks."""
+    _note_clients(scene)
+    return taker.has_goal
+
+
+def await_client(scene: Scene, process: Process, node: NodeContract) -> None:
+    """Wait for a client that ends by itself, and note whom it gives goals to."""
+    scene.until(lambda: _note_clients(scene), TURNS_WITHIN_S)
+    await_end(scene, process, node)
+
+
+def _note_clients(scene: Scene) -> bool:
+    ends = read_actions(scene.probe.eye, scene.seen.graph.nodes)
+    scene.seen.recording(ActionsSeen).ends = ends or scene.seen.part(ActionsSeen).ends
+    return any(end.kind == "client" for end in ends)

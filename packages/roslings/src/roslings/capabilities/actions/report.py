@@ -1,0 +1,100 @@
+"""Goals on the page: when each was given, its feedback, and how it ended."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+
+from ros2_on_pip.rates import NS_PER_S
+from roslings.capabilities.actions.record import ActionsSeen, GoalSeen
+from roslings.evidence import Evidence, ExperimentSeen
+from roslings.report.html.markup import Markup, tag
+from roslings.report.html.scale import time_text
+from roslings.report.html.timeline_svg import Bar, Line, Look, counted, fields_text, table, timeline
+
+MOST_GOALS = 30
+HEAD = ("goal", "end", "after", "feedback", "fields", "result")
+
+
+def sections(evidence: Evidence) -> Iterator[Markup]:
+    """For each experiment with goals, given to the node or by it: a timeline and a table."""
+    figures = [_figure(seen) for seen in evidence.experiments.values() if _goals_of(seen)]
+    if figures:
+        words = (
+            "The first bar of a goal is the wait for its answer, the second the work; a dot is"
+            " a feedback. A red bar has no end."
+        )
+        note = tag("p", words, class_="about")
+        yield tag("section", tag("h2", "Goals of actions"), note, *figures)
+
+
+def _goals_of(seen: ExperimentSeen) -> list[GoalSeen]:
+    part = seen.part(ActionsSeen)
+    return sorted((*part.goals, *part.orders), key=lambda goal: goal.sent_ns)
+
+
+def _figure(seen: ExperimentSeen) -> Markup:
+    goals = _goals_of(seen)[:MOST_GOALS]
+    lines = [_line(seen, goal, goals) for goal in goals]
+    rows = [_row(seen, goal) for goal in goals]
+    ends = Counter(_end_of(seen, goal) for goal in goals)
+    told = ", ".join(f"{number} {end}" for end, number in ends.items())
+    words = f"{counted(len(goals), 'goal')}: {told}."
+    heading = tag("h3", f"in {seen.name}")
+    return tag("figure", heading, timeline(lines, words), tag("figcaption", words),
+               table("goals of actions", HEAD, rows))  # fmt: skip
+
+
+def _line(seen: ExperimentSeen, goal: GoalSeen, goals: Sequence[GoalSeen]) -> Line:
+    began_ns, last_ns = goals[0].sent_ns, max(map(_last_ns, goals))
+
+    def bar(from_ns: int, to_ns: int | None, look: Look) -> Bar:
+        end_ns, look = (last_ns, "missing") if to_ns is None else (to_ns, look)
+        return Bar((from_ns - began_ns) / NS_PER_S, (end_ns - began_ns) / NS_PER_S, look)
+
+    bars = [bar(goal.sent_ns, goal.answered_ns, "answered")]
+    if goal.accepted and goal.answered_ns and not _is_order(seen, goal):
+        bars.append(bar(goal.answered_ns, goal.ended_ns, "working"))
+    dots = tuple((at_ns - began_ns) / NS_PER_S for at_ns in _feedback_ns(seen, goal))
+    return Line(goal.part or goal.action, tuple(bars), dots)
+
+
+def _is_order(seen: ExperimentSeen, goal: GoalSeen) -> bool:
+    """A node gave it to the grader, which knows how it ended: it is no news."""
+    return any(goal is order for order in seen.part(ActionsSeen).orders)
+
+
+def _last_ns(goal: GoalSeen) -> int:
+    return max(filter(None, (goal.sent_ns, goal.answered_ns, goal.ended_ns)))
+
+
+def _feedback_ns(seen: ExperimentSeen, goal: GoalSeen) -> list[int]:
+    """When the feedback of this goal came, where the topic was watched."""
+    heard = seen.topics.get(goal.feedback_topic)
+    contents = [(each.arrival_ns, each.content) for each in heard.messages] if heard else []
+    return [at_ns for at_ns, content in contents
+            if isinstance(content, dict) and _id_of(content) == goal.id]  # fmt: skip
+
+
+def _id_of(content: dict[str, object]) -> object:
+    held = content.get("goal_id")
+    return held.get("uuid") if isinstance(held, dict) else None
+
+
+def _row(seen: ExperimentSeen, goal: GoalSeen) -> tuple[str, ...]:
+    feedback = len(_feedback_ns(seen, goal))
+    ended = goal.ended_ns is not None
+    took = time_text(((goal.ended_ns or 0) - goal.sent_ns) / NS_PER_S) if ended else "-"
+    result = fields_text(goal.result) if goal.result else "-"
+    return (goal.part or goal.action, _end_of(seen, goal), took, f"{feedback}",
+            fields_text(goal.goal), result)  # fmt: skip
+
+
+def _end_of(seen: ExperimentSeen, goal: GoalSeen) -> str:
+    if goal.answered_ns is None:
+        return "not answered"
+    if not goal.accepted:
+        return "refused"
+    if _is_order(seen, goal):
+        return "accepted by the grader"
+    return goal.status or "without an end"

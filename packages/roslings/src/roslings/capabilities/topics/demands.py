@@ -1,0 +1,89 @@
+"""Demands on the messages of a topic: how often they come, what they say, how they count."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+from ros2_on_pip.rates import Rate
+from roslings.capabilities.topics.faults.messages import (
+    CountRepeats,
+    CountRestarts,
+    CountSkips,
+    NoMessages,
+    WrongText,
+)
+from roslings.capabilities.topics.faults.rhythm import Bursts, SentAgain, TooSlow, rate_fault
+from roslings.course import RateContract, TopicContract
+from roslings.course.files import written
+from roslings.judge.demands import require_believable, require_steady
+from roslings.judge.faults import Inconclusive
+from roslings.judge.views import Demand, TopicView, text_pattern
+
+MOST_LOST_PART = 0.05
+
+
+def have_rate(contract: TopicContract) -> Demand[TopicView]:
+    """The messages come at the card's rate, evenly."""
+    limit = written(contract.rate, contract.topic)
+
+    def demand(topic: TopicView) -> None:
+        require_believable(topic.experiment)
+        rate = topic.rate
+        if rate is None:
+            require_steady(topic.experiment.stall_s)
+            raise NoMessages(topic.name, len(topic.messages), topic.experiment.watching_s)
+        kind = rate_fault(rate, limit.low_hz, limit.high_hz)
+        if kind not in (Bursts, SentAgain):
+            require_enough(topic, rate, limit)
+        if kind:
+            if topic.experiment.clock == "wall" and not rate.far_above(limit.high_hz):
+                require_steady(topic.experiment.stall_s)
+            if issubclass(kind, TooSlow):
+                require_carried(rate)
+            raise kind(topic.name, limit.hz, limit.within, rate)
+
+    return demand
+
+
+def require_enough(topic: TopicView, rate: Rate, limit: RateContract) -> None:
+    """Watching longer could not turn the answer. Raises Inconclusive.
+
+    After the longest watch, a rate at the very limit is what it was measured to be.
+    """
+    if not topic.heard.watched_to_bound and not rate.clear_of((limit.low_hz, limit.high_hz)):
+        raise Inconclusive(
+            f"too little evidence: {rate.hz:.3f} Hz (±{rate.uncertainty_hz:.3f}) was seen, too"
+            f" near to the limits, {limit.low_hz:g} Hz and {limit.high_hz:g} Hz; check again"
+        )
+
+
+def require_carried(rate: Rate) -> None:
+    """Before slowness is held against a node: this computer carried what it sent.
+
+    Who sends seldom gives a free computer no reason to lose anything. Raises Inconclusive.
+    """
+    sent = len(rate.periods_s) + rate.lost
+    if rate.lost > MOST_LOST_PART * sent:
+        raise Inconclusive(
+            f"this computer lost {rate.lost} of {sent} messages on their way, so it was too busy to"
+            " send them in time; close other programs and check again"
+        )
+
+
+def say_its_text(topic: TopicView) -> None:
+    """Every text is the card's, with some number."""
+    template = written(topic.contract.text, topic.name)
+    pattern = text_pattern(template)
+    for text in topic.texts:
+        if not pattern.fits(text):
+            raise WrongText(template.format(n=0), text)
+
+
+def count_up(topic: TopicView) -> None:
+    """Each number is one more than the one before."""
+    kinds = {True: CountSkips, False: CountRestarts}
+    for before, after in pairwise(topic.numbers()):
+        if after == before:
+            raise CountRepeats(before, after)
+        if after != before + 1:
+            raise kinds[after > before](before, after)

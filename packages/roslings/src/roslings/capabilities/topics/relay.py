@@ -1,0 +1,293 @@
+"""Demands on what messages hold, and on what a node makes of the values that it is told."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from ros2_on_pip.rates import NS_PER_S
+from roslings.capabilities.topics.faults import relay as faults
+from roslings.capabilities.topics.record import TOLD
+from roslings.course import NodeContract, TopicContract
+from roslings.course.files import written
+from roslings.evidence import MessageSeen, Spoken
+from roslings.judge.demands import insist_on_at_most, most_similar
+from roslings.judge.faults import Inconclusive, NothingToJudge, NotLogged
+from roslings.judge.views import Demand, ExperimentView, ProcessView, TopicView
+from roslings.matching import nearest_endpoint
+
+FRESH_S = 1.0
+LONGEST_PAUSE_S = 0.1
+CLOSE = 1e-3
+"""A thousandth, or a millimetre: 32 bits hold no more of some numbers."""
+
+Wanted = Callable[[int, dict[str, Any]], Any]
+"""What is to be shown after the n-th value, from n and the value; None where it is not asked."""
+
+
+# --- what each message holds -------------------------------------------------------------------
+
+
+def hold_its_fields(topic: TopicView) -> None:
+    """Each message holds what the card says."""
+    for content in _contents(topic):
+        for name, wanted in topic.contract.fields.items():
+            found = field_of(content, name)
+            if not same(found, wanted):
+                looks = remark(found, wanted)
+                raise faults.WrongField(topic.name, name, shown(wanted), shown(found) + looks)
+
+
+def carry_its_time(topic: TopicView) -> None:
+    """Each message's stamp is the time at which it was sent."""
+    for message in topic.messages:
+        stamp = field_of(message.content, "header.stamp")
+        if stamp is None:
+            raise NothingToJudge("the messages have no stamp")
+        stamp_s = stamp["sec"] + stamp["nanosec"] / NS_PER_S
+        if stamp_s == 0:
+            raise faults.NoStamp(topic.name)
+        if message.source_ns and abs(message.source_ns / NS_PER_S - stamp_s) > FRESH_S:
+            raise faults.OldStamp(topic.name, message.source_ns / NS_PER_S - stamp_s)
+
+
+def _contents(topic: TopicView) -> list[dict[str, Any]]:
+    if topic.type != topic.contract.type:
+        raise NothingToJudge(f"{topic.name} carries another type")
+    contents = [m.content for m in topic.messages if isinstance(m.content, dict)]
+    if not contents:
+        raise NothingToJudge(f"nothing came on {topic.name}")
+    return contents
+
+
+def field_of(content: Any, name: str) -> Any:
+    """A field, with dots that lead into fields; None where there is none."""
+    for step in name.split("."):
+        content = content.get(step) if isinstance(content, dict) else None
+    return content
+
+
+# --- what a node makes of a value --------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Turn:
+    """One value that the node was told, and the last message that came before the next one."""
+
+    number: int
+    spoken: Spoken
+    before: Spoken | None
+    message: MessageSeen | None
+    settled: bool
+    """Its effect, and that of each value before it, came in time."""
+
+    def heard(self, name: str, with_the_one_before: bool) -> str:
+        """The value in words, and the one before it, where the node must remember that."""
+        told = [self.before, self.spoken] if with_the_one_before else [self.spoken]
+        values = [shown(field_of(each.content, name)) for each in told if each]
+        return f"{name} {', then '.join(values)} on {self.spoken.topic}"
+
+
+@dataclass(frozen=True)
+class Shown:
+    """Where a node hears, and where it shows what it makes of that."""
+
+    node: NodeContract
+    heard: str
+    """The field of the messages that it is told."""
+    topic: TopicContract
+    name: str
+    """The field of the messages that it publishes."""
+    remembers: bool = False
+    """What it shows depends on the value before, too."""
+
+
+def show(place: Shown, wanted: Wanted) -> Demand[ExperimentView]:
+    """After each value, the place shows what is wanted."""
+
+    def demand(experiment: ExperimentView) -> None:
+        process = experiment.process(place.node)
+        judged = 0
+        for turn in turns(experiment, place.topic):
+            value = wanted(turn.number, turn.spoken.content)
+            if value is not None:
+                judged += 1
+                _judge(process, turn, place, value)
+        if not judged:  # the topic or the subscription is missing, and another check says so
+            raise NothingToJudge(f"{place.node.executable} could not be told this")
+
+    return demand
+
+
+def show_at_first(place: Shown, wanted: Any) -> Demand[ExperimentView]:
+    """Before the first value is told, the place shows this."""
+
+    def demand(experiment: ExperimentView) -> None:
+        began_ns = [stage.at_ns for stage in experiment.seen.stages if stage.part == TOLD]
+        heard = experiment.topic(place.topic)
+        if not began_ns or heard.type != place.topic.type:
+            raise NothingToJudge(f"{place.node.executable} could not be told anything")
+        for message in heard.messages:
+            found = field_of(message.content, place.name)
+            if message.arrival_ns < began_ns[0] and not same(found, wanted):
+                words = (place.topic.topic, place.name, "", shown(wanted), shown(found))
+                raise faults.WrongAtFirst(*words)
+
+    return demand
+
+
+def answer_each_once(place: Shown) -> Demand[ExperimentView]:
+    """No more messages than values were told.
+
+    The first value is told once before it counts. Too few are the fault of another check.
+    """
+
+    def demand(experiment: ExperimentView) -> None:
+        told = len(experiment.seen.spoken)
+        came = len(experiment.topic(place.topic).before_ctrl_c)
+        if not told:
+            raise NothingToJudge(f"{place.node.executable} could not be told anything")
+        if came > told + 1:
+            raise faults.MoreThanAsked(place.topic.topic, told, came)
+
+    return demand
+
+
+def _judge(process: ProcessView, turn: Turn, place: Shown, wanted: Any) -> None:
+    found = field_of(turn.message.content if turn.message else None, place.name)
+    if same(found, wanted):
+        return
+    heard = turn.heard(place.heard, place.remembers)
+    words = (place.topic.topic, place.name, heard, shown(wanted))
+    if process.seen.ended_by_itself and turn.message is None:
+        raise faults.EndedWhileHearing(*words, None, log=process.last_lines())
+    if not turn.settled:
+        _require_calm(process.experiment.stall_s)
+    if turn.message is None:
+        raise faults.DoesNotReact(*words, None)
+    kind = faults.NotInfinite if _should_be_infinite(found, wanted) else faults.WrongReaction
+    raise kind(*words, shown(found), remark(found, wanted))
+
+
+def _require_calm(stall_s: float) -> None:
+    """Where an effect did not come in time, a pause may be why. Raises Inconclusive.
+
+    A message that was under way meanwhile is taken for the next value's, so that even a wrong
+    value then says nothing.
+    """
+    if stall_s > LONGEST_PAUSE_S:
+        raise Inconclusive(
+            f"this computer stood still for {stall_s:.1f} s while your nodes ran;"
+            " close other programs and check again"
+        )
+
+
+def turns(experiment: ExperimentView, topic: TopicContract) -> Iterator[Turn]:
+    """Each value that was told, with what the topic said last before the next value."""
+    spoken = experiment.seen.spoken
+    publisher = nearest_endpoint(experiment.seen.graph, "publisher", topic.topic, topic.type)
+    if publisher is None or publisher.type != topic.type:
+        raise NothingToJudge(f"nothing is published like {topic.topic}")
+    heard = experiment.seen.topics.get(publisher.topic)
+    for number, each in enumerate(spoken):
+        last = number + 1 == len(spoken)
+        until_ns = None if last else spoken[number + 1].sent_ns
+        said = [
+            message
+            for message in (heard.messages if heard else [])
+            if each.sent_ns < message.arrival_ns and (last or message.arrival_ns <= (until_ns or 0))
+        ]
+        before = spoken[number - 1] if number else None
+        settled = all(earlier.settled for earlier in spoken[: number + 1])
+        yield Turn(number, each, before, said[-1] if said else None, settled)
+
+
+def same(found: Any, wanted: Any) -> bool:
+    """Equal; numbers as far as 32 bits tell, and NaN is NaN."""
+    if isinstance(wanted, bool) or not isinstance(wanted, int | float):
+        return bool(found == wanted)
+    number = as_number(found)
+    if number is None or math.isnan(number) or math.isnan(wanted):
+        return number is not None and math.isnan(number) and math.isnan(wanted)
+    return math.isclose(number, wanted, rel_tol=CLOSE, abs_tol=CLOSE)
+
+
+def as_number(value: Any) -> float | None:
+    """A number of the evidence, where NaN and the infinities are texts; None for other things."""
+    if isinstance(value, bool) or value is None:
+        return None
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        return None
+
+
+def shown(value: Any) -> str:
+    """A value in words: four digits are enough."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    number = as_number(value)
+    if number is None:
+        return repr(value)
+    if math.isinf(number):
+        return "+infinity" if number > 0 else "-infinity"
+    short = f"{number:.4g}"
+    return "NaN" if math.isnan(number) else f"{number:.6f}" if "e-" in short else short
+
+
+def _should_be_infinite(found: Any, wanted: Any) -> bool:
+    goal, number = as_number(wanted), as_number(found)
+    return goal is not None and not math.isfinite(goal) and number is not None
+
+
+LOOKS_LIKE = {
+    2.0: "twice as much", 0.5: "half of it", -1.0: "with the wrong sign",
+    100.0: "a hundred times as much: in cm?", 1000.0: "a thousand times as much: in mm?",
+    0.01: "a hundredth of it: divided by 100 once too often?",
+    0.001: "a thousandth of it: divided by 1000 once too often?",
+    math.degrees(1): "180/pi times as much: in degrees?",
+    math.radians(1): "pi/180 of it: turned into radians once too often?",
+}  # fmt: skip
+"""Found over wanted to what is probably the reason."""
+
+
+def remark(found: Any, wanted: Any) -> str:
+    """What the wrong number looks like."""
+    goal, number = as_number(wanted), as_number(found)
+    if not goal or number is None or not math.isfinite(goal):
+        return ""
+    if math.isinf(number):
+        return ", as if it were out of range: compare the units, and the limits"
+    if math.isnan(number):
+        return ""
+    for factor, words in LOOKS_LIKE.items():
+        if math.isclose(number / goal, factor, rel_tol=0.02):
+            return f", {words}"
+    return ""
+
+
+# --- what a node writes of a value -------------------------------------------------------------
+
+
+def write_each(
+    node: NodeContract, texts: Callable[[dict[str, Any]], list[str]]
+) -> Demand[ExperimentView]:
+    """For each value, it writes the card's line with one of `texts(value)`; none: not asked."""
+    template = written(node.log, node.node)
+
+    def demand(experiment: ExperimentView) -> None:
+        process = experiment.process(node)
+        asked = [allowed for s in experiment.seen.spoken if (allowed := texts(s.content))]
+        if not asked:
+            raise NothingToJudge("it could not be told anything to write about")
+        for allowed in asked:
+            lines = [template.format(text=text) for text in allowed]
+            if not any(line in text for line in lines for text in process.texts):
+                near = most_similar(lines[0], process.texts)
+                raise NotLogged(node.executable, lines[0], near)
+        every = [template.format(text=text) for allowed in asked for text in allowed]
+        insist_on_at_most(process, every, len(asked) + 1)  # the first is told once before
+
+    return demand

@@ -1,0 +1,178 @@
+"""`./roslings check`: run what the student built, and say what to do next."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ros2_on_pip.leaving import leave
+from ros2_on_pip.typed_paths import from_here
+from roslings import course
+from roslings.commands.holding import is_strangers, told_of_no_wall
+from roslings.commands.options import (
+    hidden_option,
+    package_options,
+    soak_option,
+    trust_option,
+    verdict_options,
+)
+from roslings.commands.showing import is_stdout, kept, read, replace_kept, show
+from roslings.course import NoSolution
+from roslings.typed import own_page
+from roslings.workspace.student import workspace_root
+
+if TYPE_CHECKING:
+    from roslings.course import Lab
+    from roslings.saving import Graded
+
+__all__ = ["add_options", "leave", "run"]
+
+
+def add_options(word: argparse.ArgumentParser) -> None:
+    """What it takes."""
+    package_options(word)
+    word.add_argument(
+        "--solution", action="store_true", help="check the course's own solution instead"
+    )
+    verdict_options(word)
+    hidden_option(word)
+    word.add_argument(
+        "--evidence", metavar="DIR", type=Path,
+        help="save all that was seen in the new folder DIR, to judge it again (regrade)",
+    )  # fmt: skip
+    trust_option(word)
+    word.add_argument(
+        "--as-stranger", action="store_true",
+        help="hold somebody else's package as grade does, or refuse it where nothing can",
+    )  # fmt: skip
+    soak_option(word, "0; as grade does where a platform's file is written")
+    word.add_argument(
+        "--clock", choices=("auto", "sim", "wall"), default="auto",
+        help="simulated time where it can be believed (auto), always (sim), or never (wall)",
+    )  # fmt: skip
+    word.add_argument(
+        "--seed", metavar="N", type=int, help="repeat the random choices of a verdict"
+    )
+    word.add_argument(
+        "--port", metavar="DEVICE", type=Path,
+        help="use the real board on this serial port, for example /dev/ttyACM0",
+    )  # fmt: skip
+    word.add_argument(
+        "--timings", action="store_true", help="show where the seconds of the check went"
+    )
+    word.add_argument(
+        "--hint", metavar="STEP", type=int, choices=(1, 2, 3), nargs="?", const=1,
+        help="a hint for what your last check found: 1 where, 2 which idea, 3 other code",
+    )  # fmt: skip
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run what the student built, and say what to do next; a hint needs no new run."""
+    from roslings.platforms import refusal_written, shapes_asked
+
+    lab = course.lab(options.lab, options.hidden)
+    if options.hint and not options.solution and kept(lab).is_file():
+        return _hint(lab, options)
+    if not shapes_asked(options):
+        return _check(lab, options)
+    with refusal_written(lab.name, options, [options.path or workspace_root()]):
+        return _check(lab, options)
+
+
+def _hint(lab: Lab, options: argparse.Namespace) -> int:
+    """A hint for what the last check found. Raises NothingToSave."""
+    if options.evidence or options.html:
+        from roslings.saving import NothingToSave
+
+        raise NothingToSave
+    return show(read(kept(lab)), options)
+
+
+def _check(lab: Lab, options: argparse.Namespace) -> int:
+    from roslings.platforms import for_others, handed_in
+
+    if options.solution:
+        return _check_package(lab, _solution(lab), options)
+    with handed_in(lab, options.path, options.as_stranger or for_others(options)) as package:
+        return _check_package(lab, package, options)
+
+
+def _check_package(lab: Lab, package: Path, options: argparse.Namespace) -> int:
+    from roslings.checking import any_seed, ready
+    from roslings.experiment import Choices, insist_on_wall
+    from roslings.platforms import for_others
+    from roslings.saving import place_for_bags
+    from roslings.timeline import process_began_ns
+
+    quiet = is_stdout(options.json)
+    others = for_others(options)
+    strangers = is_strangers(options, others)
+    if strangers:
+        insist_on_wall(lab)
+    elif line := told_of_no_wall(package, options):
+        print(line, file=sys.stderr)
+    _try_port(lab, options.port)
+    with place_for_bags(options.evidence, package) as bags:
+        seed = any_seed() if options.seed is None else options.seed
+        choices = Choices(
+            seed, options.clock, bags, options.port, options.hidden, strangers=strangers,
+            for_others=others, soak_s=_soak_s(lab, options, others),
+        )  # fmt: skip
+        with ready(lab, choices) as begun:
+            graded = begun.grade(package, process_began_ns(), quiet)
+        before = None if options.solution else replace_kept(lab, graded.verdict)
+        code = show(graded.verdict, options, before)
+        if options.timings:
+            _show_timings(graded, options)
+        _save(graded, options, bags)
+    return code
+
+
+def _show_timings(graded: Graded, options: argparse.Namespace) -> None:
+    from rich.console import Console
+
+    from roslings.report.timings import print_timings
+
+    console = Console(stderr=is_stdout(options.json))
+    print_timings(graded.evidence.timeline, graded.verdict.seconds, console)
+
+
+def _soak_s(lab: Lab, options: argparse.Namespace, others: bool) -> float:
+    """A student's own check is to be quick; where the result counts, nodes are left running."""
+    from roslings.course.soak import soak_seconds
+
+    return soak_seconds(lab.card, options.soak if others else options.soak or 0.0)
+
+
+def _solution(lab: Lab) -> Path:
+    """The course's own package. Raises NoSolution in the students' edition."""
+    if not lab.solution.is_dir():
+        raise NoSolution(lab.name)
+    return lab.solution
+
+
+def _try_port(lab: Lab, port: Path | None) -> None:
+    """A real board is tried before anything is built."""
+    if port is None:
+        return
+    from roslings_rover.board.attached import LabHasNoBoard, try_port
+
+    if not lab.card.board:
+        raise LabHasNoBoard(lab.name)
+    try_port(port)
+    print("The wheels will turn: put the rover on a stand, wheels in the air.", file=sys.stderr)
+
+
+def _save(graded: Graded, options: argparse.Namespace, bags: Path | None) -> None:
+    """Save what was asked for, and say where it is."""
+    from roslings.saving import save
+
+    if options.html:
+        graded.write_page(options.html, own_page(options))
+    if options.evidence:
+        save(graded, options.evidence, bags)
+        say = f"\nThe evidence is in {from_here(options.evidence)}. Look at it in a browser:"
+        page = from_here(options.evidence / "report.html")
+        print(f"{say}\n{page}", file=sys.stderr if is_stdout(options.json) else sys.stdout)

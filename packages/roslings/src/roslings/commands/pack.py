@@ -1,0 +1,51 @@
+"""`./roslings pack`."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ros2_on_pip.errors import OK
+from ros2_on_pip.typed_paths import shown
+from roslings import course
+from roslings.commands.options import package_options, soak_option
+from roslings.workspace.student import package_of
+
+if TYPE_CHECKING:
+    from roslings.course import Lab
+
+
+def add_options(word: argparse.ArgumentParser) -> None:
+    """What it takes."""
+    package_options(word)
+    word.add_argument("--out", metavar="FILE", type=Path, help="the zip (default: LAB.zip here)")
+    soak_option(word, "as where it is graded; 0 skips it")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Make the zip to hand in."""
+    from roslings.workspace.student import pack as zip_it
+
+    lab = course.lab(options.lab)
+    packed = zip_it(lab, options.out, options.path)
+    verb = "Replaced" if packed.replaced else "Made"
+    print(f"{verb} {shown(packed.path)}: {len(packed.files)} files, {packed.size_bytes:,} bytes.")
+    print("Hand in this one file.", flush=True)
+    _let_run(lab, options)
+    return OK
+
+
+def _let_run(lab: Lab, options: argparse.Namespace) -> None:
+    """Let the nodes run as they will where they are graded; the file is there, whatever comes."""
+    from roslings.course.soak import soak_seconds
+    from roslings.handing_in import left_running
+    from roslings.report import Progress
+
+    if for_s := soak_seconds(lab.card, options.soak):
+        try:
+            with Progress() as progress:
+                lines = left_running(lab, package_of(lab, options.path), for_s, progress.step)
+        except KeyboardInterrupt:
+            lines = ["Your nodes were not watched to the end. The file is whole."]
+        print("\n".join(lines))

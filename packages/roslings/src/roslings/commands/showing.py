@@ -1,0 +1,78 @@
+"""How commands show a verdict, and where they keep it."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ros2_on_pip.errors import EXIT_OF_OUTCOME
+from roslings.course import Lab
+from roslings.workspace.errors import WorkspaceError
+from roslings.workspace.student import workspace_root
+
+if TYPE_CHECKING:
+    from roslings.verdict import Verdict
+
+
+def show(verdict: Verdict, options: argparse.Namespace, before: Verdict | None = None) -> int:
+    """Print a verdict, and write it where that was asked for; the exit code."""
+    from rich.console import Console
+
+    from roslings.platforms import write_shapes
+    from roslings.report import print_verdict, write_json
+    from roslings.typed import as_typed
+
+    if options.json:
+        write_json(verdict, options.json)
+    write_shapes(verdict, options)
+    if not is_stdout(options.json):
+        print_verdict(
+            verdict, console=Console(), hint_step=options.hint, only=options.only,
+            whole=options.all, before=before, typed=as_typed(options),
+        )  # fmt: skip
+    return EXIT_OF_OUTCOME[verdict.outcome]
+
+
+def is_stdout(path: Path | None) -> bool:
+    """Whether `-` was given instead of a file: then nothing else is printed there."""
+    return str(path) == "-"
+
+
+def kept(lab: Lab) -> Path:
+    """Where the last verdict lies, for `--hint`."""
+    return workspace_root() / ".roslings" / f"verdict-{lab.name}.json"
+
+
+def replace_kept(lab: Lab, verdict: Verdict) -> Verdict | None:
+    """Keep this verdict; the one before, or None where there is none that can be read."""
+    from roslings.report import BadVerdictFile
+
+    before = None
+    with suppress(BadVerdictFile):
+        before = read(kept(lab))
+    _keep(lab, verdict)
+    return before
+
+
+def read(path: Path) -> Verdict:
+    """A verdict that was kept. Raises BadVerdictFile."""
+    from roslings.report import read_json
+
+    return read_json(path)
+
+
+def _keep(lab: Lab, verdict: Verdict) -> None:
+    """Keep score and verdict; a workspace that cannot be written does not hide the verdict."""
+    from roslings.report import CannotWrite, write_json
+    from roslings.workspace.progress import record
+
+    if not workspace_root().is_dir():
+        return
+    try:
+        record(verdict)
+        write_json(verdict, kept(lab))
+    except (WorkspaceError, CannotWrite) as error:
+        print(f"roslings: the score was not kept. {error}", file=sys.stderr)

@@ -1,0 +1,116 @@
+"""Where a learner is on the way through the course, and what comes next."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from datetime import datetime
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ros2_on_pip.typed_paths import from_here
+from roslings import course
+from roslings.typed import program
+from roslings.workspace import progress
+from roslings.workspace.student import workspace_root
+
+if TYPE_CHECKING:
+    from roslings.course import Lab
+    from roslings.workspace.progress import LabStatus, Today
+
+FIRST_DAY = "01-install"
+FIRST_PAGE = "first-15-minutes.md"
+BAR_COLUMNS = 14
+FULL, EMPTY = "#", "."
+"""Of the bar; a screen reader says them, and every terminal has them."""
+
+
+def next_lines(labs: list[LabStatus], next_step: Today) -> Iterator[str]:
+    """What to type, in the order in which it is done."""
+    if next_step.at is None:
+        yield "All labs are done. Well done!"
+        return
+    lab = next_step.at.lab
+    if not _has_begun(labs):
+        yield f"{'Now':6}The first 15 minutes: drive a robot, nine commands."
+        yield f"{'':6}Read {from_here(_first_page())}"
+        yield f"{'Then':6}{program()} lab 1    the lesson of day 1, in JupyterLab"
+        if drill_before(lab):
+            yield f"{'Then':6}{program()} watch    the first drills, and then the first lab"
+        else:
+            yield f"{'Then':6}{program()} start {lab.name}    the first lab"
+        return
+    yield f"Day {lab.outline.day}: {lab.outline.title}  ({how_far(next_step.at)})"
+    yield f"{'Read':6}{program()} lab {int(lab.outline.day[:2])}    the lesson"
+    if drill := drill_before(lab):
+        yield f"{'Next':6}{program()} watch    drills come before the lab; now: {drill}"
+    verb = "start" if next_step.step is progress.Step.START else "check"
+    yield f"{'Then' if drill else 'Next':6}{program()} {verb} {lab.name}"
+    yield f"{'Task':6}{from_here(lab.task)}"
+
+
+def _first_page() -> Path:
+    return course.root() / "days" / FIRST_DAY / FIRST_PAGE
+
+
+def _has_begun(labs: list[LabStatus]) -> bool:
+    tried = progress.read_progress(workspace_root()).drills
+    return bool(tried) or any(each.package or each.progress.checks for each in labs)
+
+
+def bar(labs: list[LabStatus]) -> str:
+    """How much is done: `Labs  ####....  2 of 7   Drills  #...  9 of 70   3 days in a row`."""
+    kept = progress.read_progress(workspace_root())
+    done, of = _drills_done()
+    parts = [_one_bar("Labs", sum(each.progress.done for each in labs), len(labs))]
+    if of:
+        parts.append(_one_bar("Drills", done, of))
+    if (row := kept.days_in_a_row(datetime.now().astimezone().date())) > 1:
+        parts.append(f"{row} days in a row")
+    return "   ".join(parts)
+
+
+def _one_bar(name: str, done: int, of: int) -> str:
+    full = BAR_COLUMNS * done // of
+    return f"{name + ' ':6}{FULL * full + EMPTY * (BAR_COLUMNS - full)}  {done} of {of}"
+
+
+def _drills_done(day: str = "") -> tuple[int, int]:
+    """How many are mended, and how many there are: of one day, or of all."""
+    kept = progress.read_progress(workspace_root()).drills
+    names = [name for of, name in drills_there() if day in ("", of)]
+    return sum(name in kept and kept[name].passed_at is not None for name in names), len(names)
+
+
+def drills_there() -> list[tuple[str, str]]:
+    """Day and name of each drill, by their folders alone: a card is read by who needs it."""
+    folders = sorted((course.root() / "days").glob("*/drills/[0-9][0-9]_*/"))
+    return [(folder.parents[1].name, folder.name[3:]) for folder in folders if folder.is_dir()]
+
+
+def drill_before(lab: Lab) -> str | None:
+    """The next drill up to this lab's day; None where all of them are done."""
+    done = progress.read_progress(workspace_root()).drills
+    return next(
+        (
+            name for day, name in drills_there()
+            if day <= lab.outline.day
+            and not (name in done and done[name].passed_at)
+        ),
+        None,
+    )  # fmt: skip
+
+
+def how_far_is_the_first_day(labs: list[LabStatus]) -> str:
+    """It has no lab; who has had a package checked has an installation that works."""
+    done, of = _drills_done(FIRST_DAY)
+    if any(each.progress.checks for each in labs):
+        return f"your installation works; {done} of {of} drills"
+    return f"{done} of {of} drills; first: {FIRST_PAGE}"
+
+
+def how_far(each: LabStatus) -> str:
+    """Of a lab: its scores, or that it is not begun."""
+    if not each.progress.checks:
+        return "begun, not yet checked" if each.package else "not begun"
+    best = f"best {each.progress.best:g} of 100, last {each.progress.last:g}"
+    return f"done ({best})" if each.progress.done else best

@@ -1,5 +1,0 @@
-"""`./roslings break N`: ten exercises. Each breaks a copy, or one terminal, and grades the mend."""
-
-from roslings.doctor.breaks.cli import main
-
-__all__ = ["main"]

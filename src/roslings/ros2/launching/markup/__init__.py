@@ -1,5 +1,0 @@
-"""Launch files in XML and YAML: read into a tree, and from there into the same actions."""
-
-from roslings.ros2.launching.markup.building import description_of
-
-__all__ = ["description_of"]
