@@ -6,6 +6,7 @@ import getpass
 import re
 import socket
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -18,6 +19,8 @@ from roslings.verdict import CheckResult
 from roslings_prove.anonymous import for_judging, replacements, without_machine
 
 GRADING = "/var/tmp/roslings-1000-a_b1c2d3"
+PYTHON = "/python" if len(Path(sys.base_prefix).parts) > 2 else sys.base_prefix
+"""A Python in /usr tells nothing of the machine."""
 SAID = {
     f'File "{GRADING}/room/build/chatter/talker.py", line 3': (
         'File "/grading/room/build/chatter/talker.py", line 3'
@@ -28,7 +31,7 @@ SAID = {
     f"no port {GRADING}/devices/tmp8_x1/ttyROVER": "no port /grading/devices/it/ttyROVER",
     f"in /run/roslings-user-7-{'q' * 8}/log": "in /grading/log",
     f'File "{root()}/src/roslings/x.py"': 'File "/course/src/roslings/x.py"',
-    f'File "{sys.base_prefix}/lib/python3/runpy.py"': 'File "/python/lib/python3/runpy.py"',
+    f'File "{sys.base_prefix}/lib/python3/runpy.py"': f'File "{PYTHON}/lib/python3/runpy.py"',
     f"in /x/log/2026-11-26-21-20-25-657616-{socket.gethostname()}-2": (
         "in /x/log/2026-11-26-21-20-25-657616-computer-2"
     ),
