@@ -1,6 +1,6 @@
 """What a grading opens is what its proof is said to be measured by: the kernel tells.
 
-A proof is stale when something of its lab's closure is another (`authoring/proofs/closure.py`). The
+A proof is stale when something of its lab's closure is another (`proofs/closure.py`). The
 closure is read from imports and texts, and a program that is started in another way would be
 missing in it. So each lab's solution is checked while inotify watches the engine.
 """
@@ -40,6 +40,7 @@ def now() -> Measuring:
 def judging() -> frozenset[str]:
     """All that the command may import besides, and what it starts of its own."""
     places = [*(code_of("roslings") / part for part in JUDGING), code_of("roslings_launcher")]
+    places += PACKAGES.glob("*/src/*/command_names.py")  # the tables of what can be typed
     files = [file for place in places for file in (place, *place.rglob("*.py")) if file.is_file()]
     modules = [now().modules.tree.name_of(file) for file in files if file.stem != ACTS]
     return now().modules.reached({each for name in modules for each in with_parents(name)})
