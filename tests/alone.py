@@ -22,6 +22,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from roslings_launcher.sources import OFFERS, merged
 from sources import ALONE, ROOT
 
 if sys.version_info >= (3, 11):
@@ -158,19 +159,7 @@ def show_sources(python: Path, packages: Sequence[Package]) -> None:
     info = site / "ours-0.1.0.dist-info"
     info.mkdir()
     (info / "METADATA").write_text("Metadata-Version: 2.1\nName: ours\nVersion: 0.1.0\n", "utf-8")
-    told = [(each.folder / "entry_points.txt").read_text("utf-8") for each in packages]
-    (info / "entry_points.txt").write_text(merged(told), "utf-8")
-
-
-def merged(files: Sequence[str]) -> str:
-    """Several files of entry points, as one."""
-    groups: dict[str, list[str]] = {}
-    for line in "\n".join(files).splitlines():
-        if line.startswith("["):
-            group = groups.setdefault(line, [])
-        elif line:
-            group.append(line)
-    return "\n".join("\n".join([group, *lines, ""]) for group, lines in groups.items())
+    (info / OFFERS).write_text(merged(each.folder / OFFERS for each in packages), "utf-8")
 
 
 # --- its tests ---------------------------------------------------------------------------------

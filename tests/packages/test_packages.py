@@ -77,13 +77,14 @@ def test_a_package_says_that_it_needs_what_it_imports(file: Path) -> None:
 
 def stands_on(name: str) -> set[str]:
     """Itself, and all of ours that it needs, by the names that are imported."""
-    if name == "roslings":  # its wheel holds them, so no dependency says it
-        below = layers()[[layer[0] for layer in layers()].index("roslings") + 1 :]
-        return {"roslings", *(each for layer in below for each in layer)}
-    project = tomllib.loads((ROOT / "packages" / name / "pyproject.toml").read_text("utf-8"))
-    needs = [re.split(r"[=<> ;]", need)[0] for need in project["project"].get("dependencies", ())]
-    ours = [need for need in needs if (ROOT / "packages" / need).is_dir()]
-    return {name.replace("-", "_")}.union(*map(stands_on, ours))
+    return {each.name.replace("-", "_") for each in alone.Package(name).ours}
+
+
+def test_the_engine_stands_on_all_below_it() -> None:
+    """No dependency of it says so, for its wheel holds them; the contract does."""
+    places = [layer[0] for layer in layers()]
+    below = layers()[places.index("roslings") + 1 :]
+    assert stands_on("roslings") == {"roslings", *(each for layer in below for each in layer)}
 
 
 def ours_in(module: Path) -> set[str]:

@@ -1,6 +1,6 @@
 """Where the packages of the course lie, and what of them an environment is to see."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable
 from pathlib import Path
 
 PACKAGES = "packages"
@@ -29,10 +29,15 @@ def offers_as_written(root: Path) -> str:
 
 def offers(root: Path) -> str:
     """What all packages offer, as one file of entry points."""
+    return merged(_offers(root))
+
+
+def merged(files: Iterable[Path]) -> str:
+    """Files of entry points, as one."""
     import configparser  # `./roslings --help` reads this module, and none of these files
 
     told: dict[str, list[str]] = {}
-    for file in _offers(root):
+    for file in files:
         read = configparser.ConfigParser(delimiters=("=",))
         read.optionxform = str  # type: ignore[assignment,method-assign] # a name keeps its capitals
         read.read(file, encoding="utf-8")
@@ -41,5 +46,5 @@ def offers(root: Path) -> str:
     return "\n".join(f"[{group}]\n" + "\n".join(lines) + "\n" for group, lines in told.items())
 
 
-def _offers(root: Path) -> Iterator[Path]:
-    return iter(sorted(root.glob(f"{PACKAGES}/*/{OFFERS}")))
+def _offers(root: Path) -> list[Path]:
+    return sorted(root.glob(f"{PACKAGES}/*/{OFFERS}"))
