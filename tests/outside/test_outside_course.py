@@ -14,6 +14,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from from_outside import CONFORMS, install, run
 from played import furnish
 
 from once import once
@@ -23,13 +24,6 @@ from until_told import run_until_told
 
 COURSE = root() / "example-course"
 README = COURSE / "README.md"
-CONFORMS = """
-from roslings.capabilities.conformance import CHECKS
-from valve_course.lifecycle import CAPABILITY
-for holds in CHECKS:
-    holds(CAPABILITY)
-print(len(CHECKS), "hold")
-"""
 
 
 @pytest.fixture(scope="session")
@@ -43,25 +37,13 @@ def installed(shared_folder: Path) -> dict[str, str]:
 
 def _install(folder: Path) -> str:
     source = shutil.copytree(COURSE, folder / "source")
-    words = ["--no-deps", "--no-build-isolation", "--no-index", "--target", folder / "site"]
-    pip = [sys.executable, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
-    subprocess.run([*pip, *words, source], check=True)
+    install(source, folder / "site")
     return "installed"
-
-
-def run(installed: dict[str, str], *words: str, cwd: Path | None = None) -> str:
-    """What a command prints; it must end well."""
-    done = subprocess.run(
-        [sys.executable, *words], env=installed, cwd=cwd, capture_output=True, text=True,
-        check=False,
-    )  # fmt: skip
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
 
 
 def test_its_capability_conforms(installed: dict[str, str]) -> None:
     """As those of roslings."""
-    assert "13 hold" in run(installed, "-c", CONFORMS)
+    assert "13 hold" in run(installed, "-c", CONFORMS.format(package="valve_course.lifecycle"))
 
 
 def test_its_task_says_what_its_card_says(installed: dict[str, str]) -> None:

@@ -5,11 +5,10 @@ from __future__ import annotations
 import os
 import re
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
+from from_outside import CONFORMS, install, run
 
 from sources import ROOT
 from until_told import Checked, checked
@@ -17,13 +16,6 @@ from until_told import Checked, checked
 TEXT = (ROOT / "CONTRIBUTING.md").read_text("utf-8")
 WALK = TEXT[TEXT.index("## Add a capability") : TEXT.index("## Add a verb")]
 FILE = re.compile(r"^# (\S+\.(?:py|toml))\n")
-CONFORMS = """
-from described import CAPABILITY
-from roslings.capabilities.conformance import CHECKS
-for holds in CHECKS:
-    holds(CAPABILITY)
-print(len(CHECKS), "hold")
-"""
 SOLUTION = "labs/nodes/solution/rover_status"
 
 
@@ -52,19 +44,12 @@ def environment(tmp_path: Path) -> dict[str, str]:
         if name:
             (source / name[1]).parent.mkdir(parents=True, exist_ok=True)
             (source / name[1]).write_text(text, "utf-8")
+    assert "python -m pip install --no-deps ./described" in WALK
     install(source, tmp_path / "site")
     course = tmp_path / "course"
     write_course(course)
     own = {"PYTHONPATH": str(tmp_path / "site"), "ROSLINGS_COURSE": str(course)}
     return {**os.environ, **own}
-
-
-def install(source: Path, site: Path) -> None:
-    """As the walk says, but into a folder of the test, and with no index."""
-    (words,) = re.findall(r"`\S+python -m (pip install --no-deps) \./described`", WALK)
-    own = ["--no-build-isolation", "--no-index", "--quiet", "--disable-pip-version-check"]
-    words = [*words.split(), *own, "--target", str(site), str(source)]
-    subprocess.run([sys.executable, "-m", *words], check=True)
 
 
 def write_course(course: Path) -> None:
@@ -83,18 +68,9 @@ def write_course(course: Path) -> None:
         grader.write("\n\n" + uses)
 
 
-def run(environment: dict[str, str], *words: str) -> str:
-    """What Python prints; it ends well."""
-    done = subprocess.run(
-        [sys.executable, *words], env=environment, capture_output=True, text=True, check=False
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
-
-
 def test_it_conforms(environment: dict[str, str]) -> None:
     """As those of roslings; and its word has a line in the task."""
-    assert "13 hold" in run(environment, "-c", CONFORMS)
+    assert "13 hold" in run(environment, "-c", CONFORMS.format(package="described"))
     run(environment, "-m", "roslings.course.task", "nodes")
     task = Path(environment["ROSLINGS_COURSE"]) / "labs/nodes/task.md"
     assert "| parameters | each has a description |" in task.read_text("utf-8")
