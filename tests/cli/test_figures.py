@@ -129,7 +129,7 @@ def refused(words: list[str], ours: pytest.Config) -> str | None:
 
 def is_read(variable: str) -> bool:
     """Whether a program or a test of the repository looks at this variable."""
-    places = ["src/*.py", "tests/*.py"]
+    places = ["packages/*.py", "tests/*.py"]
     found = subprocess.run(
         ["git", "grep", "-q", f'"{variable}"', "--", *places], cwd=root(), check=False
     )

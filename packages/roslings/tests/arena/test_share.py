@@ -139,10 +139,14 @@ def launched(source: str, folder: Path) -> Process:
 
 @needs("schedstat")
 def test_neighbours_do_not_shorten_a_wait(tmp_path: Path) -> None:
-    """It takes several times as long as it may, and gets that time."""
+    """It takes several times as long as it may, and gets that time.
+
+    It may take twice as long as its work does: what a host takes from its guest, and what comes
+    from the disk, is time of the process's own.
+    """
     with neighbours(NEIGHBOURS), launched(WORKS, tmp_path) as process:
         assert not process.wait_ended(TAKES_S)
-        assert process.wait_ended_in_own_time(TAKES_S, most_s=60 * TAKES_S)
+        assert process.wait_ended_in_own_time(2 * TAKES_S, most_s=60 * TAKES_S)
     assert process.seen.status == 0
 
 
