@@ -66,7 +66,18 @@ if calls:
 os.execv(sys.argv[1], sys.argv[1:])
 """
 """The instructor's session keeps a key in the kernel, where the kernel keeps any."""
-COURSE = ("packages", "graders", "labs", "days", "glossary", "pyproject.toml")
+GRADES = ("ros2-on-pip", "ros-doctor", "roslings-launcher", "roslings-rover", "roslings",
+          "roslings-class")  # fmt: skip
+"""The packages that `grade` runs; no other is in the stage."""
+COURSE = (
+    *(f"packages/{name}/src" for name in GRADES),
+    "graders",
+    f"labs/{LAB.name}",
+    "labs/actions/solution/drive_to/package.xml",
+    "pyproject.toml",
+)
+"""What grades, and what rogues reach for: a lesson or another lab that changes is nothing to them,
+and the gate sees it."""
 SHARED_PLACES = ("/tmp", "/var/tmp", "/dev/shm", "/", "/run", "/etc", "/opt", "/usr")
 
 
@@ -117,9 +128,10 @@ class Stage:
             folder.mkdir()
         for name in COURSE:
             source, to = root() / name, self.course / name
+            to.parent.mkdir(parents=True, exist_ok=True)
             if source.is_dir():
                 shutil.copytree(source, to, ignore=shutil.ignore_patterns("__pycache__"))
-            elif source.exists():
+            else:
                 shutil.copy(source, to)
         card = self.course / "labs" / LAB.name / "card.yaml"
         card.write_text(f"{card.read_text('utf-8')}\nbuilds_within_s: {BUILDS_WITHIN_S}\n", "utf-8")

@@ -1,4 +1,4 @@
-"""What strangers' code reaches for is there: what is nowhere proves no wall."""
+"""What strangers' code reaches for is on the stage: what is nowhere proves no wall."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
+from stage import COURSE
 
 from sources import ROOT
 
@@ -26,4 +27,7 @@ def test_some_name_files_of_the_course() -> None:
 def test_the_files_of_the_course_that_it_names_are_there(file: Path) -> None:
     """After a move it would fail to open them because there is none."""
     text = file.read_text("utf-8")
-    assert [name for name in AIM.findall(text) if not (ROOT / name).exists()] == []
+    aims = [Path(name) for name in AIM.findall(text)]
+    assert [aim for aim in aims if not (ROOT / aim).exists()] == []
+    staged = [Path(name) for name in COURSE]
+    assert [aim for aim in aims if not any(aim.is_relative_to(each) for each in staged)] == []
