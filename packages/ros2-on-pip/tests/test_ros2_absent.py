@@ -10,6 +10,9 @@ import pytest
 from terminal import Shell
 
 from ros2_on_pip.absent import ABSENT
+from ros2_on_pip.well_known import WELL_KNOWN, absent
+
+TOLD = {**ABSENT, **WELL_KNOWN}
 
 BEGINS = "from ros2_on_pip import absent; import sys; sys.exit(absent.{}(['x']))"
 MANIFEST = "<package><name>{name}</name></package>"
@@ -56,7 +59,7 @@ def test_built_and_not_sourced(empty: Shell, workspace: Path, place: str) -> Non
     assert ran.err.splitlines()[1:] == [f"{told}source ~/roslings_ws/install/setup.bash"]
 
 
-@pytest.mark.parametrize("name", ["turtlesim", "tf2_ros", "rviz2", "rqt_image_view"])
+@pytest.mark.parametrize("name", ["turtlesim", "robot_state_publisher", "rviz2", "rqt_image_view"])
 def test_a_package_of_the_full_ros_has_a_stand_in(empty: Shell, name: str) -> None:
     """What it is, what to use here, and how the real one is installed."""
     ran = empty("run", name, "it")
@@ -64,6 +67,59 @@ def test_a_package_of_the_full_ros_has_a_stand_in(empty: Shell, name: str) -> No
     assert f"'{name}' is not here" in ran.err
     assert "Use instead: " in ran.err
     assert f"sudo apt install ros-jazzy-{name.replace('_', '-')}" in ran.err
+
+
+RQT_OF_JAZZY = (
+    "rqt", "rqt_action", "rqt_bag", "rqt_bag_plugins", "rqt_common_plugins", "rqt_console",
+    "rqt_controller_manager", "rqt_dotgraph", "rqt_gauges", "rqt_graph", "rqt_gui", "rqt_gui_cpp",
+    "rqt_gui_py", "rqt_image_overlay", "rqt_image_overlay_layer", "rqt_image_view",
+    "rqt_joint_trajectory_controller", "rqt_moveit", "rqt_msg", "rqt_plot", "rqt_publisher",
+    "rqt_py_common", "rqt_py_console", "rqt_reconfigure", "rqt_robot_dashboard",
+    "rqt_robot_monitor", "rqt_robot_steering", "rqt_runtime_monitor", "rqt_service_caller",
+    "rqt_shell", "rqt_srv", "rqt_tf_tree", "rqt_topic",
+)  # fmt: skip
+"""Each package of Jazzy's list of distributed ones (rosdistro, 2025) that begins so."""
+ALSO_ASKED_FOR = (
+    "foxglove_bridge", "joint_state_publisher", "joint_state_publisher_gui", "micro_ros_agent",
+    "nav2_map_server", "plotjuggler", "ros_gz_bridge", "rosbridge_server", "teleop_twist_joy",
+    "turtlebot3_gazebo", "turtlebot4_gz_bringup", "xacro", "moveit_ros_move_group",
+    "examples_rclcpp_minimal_publisher", "demo_nodes_cpp_native", "rviz_common",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("name", [*RQT_OF_JAZZY, *ALSO_ASKED_FOR])
+def test_each_well_known_name_has_an_answer(name: str) -> None:
+    """What it is, what to use here, and where the real one is: never only "not found"."""
+    told = absent(name)
+    assert told is not None
+    first, second = told.told(name).splitlines()
+    assert first.startswith(f"'{name}' is not here: it ") and ". Use instead: " in first
+    assert second.startswith(("The real one needs Ubuntu 24.04: sudo apt install ", "No apt "))
+
+
+@pytest.mark.parametrize("name", ["rqt_reconfigure", "rqt_gui_cpp", "micro_ros_agent", "xacro"])
+def test_who_types_it_reads_the_answer(empty: Shell, name: str) -> None:
+    """Of the table and of a family, by `ros2 run` as guides write it."""
+    ran = empty("run", name, name)
+    assert (ran.code, ran.out) == (1, "")
+    assert f"'{name}' is not here" in ran.err and "not found" not in ran.err
+
+
+@pytest.mark.parametrize("name", ["rqtt", "blinker", "my_rqt_plot", "turtlebot", "navigation2"])
+def test_other_names_are_of_nobody(name: str) -> None:
+    """A slip of one's own gets no answer about another package."""
+    assert absent(name) is None
+
+
+def test_a_slip_in_the_name_of_ones_own_package_is_told_first(empty: Shell, tmp_path: Path) -> None:
+    """`nav2_walker` is built and sourced, and `nav2_walkr` is typed."""
+    marker = tmp_path / "share/ament_index/resource_index/packages/nav2_walker"
+    marker.parent.mkdir(parents=True)
+    marker.touch()
+    ran = Shell(empty.environment | {"AMENT_PREFIX_PATH": str(tmp_path)}, tmp_path)(
+        "run", "nav2_walkr", "walk"
+    )
+    assert "Did you mean nav2_walker?" in ran.err and "large robots" not in ran.err
 
 
 def test_ones_own_package_of_such_a_name_is_not_hidden(empty: Shell, workspace: Path) -> None:
@@ -92,15 +148,15 @@ def test_there_is_no_version_option(empty: Shell) -> None:
     assert "ros2 has no --version. This is ROS 2 Jazzy" in ran.err
 
 
-@pytest.mark.parametrize("name", ABSENT)
+@pytest.mark.parametrize("name", TOLD)
 def test_without_the_course_nothing_of_it_is_told(
     name: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     """Who has `ros2` alone has no ./roslings, and no day 7."""
     monkeypatch.setattr("sys.prefix", str(tmp_path / "environment"))
-    told = ABSENT[name].told(name)
+    told = TOLD[name].told(name)
     assert "Use instead: " in told
-    for word in ("./roslings", "roslings folder", "day 7", "rover"):
+    for word in ("./roslings", "roslings folder", "day 6", "day 7", "rover"):
         assert word not in told
     (tmp_path / "roslings").touch()
-    assert ABSENT[name].told(name).startswith(f"'{name}' is not here")
+    assert TOLD[name].told(name).startswith(f"'{name}' is not here")

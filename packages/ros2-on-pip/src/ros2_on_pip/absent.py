@@ -80,8 +80,6 @@ ABSENT = {
     "rqt_plot": Absent("draws curves in a window", "ros2 topic echo TOPIC --field data"),
     "rviz2": Absent("draws robots in 3D", f"{ROVER}; for numbers ros2 topic echo"),
     "slam_toolbox": Absent("makes maps of rooms", ROVER),
-    "tf2_ros": Absent("is compiled (tf2_echo and others)", TF),
-    "tf2_tools": Absent("draws the tree of frames", TF),
     "turtlesim": Absent("opens a window", f"{ROVER}; to drive it, {DRIVE}"),
     "usb_cam": Absent("reads a real camera", CAMERA),
     "v4l2_camera": Absent("reads a real camera", CAMERA),

@@ -15,8 +15,9 @@ from typing import Any, TextIO
 FASTER, SLOWER = 1.1, 0.9
 ARROWS = {"\x1b[A": "i", "\x1b[B": ",", "\x1b[C": "l", "\x1b[D": "j"}
 """What a terminal sends for up, down, right and left, to the letter that does the same."""
-LONGEST_KEY = 16
-"""Bytes: a key that is held sends them faster than they are read, and the newest one counts."""
+LONGEST_KEY = 768
+"""Bytes: a key that is held sends them faster than they are read, and the newest one counts. Of so
+many, no arrow is cut in two: it has three."""
 
 WAYS = {
     "i": (1, 0), "u": (1, 1), "o": (1, -1),

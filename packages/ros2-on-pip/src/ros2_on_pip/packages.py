@@ -10,7 +10,8 @@ from ros2_on_pip.absent import ABSENT
 from ros2_on_pip.problem import Problem, did_you_mean
 from ros2_on_pip.unbuilt import advice
 
-BUILT_IN = {name: Path(__file__).parent for name in ("demo_nodes_py", "teleop_twist_keyboard")}
+PROGRAMS = ("demo_nodes_py", "teleop_twist_keyboard", "tf2_ros", "tf2_tools")
+BUILT_IN = {name: Path(__file__).parent for name in PROGRAMS}
 """Packages that come with roslings, and the folder that each lies in."""
 
 SOURCE_IT = (

@@ -51,10 +51,15 @@ def complete_executables(parsed_args: argparse.Namespace, **_: Any) -> list[str]
 
 def run(options: argparse.Namespace) -> int:
     """`ros2 run PACKAGE EXECUTABLE ...`; does not come back."""
-    from ros2_on_pip.packages import executable
+    from ros2_on_pip.packages import PackageNotFound, executable
     from ros2_on_pip.programs import command_of, environment_of
+    from ros2_on_pip.well_known import answer_for
 
-    program = executable(options.package_name, options.executable_name)
+    try:
+        program = executable(options.package_name, options.executable_name)
+    except PackageNotFound:
+        answer_for(options.package_name)
+        raise
     command = [*shlex.split(options.prefix or ""), *command_of(program), *options.argv]
     become(command, environment_of(program))
     raise AssertionError("execve does not return")

@@ -1,0 +1,26 @@
+"""Move geometry_msgs from one frame to another, with the names of Jazzy's `tf2_geometry_msgs`.
+
+Who imports it can give these types to `Buffer.transform`.
+"""
+
+from .tf2_geometry_msgs import (
+    do_transform_point,
+    do_transform_pose,
+    do_transform_pose_stamped,
+    do_transform_pose_with_covariance_stamped,
+    do_transform_vector3,
+    from_msg_msg,
+    to_msg_msg,
+    transform_covariance,
+)
+
+__all__ = [
+    "do_transform_point",
+    "do_transform_pose",
+    "do_transform_pose_stamped",
+    "do_transform_pose_with_covariance_stamped",
+    "do_transform_vector3",
+    "from_msg_msg",
+    "to_msg_msg",
+    "transform_covariance",
+]

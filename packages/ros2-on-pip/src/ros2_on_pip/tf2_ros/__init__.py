@@ -1,0 +1,1 @@
+"""The programs of `tf2_ros`, under the names that they have there."""
