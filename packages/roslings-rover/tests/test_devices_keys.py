@@ -85,7 +85,7 @@ def test_the_rover_follows_the_keys_of_its_terminal(
 ) -> None:
     """Ahead, and it stands again; the graph shows who says it."""
     with running(["rover", "--keys", "--view", "lines"], terminal, tmp_path, keyboard[1]) as rover:
-        rover.wait_for("Keys: i ahead")
+        rover.wait_for("Keys: arrow up drives")
         rover.wait_for("standing")
         os.write(keyboard[0], b"i")
         rover.wait_for(r"x 0\.[3-9].* standing")

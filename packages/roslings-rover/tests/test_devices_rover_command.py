@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
 from collections.abc import Iterator
@@ -12,10 +13,12 @@ from program import Program, environment, run, running
 from rosbags.highlevel import AnyReader
 
 from ros2_on_pip.domain_lease import leased_domain
-from roslings_rover.rover import Ball, Box, Circle, Motion, Rover, World
+from roslings_rover.remembered import has_reached_a_ball, remember_the_ball
+from roslings_rover.rover import Ball, Box, Circle, Motion, Pose, Rover, World
+from roslings_rover.rover.driven import LEAVES_M, DrivenRover
 from roslings_rover.rover.node import RoverNode
 from roslings_rover.rover.text_map import ASCII, UNICODE, text_map
-from roslings_rover.rover.words import about_tf
+from roslings_rover.rover.words import about_tf, below, beside, position
 from skips import imported
 
 FORWARD = "{linear: {x: 0.5}}"
@@ -179,6 +182,97 @@ def test_the_map_shows_what_there_is() -> None:
     rover.drive(Motion(0.0, 1.57))
     rover.step(1.1)
     assert "^" in "".join(text_map(rover, 42, 22, ASCII))
+
+
+@pytest.mark.parametrize("turn", range(0, 360, 30))
+@pytest.mark.parametrize("size", [(46, 21), (26, 15), (146, 47)])
+def test_the_arrow_never_covers_a_ball(turn: int, size: tuple[int, int]) -> None:
+    """The rover touches it from any side: both are on the map, side by side."""
+    rover = Rover()
+    (ball,) = rover.world.balls
+    far_m = ball.radius_m + rover.body.radius_m
+    angle = math.radians(turn)
+    rover.pose = Pose(ball.x_m + far_m * math.cos(angle), ball.y_m + far_m * math.sin(angle), 0.0)
+    drawn = "\n".join(text_map(rover, *size, ASCII))
+    assert drawn.count("o") == 1 and drawn.count(">") == 1
+    (rover_line,) = (n for n, line in enumerate(drawn.splitlines()) if ">" in line)
+    (ball_line,) = (n for n, line in enumerate(drawn.splitlines()) if "o" in line)
+    assert abs(rover_line - ball_line) <= 2
+
+
+def test_a_ball_in_the_corner_stays_in_sight() -> None:
+    """There is no letter beyond the wall: the arrow takes the one on the other side."""
+    world = World(Box(0, 0, 10, 10), (), (Ball(9.99, 0.01),))
+    rover = Rover(world, Pose(9.995, 0.005, 0.0))
+    drawn = "".join(text_map(rover, 42, 22, ASCII))
+    assert drawn.count("o") == 1 and drawn.count(">") == 1
+
+
+def test_nothing_is_minus_nothing() -> None:
+    """A rover that stands a hair south of the middle is at 0.00, and looks east at 0 degrees."""
+    rover = Rover(pose=Pose(-0.001, -0.004, -0.001))
+    shown = "\n".join([*beside(RoverNode(rover)), position(RoverNode(rover))])
+    assert "-0" not in shown and "heading       0 degrees" in shown
+    rover.pose = Pose(-0.25, -1.0, math.radians(-90))
+    assert position(RoverNode(rover)).startswith("x -0.25 m, y -1.00 m, heading -90 degrees")
+
+
+def test_a_touch_counts_until_the_rover_has_left() -> None:
+    """The word stays when nobody pushes any more; it goes with the rover."""
+    rover = Rover()
+    (ball,) = rover.world.balls
+    rover.pose = Pose(ball.x_m - 0.5, ball.y_m, 0.0)
+    node = DrivenRover(rover, commands=1)
+    for motion in (Motion(0.5, 0.0), Motion()):
+        for _ in range(100):
+            rover.drive(motion)
+            rover.step(0.02)
+            node.look_for_balls()
+        assert below(node)[0] == "The rover touches the red ball. Well done!"
+    rover.pose = Pose(ball.x_m - 1.1 * (ball.radius_m + rover.body.radius_m + LEAVES_M), 0.6, 0.0)
+    node.look_for_balls()
+    assert "Well done" not in "".join(below(node))
+
+
+def test_a_ball_that_was_only_passed_is_not_reached() -> None:
+    """Near is not touched."""
+    rover = Rover()
+    (ball,) = rover.world.balls
+    rover.pose = Pose(ball.x_m, ball.y_m - 0.25, 0.0)
+    node = DrivenRover(rover)
+    node.look_for_balls()
+    assert node.reached is None
+
+
+def test_nobody_is_told_to_drive_while_somebody_drives() -> None:
+    """By keys here, or by a program elsewhere, also before its first message."""
+    assert below(DrivenRover(Rover()))[0].startswith("Make it move")
+    for driven in ({"by_keys": True}, {"driver": "/turtle"}):
+        told = "".join(below(DrivenRover(Rover(), **driven)))
+        assert "Make it move" not in told and "ros2 topic pub" not in told
+        assert all(len(line) <= 80 for line in below(DrivenRover(Rover(), **driven)))
+
+
+def test_that_the_ball_was_reached_is_kept(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """In the workspace, which may not be there yet."""
+    monkeypatch.setenv("ROSLINGS_WS", str(tmp_path / "new" / "ws"))
+    assert not has_reached_a_ball()
+    remember_the_ball()
+    remember_the_ball()
+    assert has_reached_a_ball()
+
+
+def test_who_cannot_keep_it_is_told_and_goes_on(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """A file stands where the workspace should be."""
+    from roslings_rover.rover.running import _remember
+
+    (tmp_path / "ws").touch()
+    monkeypatch.setenv("ROSLINGS_WS", str(tmp_path / "ws"))
+    told = _remember()
+    assert "cannot be written down: Not a directory" in told and len(told) <= 80
+    assert not has_reached_a_ball()
 
 
 @pytest.mark.slow

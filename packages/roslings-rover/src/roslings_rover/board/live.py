@@ -5,7 +5,6 @@ from __future__ import annotations
 import fcntl
 import math
 import os
-import tempfile
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
@@ -17,8 +16,11 @@ from roslings_rover.board.wire import Wire
 from roslings_rover.chip import BAUD, Chip
 from roslings_rover.errors import DeviceTrouble
 from roslings_rover.rover import Rover
+from roslings_rover.usual_place import told_of, usual_place
 
 TELL_EVERY_S = 1.0
+NAME = "ttyROVER"
+PARAMETER = "port"
 
 
 class PortTaken(DeviceTrouble):
@@ -38,15 +40,18 @@ class NoPlaceForPort(DeviceTrouble):
 
 
 def usual_port() -> Path:
-    """Where the board is when nobody says where."""
-    return Path(tempfile.gettempdir()) / "ttyROVER"
+    """Where the board is when nobody says where. Raises NoOwnPlace."""
+    return usual_place(NAME, "--port")
 
 
-def run(name: Path, sketch: Path | None = None) -> None:
-    """Run a board on the port `name` until Ctrl-C; with `sketch`, the real one, emulated.
+def run(asked_for: Path | None, sketch: Path | None = None) -> None:
+    """Run a board until Ctrl-C, on that port or on the usual one.
 
-    Raises PortTaken, NoPlaceForPort, CannotBuild.
+    With `sketch`, the real one, emulated.
+
+    Raises PortTaken, NoPlaceForPort, NoOwnPlace, CannotBuild.
     """
+    name = asked_for or usual_port()
     with ExitStack() as stack:
         stack.enter_context(_alone_on(name))
         chip = _chip(stack, sketch)
@@ -54,6 +59,8 @@ def run(name: Path, sketch: Path | None = None) -> None:
         stack.enter_context(board.running())
         asked = stack.enter_context(listening())
         print(f"The board is on {name}")
+        if not asked_for and (words := told_of(name, NAME, PARAMETER)):
+            print(words)
         print("It tells its wheel speeds 50 times a second. Ctrl-C ends it.", flush=True)
         told = ""
         while not asked.wait(TELL_EVERY_S) and board.trouble is None:

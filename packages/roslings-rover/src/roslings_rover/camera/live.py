@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import socket
-import tempfile
 import threading
 from pathlib import Path
 
@@ -14,8 +13,11 @@ from roslings_rover.camera.frame import Frame
 from roslings_rover.camera.on_socket import SocketCamera
 from roslings_rover.errors import DeviceTrouble
 from roslings_rover.models.pinhole import Disc, Eye
+from roslings_rover.usual_place import told_of, usual_place
 
 TELL_EVERY_S = 1.0
+NAME = "rover_camera"
+PARAMETER = "device"
 ROUND_PICTURES = 300
 """The ball is back at its first place after so many pictures."""
 
@@ -44,8 +46,8 @@ class CameraTaken(DeviceTrouble):
 
 
 def usual_path() -> Path:
-    """Where the camera is when nobody says where."""
-    return Path(tempfile.gettempdir()) / "rover_camera"
+    """Where the camera is when nobody says where. Raises NoOwnPlace."""
+    return usual_place(NAME, "--device")
 
 
 def ball_at(number: int, hue: int, eye: Eye) -> Disc:
@@ -59,8 +61,9 @@ def ball_at(number: int, hue: int, eye: Eye) -> Disc:
     )
 
 
-def run(path: Path, hue: int, noise: float) -> None:
-    """Run a camera on `path` until Ctrl-C. Raises DeviceTrouble."""
+def run(asked_for: Path | None, hue: int, noise: float) -> None:
+    """Run a camera until Ctrl-C, on that path or on the usual one. Raises DeviceTrouble."""
+    path = asked_for or usual_path()
     _require_free(path)
     try:
         camera = SyntheticCamera(light=Light(ball_hue=hue, noise=noise), encoding="bgr8")
@@ -76,6 +79,8 @@ def run(path: Path, hue: int, noise: float) -> None:
         except OSError as error:
             raise NoPlaceForCamera(path, error.strerror or str(error)) from error
         print(f"The camera is {path}")
+        if not asked_for and (words := told_of(path, NAME, PARAMETER)):
+            print(words)
         print("It shows a ball that goes round. Ctrl-C ends it.", flush=True)
         _tell(device, hue, camera.eye, asked)
         print()

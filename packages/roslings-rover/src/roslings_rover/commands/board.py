@@ -10,7 +10,12 @@ from ros2_on_pip.errors import OK
 
 def add_options(word: argparse.ArgumentParser) -> None:
     """What it takes."""
-    word.add_argument("--port", metavar="FILE", type=Path, help="default: /tmp/ttyROVER")
+    word.add_argument(
+        "--port",
+        metavar="FILE",
+        type=Path,
+        help="default: /tmp/ttyROVER; your own folder, if that is another user's",
+    )
     word.add_argument(
         "--sketch",
         metavar="FILE.ino",
@@ -22,7 +27,6 @@ def add_options(word: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Run the rover's board on a serial port until Ctrl-C."""
     from roslings_rover.board.live import run as run_board
-    from roslings_rover.board.live import usual_port
 
-    run_board(options.port or usual_port(), options.sketch)
+    run_board(options.port, options.sketch)
     return OK

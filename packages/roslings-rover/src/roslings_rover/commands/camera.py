@@ -10,7 +10,12 @@ from ros2_on_pip.errors import OK
 
 def add_options(word: argparse.ArgumentParser) -> None:
     """What it takes."""
-    word.add_argument("--device", metavar="PATH", type=Path, help="default: /tmp/rover_camera")
+    word.add_argument(
+        "--device",
+        metavar="PATH",
+        type=Path,
+        help="default: /tmp/rover_camera; your own folder, if that is another user's",
+    )
     word.add_argument(
         "--hue", type=int, default=5, metavar="0..179", help="the ball's colour, as OpenCV counts"
     )
@@ -22,7 +27,6 @@ def add_options(word: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Run the rover's camera until Ctrl-C."""
     from roslings_rover.camera.live import run as run_camera
-    from roslings_rover.camera.live import usual_path
 
-    run_camera(options.device or usual_path(), options.hue, options.noise)
+    run_camera(options.device, options.hue, options.noise)
     return OK

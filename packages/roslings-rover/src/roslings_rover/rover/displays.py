@@ -11,7 +11,7 @@ from typing import Any, Literal, Protocol, TextIO
 
 from roslings_rover.errors import DeviceTrouble
 from roslings_rover.models.world import colour_of
-from roslings_rover.rover.node import RoverNode
+from roslings_rover.rover.driven import DrivenRover
 from roslings_rover.rover.text_map import ASCII, UNICODE, Cell, cells
 from roslings_rover.rover.words import (
     FIRST_COMMAND,
@@ -20,6 +20,7 @@ from roslings_rover.rover.words import (
     below,
     beside,
     heard,
+    news,
     next_steps,
     position,
     said,
@@ -48,7 +49,7 @@ class Display(Protocol):
         """Somebody closed it: the rover ends, too."""
         ...
 
-    def show(self, node: RoverNode) -> None:
+    def show(self, node: DrivenRover) -> None:
         """Show how things stand now."""
         ...
 
@@ -61,7 +62,7 @@ class NoWindow(DeviceTrouble):
 
 
 @contextmanager
-def opened(view: View, node: RoverNode) -> Iterator[Display]:
+def opened(view: View, node: DrivenRover) -> Iterator[Display]:
     """The display that was asked for, or the best that this place has. Raises NoWindow."""
     because = why_no_window()
     if view == "window" and because:
@@ -104,7 +105,7 @@ class Window:
 
     every_s = 0.1
 
-    def __init__(self, node: RoverNode) -> None:
+    def __init__(self, node: DrivenRover) -> None:
         import matplotlib.pyplot as plt
 
         from roslings_rover.rover.picture import draw_world
@@ -131,15 +132,15 @@ class Window:
         """The window was closed."""
         return not self._plt.fignum_exists(self._figure.number)
 
-    def show(self, node: RoverNode) -> None:
+    def show(self, node: DrivenRover) -> None:
         """Move the rover and its path; a picture that would be the same is not drawn again."""
-        now = (node.rover.pose, node.notice, position(node), heard(node))
+        now = (node.rover.pose, news(node), position(node), heard(node))
         if now != self._shown:
             self._shown = now
             self._draw(node)
         self._figure.canvas.flush_events()
 
-    def _draw(self, node: RoverNode) -> None:
+    def _draw(self, node: DrivenRover) -> None:
         from roslings_rover.rover.picture import draw_rover
 
         for part in self._parts:
@@ -147,10 +148,11 @@ class Window:
         path = [*node.rover.path, node.rover.pose]
         self._path.set_data([p.x_m for p in path], [p.y_m for p in path])
         self._parts = [*draw_rover(node.rover, self._axes), self._words(node)]
-        self._axes.set_title(node.notice or position(node), fontsize=10)
+        title = "\n".join(filter(None, news(node))) or position(node)
+        self._axes.set_title(title, fontsize=10)
         self._figure.canvas.draw_idle()
 
-    def _words(self, node: RoverNode) -> Any:
+    def _words(self, node: DrivenRover) -> Any:
         """What it hears, over the rover."""
         return self._axes.annotate(
             heard(node), (node.rover.pose.x_m, node.rover.pose.y_m), xytext=(0, 18),
@@ -162,11 +164,11 @@ class Window:
             self._figure.canvas.manager.set_window_title(text)
 
 
-def _heard_where(node: RoverNode) -> str:
+def _heard_where(node: DrivenRover) -> str:
     return f"{heard(node)} ({node.sentence.topic})" if node.sentence else ""
 
 
-def _how_to_drive(node: RoverNode) -> str:
+def _how_to_drive(node: DrivenRover) -> str:
     if node.by_keys:
         return f"The keys count in this terminal.\n{KEYS_TELL}\n{KEYS_PACE}"
     return f"Make the rover move, in a second terminal:\nsource setup.bash\n{FIRST_COMMAND}"
@@ -194,7 +196,7 @@ class Terminal:
     def __exit__(self, *_: object) -> None:
         self._live.__exit__(None, None, None)
 
-    def show(self, node: RoverNode) -> None:
+    def show(self, node: DrivenRover) -> None:
         """Draw map and words anew, as large as the terminal is now."""
         from rich.text import Text
 
@@ -225,7 +227,7 @@ class Lines:
     every_s = 1.0
     closed = False
 
-    def __init__(self, node: RoverNode, out: TextIO) -> None:
+    def __init__(self, node: DrivenRover, out: TextIO) -> None:
         self._out, self._last = out, list[str]()
         self._say("The rover is ready. It hears /cmd_vel and says " + ", ".join(said(node)) + ".")
         if node.listens:
@@ -238,9 +240,9 @@ class Lines:
         self._say("Make it move, in a second terminal: source setup.bash, then")
         self._say(FIRST_COMMAND)
 
-    def show(self, node: RoverNode) -> None:
+    def show(self, node: DrivenRover) -> None:
         """Say where it is, if that is news."""
-        now = [node.notice, _heard_where(node), position(node)]
+        now = [*news(node), _heard_where(node), position(node)]
         for line in now:
             if line and line not in self._last:
                 self._say(line)

@@ -9,11 +9,15 @@ from pathlib import Path
 
 from roslings_rover.asked import listening
 from roslings_rover.errors import DeviceTrouble
+from roslings_rover.remembered import remember_the_ball
 from roslings_rover.rover.displays import Display, View, opened
+from roslings_rover.rover.driven import DrivenRover
 from roslings_rover.rover.keys import driving
-from roslings_rover.rover.node import RoverNode
 from roslings_rover.rover.rover import Rover
 from roslings_rover.rover.words import position
+
+REMEMBERED = "It is written down. End the rover with Ctrl-C; ./roslings says what is next."
+NOT_REMEMBERED = "End the rover with Ctrl-C. It cannot be written down: {because}."
 
 
 class CannotSave(DeviceTrouble):
@@ -39,9 +43,8 @@ def run(
     picture = picture and _as_typed(picture)
     if picture:
         _require_place_for(picture)
-    rover = RoverNode(Rover(seed=seed), listens=listens, tf=tf)
-    with driving(keys) as look, rover as node, listening() as asked:
-        node.by_keys = keys
+    node = DrivenRover(Rover(seed=seed), by_keys=keys, listens=listens, tf=tf)
+    with driving(keys) as look, node, listening() as asked:
         with opened(view, node) as display:
             _go_on(node, display, asked, look)
         print(f"\nThe rover is at {position(node)}.\nIt went {node.rover.way_m:.2f} m.")
@@ -51,15 +54,26 @@ def run(
 
 
 def _go_on(
-    node: RoverNode, display: Display, asked: threading.Event, look: Callable[[], None]
+    node: DrivenRover, display: Display, asked: threading.Event, look: Callable[[], None]
 ) -> None:
     due_s = time.monotonic()
     while not (asked.is_set() or display.closed):
         look()
         node.turn()
+        if node.reached and not node.next_step:
+            node.next_step = _remember()
         if time.monotonic() >= due_s:
             display.show(node)
             due_s = time.monotonic() + display.every_s
+
+
+def _remember() -> str:
+    """Write down that a ball was reached; what to do next."""
+    try:
+        remember_the_ball()
+    except OSError as error:
+        return NOT_REMEMBERED.format(because=error.strerror or error)
+    return REMEMBERED
 
 
 def _as_typed(path: Path) -> Path:

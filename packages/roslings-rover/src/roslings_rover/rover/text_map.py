@@ -85,6 +85,7 @@ class Sheet:
         self._world, self._letters = world, letters
         self._wide, self._high = columns - 2, lines - 2
         self._cells = [[FLOOR] * self._wide for _ in range(self._high)]
+        self._balls: dict[tuple[int, int], tuple[float, float]] = {}
 
     def rows(self) -> Iterator[list[Cell]]:
         """The lines from above, with the room's walls around them."""
@@ -117,13 +118,26 @@ class Sheet:
 
     def put_ball(self, ball: Ball) -> None:
         """One ball."""
-        self._set(*self._position(ball.x_m, ball.y_m), Cell(self._letters.ball, "ball", ball.hue))
+        column, line = self._position(ball.x_m, ball.y_m)
+        self._balls[int(column), int(line)] = column, line
+        self._set(column, line, Cell(self._letters.ball, "ball", ball.hue))
 
     def put_rover(self, pose: Pose) -> None:
-        """The rover, as an arrow."""
+        """The rover, as an arrow; it never covers a ball."""
         arrows = self._letters.arrows
         turn = round(pose.heading_rad / (2 * math.pi) * len(arrows)) % len(arrows)
-        self._set(*self._position(pose.x_m, pose.y_m), Cell(arrows[turn], "rover"))
+        place = self._beside_a_ball(*self._position(pose.x_m, pose.y_m))
+        self._set(*place, Cell(arrows[turn], "rover"))
+
+    def _beside_a_ball(self, column: float, line: float) -> tuple[float, float]:
+        """Where the rover and a ball share a letter: the next one, on the side where it is."""
+        ball = self._balls.get((int(column), int(line)))
+        if ball is None:
+            return column, line
+        right, below = column - ball[0], (line - ball[1]) * LETTER_HEIGHT
+        if abs(right) >= abs(below):
+            return _next_to(ball[0], right, self._wide), line
+        return column, _next_to(ball[1], below, self._high)
 
     def put_words(self, pose: Pose, words: str) -> None:
         """In the line above the rover, below it where there is none; moved to where it fits."""
@@ -162,3 +176,9 @@ class Sheet:
 
     def _set(self, column: float, line: float, cell: Cell) -> None:
         self._cells[int(line)][int(column)] = cell
+
+
+def _next_to(place: float, side: float, count: int) -> float:
+    """The letter before `place` or behind it, on the `side` of this sign where there is one."""
+    step = 1 if side >= 0 else -1
+    return place + step if 0 <= place + step < count else place - step

@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 import os
 
+from roslings_rover.rover.driven import DrivenRover
 from roslings_rover.rover.node import RoverNode
 
 FIRST_COMMAND = 'ros2 topic pub --once /cmd_vel geometry_msgs/msg/Twist "{linear: {x: 0.5}}"'
-KEYS_TELL = "Keys: i ahead (or arrow up), j and l turn, comma backwards, k stops."
-KEYS_PACE = "q and z: faster and slower. u, o, m and . drive a bend."
+KEYS_TELL = "Keys: arrow up drives, left and right turn, down goes back, k stops."
+KEYS_PACE = "q and z: faster and slower. i, j, l and comma do as the arrows do."
 STOPPED = 0.005
 
 
@@ -19,11 +20,11 @@ def beside(node: RoverNode) -> list[str]:
     return [
         "The rover",
         "",
-        f"x        {pose.x_m:6.2f} m",
-        f"y        {pose.y_m:6.2f} m",
-        f"heading  {math.degrees(pose.heading_rad):6.0f} degrees",
-        f"speed    {motion.forward_m_s + 0.0:6.2f} m/s{_limit(node)}",
-        f"turn     {motion.turn_rad_s + 0.0:6.2f} rad/s",
+        f"x        {shown(pose.x_m):>6} m",
+        f"y        {shown(pose.y_m):>6} m",
+        f"heading  {shown(math.degrees(pose.heading_rad), 0):>6} degrees",
+        f"speed    {shown(motion.forward_m_s):>6} m/s{_limit(node)}",
+        f"turn     {shown(motion.turn_rad_s):>6} rad/s",
         f"way      {node.rover.way_m:6.2f} m",
         "",
         "hears /cmd_vel",
@@ -34,6 +35,11 @@ def beside(node: RoverNode) -> list[str]:
         "",
         "Ctrl-C ends it",
     ]
+
+
+def shown(value: float, digits: int = 2) -> str:
+    """A number as people write it: what rounds to nothing has no minus."""
+    return f"{round(value, digits) + 0.0:.{digits}f}"
 
 
 def _limit(node: RoverNode) -> str:
@@ -67,25 +73,34 @@ def said(node: RoverNode) -> list[str]:
     return ["/odom", "/scan", *(["/tf"] if node.publishes_tf else [])]
 
 
-def below(node: RoverNode) -> list[str]:
+def below(node: DrivenRover) -> list[str]:
     """What to do next; at most 80 columns, always two lines."""
-    if node.notice:
-        return [node.notice, ""]
-    if ball := node.rover.touched_ball:
-        return [f"The rover touches the {ball.colour} ball. Well done!", ""]
+    if told := news(node):
+        return told
     if node.rover.touches:
         return ["The rover touches something. Drive it back: a negative linear.x.", ""]
     if node.by_keys:
         return [KEYS_TELL, KEYS_PACE]
+    if node.driver:
+        return [f"{node.driver} drives it, by messages on /cmd_vel.", ""]
     if node.commands:
         return ["angular.z turns it, in rad/s; a positive one to the left.", FIRST_COMMAND]
     return ["Make it move. In a second terminal: source setup.bash, then", FIRST_COMMAND]
+
+
+def news(node: DrivenRover) -> list[str]:
+    """What is told wherever the map is shown, in two lines; empty where there is nothing."""
+    if node.notice:
+        return [node.notice, ""]
+    if node.reached:
+        return [f"The rover touches the {node.reached.colour} ball. Well done!", node.next_step]
+    return []
 
 
 def position(node: RoverNode) -> str:
     """Where it is and how it moves, in one line."""
     pose, motion = node.rover.pose, node.rover.motion
     moves = abs(motion.forward_m_s) > STOPPED or abs(motion.turn_rad_s) > STOPPED
-    degrees = math.degrees(pose.heading_rad)
-    where = f"x {pose.x_m:.2f} m, y {pose.y_m:.2f} m, heading {degrees:.0f} degrees"
+    degrees = shown(math.degrees(pose.heading_rad), 0)
+    where = f"x {shown(pose.x_m)} m, y {shown(pose.y_m)} m, heading {degrees} degrees"
     return f"{where}, {'moving' if moves else 'standing'}"
