@@ -1,0 +1,29 @@
+"""`./roslings desk`: a page in the browser to drive, and to look at topics and services."""
+
+from __future__ import annotations
+
+import argparse
+
+from ros2_on_pip.errors import OK
+
+
+def add_options(word: argparse.ArgumentParser) -> None:
+    """What it takes."""
+    word.add_argument("tab", metavar="TAB", nargs="?", default="rover",
+                      help="the tab that opens: rover, topics, ... (default: rover)")  # fmt: skip
+    word.add_argument("--port", metavar="N", type=int, default=0, help="default: any free one")
+    word.add_argument("--no-browser", action="store_true", help="open no browser by itself")
+    word.add_argument(
+        "--allow-host", metavar="HOST:PORT", action="append", default=[],
+        help="a proxy or a container leads to it by this host; the key is asked for all the same",
+    )  # fmt: skip
+
+
+def run(options: argparse.Namespace) -> int:
+    """Serve the desk until Ctrl-C."""
+    from ros2_on_pip.surroundings import prepare
+    from roslings_desk.server import Wish, run
+
+    prepare()
+    run(Wish(options.tab, options.port, not options.no_browser, tuple(options.allow_host)))
+    return OK

@@ -1,0 +1,60 @@
+"""The page around a tab: its head, the way to the other tabs, and the tab's own part."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from nicegui import ui
+
+from ros2_on_pip.problem import Problem
+from roslings_desk.controls import Notice, Text, part
+from roslings_desk.hub import Hub
+from roslings_desk.tab import OpenTab, Tab
+
+STYLE = Path(__file__).with_name("style.css")
+
+
+def build(hub: Hub, name: str, tabs: dict[str, Callable[[], Tab]], domain: int) -> None:
+    """The page of the tab `name`. What the tab opened ends when the browser is gone."""
+    tab = tabs[name]()
+    ui.page_title(f"{tab.title} - roslings desk")
+    ui.add_css(STYLE.read_text("utf-8"))
+    with part("header"):
+        Text("h1", "roslings desk")
+        _ways(name, tabs)
+        Text("p", f"ROS domain {domain}", "domain")
+    with part("div", "tab"):
+        Text("h2", tab.title)
+        _open(hub, tab)
+
+
+def _ways(here: str, tabs: dict[str, Callable[[], Tab]]) -> None:
+    with part("nav", aria_label="Tabs"):
+        for name in tabs:
+            current = "page" if name == here else None
+            Text("a", name.capitalize(), href=f"./{name}", aria_current=current)
+
+
+def _open(hub: Hub, tab: Tab) -> None:
+    notice = Notice()
+    open_tab = OpenTab(hub)
+    client = ui.context.client
+    client.on_delete(open_tab.close)
+
+    def act() -> None:
+        notice.say(_problem_of(tab.refresh))
+
+    if problem := _problem_of(lambda: tab.show(open_tab)):
+        notice.say(problem)
+    else:
+        ui.timer(tab.every_s, act)
+
+
+def _problem_of(act: Callable[[], None]) -> str:
+    """Do it; the words of what cannot be done, else nothing."""
+    try:
+        act()
+    except Problem as problem:
+        return str(problem)
+    return ""

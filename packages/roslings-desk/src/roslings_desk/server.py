@@ -1,0 +1,123 @@
+"""Serves the desk on 127.0.0.1 until Ctrl-C."""
+
+from __future__ import annotations
+
+import os
+import signal
+import socket
+import sys
+import tempfile
+import webbrowser
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from pathlib import Path
+
+from ros2_on_pip.problem import Problem
+from roslings_desk.door import door
+from roslings_desk.guard import ENTRANCE, Guard
+from roslings_desk.hub import Hub
+
+HOST = "127.0.0.1"
+FIRST_TAB = "rover"
+LEAVES_WITHIN_S = 1
+
+
+class PortTaken(Problem):
+    """Something else listens there."""
+
+    def __init__(self, port: int, why: str) -> None:
+        super().__init__(
+            f"Port {port} of {HOST} cannot be had: {why}. Leave --port away: any free one is taken."
+        )
+
+
+class NoSuchTab(Problem):
+    """The desk has no tab of this name."""
+
+    def __init__(self, name: str, there: Sequence[str]) -> None:
+        super().__init__(f"The desk has no tab '{name}'. It has: {', '.join(there)}")
+
+
+@dataclass(frozen=True)
+class Wish:
+    """How the desk is to be opened."""
+
+    tab: str = FIRST_TAB
+    port: int = 0
+    """0: any that is free."""
+    browser: bool = True
+    allowed: Sequence[str] = ()
+    """Hosts by which a proxy or a container reaches it, as a browser names them: `host:port`."""
+
+
+def run(wish: Wish) -> None:
+    """Serve until Ctrl-C. Raises PortTaken, NoSuchTab, and what Eye raises."""
+    from roslings_desk.tab import tabs
+
+    if wish.tab not in (there := tabs()):
+        raise NoSuchTab(wish.tab, list(there))
+    with _own_storage(), _listening(wish.port) as listener, Hub() as hub:
+        _serve(wish, listener, hub)
+
+
+@contextmanager
+def _own_storage() -> Iterator[None]:
+    """NiceGUI would keep its notes in the folder in which the command was typed."""
+    with tempfile.TemporaryDirectory(prefix="roslings-desk-") as folder:
+        os.environ["NICEGUI_STORAGE_PATH"] = folder
+        yield
+
+
+@contextmanager
+def _listening(port: int) -> Iterator[socket.socket]:
+    with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as listener:
+        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            listener.bind((HOST, port))
+            listener.listen()  # who comes before the pages are ready waits
+        except (OSError, OverflowError) as error:
+            raise PortTaken(port, getattr(error, "strerror", None) or str(error)) from error
+        yield listener
+
+
+def _serve(wish: Wish, listener: socket.socket, hub: Hub) -> None:
+    import uvicorn
+
+    from roslings_desk.application import application
+
+    port = listener.getsockname()[1]
+    guard = Guard(application(hub), port, wish.allowed)
+    config = uvicorn.Config(
+        guard, log_level="warning", access_log=False, server_header=False,
+        timeout_graceful_shutdown=LEAVES_WITHIN_S,
+    )  # fmt: skip
+    with door(f"http://{HOST}:{port}{ENTRANCE}?key={guard.key}&tab={wish.tab}") as file:
+        try:
+            _end_kindly()
+            _tell(wish, file)
+            uvicorn.Server(config).run(sockets=[listener])
+        except KeyboardInterrupt:
+            with suppress(OSError):  # its terminal may be gone
+                print("\nThe desk is closed.", flush=True)
+
+
+def _end_kindly() -> None:
+    """Ctrl-C, `kill`, and a terminal that is closed: what this desk drives is stopped before.
+
+    Ctrl-C counts also where a script started us deaf to it; `nohup` keeps its meaning.
+    """
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.default_int_handler)
+    if signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:
+        signal.signal(signal.SIGHUP, lambda *_: signal.raise_signal(signal.SIGTERM))
+
+
+def _tell(wish: Wish, file: Path) -> None:
+    print(f"The desk is open. Its page, for a browser of yours: {file.as_uri()}")
+    print("Nobody else can read that file: a key is in it. Ctrl-C here closes the desk.")
+    if wish.allowed:
+        print(f"From {', '.join(wish.allowed)} take the address in that file, with that host.")
+    sys.stdout.flush()
+    if wish.browser:
+        webbrowser.open(file.as_uri())

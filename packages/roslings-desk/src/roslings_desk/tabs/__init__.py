@@ -1,0 +1,1 @@
+"""The tabs of the desk, one file each."""

@@ -1,0 +1,171 @@
+"""The rover: its map, and how to drive it."""
+
+from __future__ import annotations
+
+import base64
+import math
+import time
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from nicegui import ui
+
+from roslings_desk.controls import Check, Choice, Spoken, Text, button, part
+from roslings_desk.driver import Driver
+from roslings_desk.hub import Heard
+from roslings_desk.tab import OpenTab
+from roslings_rover.models.differential_drive import Body, Pose
+from roslings_rover.models.world import default_world
+from roslings_rover.rover.moving_map import moving_map
+from roslings_rover.rover.rover import PATH_STEP_M, TURN_STEP_RAD, Moment
+
+ODOM, CMD_VEL = "/odom", "/cmd_vel"
+KEYS = Path(__file__).with_name("drive.js")
+SPEEDS_M_S, TURNS_RAD_S = ("0.1", "0.3", "0.5"), ("0.5", "1.0", "1.5")
+A_PRESS_S = 0.5
+STALE_S = 1.5
+SPOKEN_EVERY_S = 3.0
+LONGEST_TRAIL = 1_000
+PRESSES = (("Left", 0, 1), ("Ahead", 1, 0), ("Back", -1, 0), ("Right", 0, -1))
+"""Words, and what they are of the chosen speeds: ahead, and to the left."""
+
+
+class RoverTab:
+    """Shows where /odom says that the robot is, in the course's room; drives it by /cmd_vel."""
+
+    title, every_s = "Rover", 0.05
+
+    def __init__(self) -> None:
+        self._trail: list[Moment] = []
+        self._drawn = 0
+        self._spoken_s = 0.0
+
+    def show(self, open_tab: OpenTab) -> None:
+        """The map, and beside it what drives."""
+        self._hub = open_tab.hub
+        self._odom: Heard = open_tab.hear(ODOM, "nav_msgs/msg/Odometry")
+        self._driver = open_tab.ends.enter_context(Driver(self._hub, CMD_VEL))
+        with part("div", "sides"):
+            self._map = part(
+                "img", "map drawing", alt="Map: nothing is known yet", src=_picture([])
+            )
+            with part("div", "column"):
+                self._place = Text("p", "", "value")
+                self._state = Text("p", "Looking for nodes ...", "hint", id="state")
+                self._controls()
+        ui.on("desk-drive", lambda event: self._by_keys(event.args))
+        ui.on("desk-stop", lambda _: self._stop())
+        ui.run_javascript(KEYS.read_text("utf-8"))
+
+    def _controls(self) -> None:
+        button("Stop", self._stop, "stop")
+        with part("div", "pad", id="drive-pad", tabindex=0, role="application",
+                  aria_label="Drive by arrow keys"):  # fmt: skip
+            Text("p", "Drive: click here, then hold an arrow key. Space stops.")
+        Text("p", "Escape stops it, too, wherever you are on this page.", "hint")
+        with part("div", "row"):
+            self._speed = Choice("Speed, m/s", SPEEDS_M_S, "0.3")
+            self._turn = Choice("Turn, rad/s", TURNS_RAD_S, "1.0")
+        Text("p", f"Or press a button: each press drives {A_PRESS_S:g} s.", "hint")
+        with part("div", "row", role="group", aria_label=f"Drive for {A_PRESS_S:g} s"):
+            for word, ahead, left in PRESSES:
+                button(word, partial(self._drive, ahead, left, A_PRESS_S))
+        with part("div", "row"):
+            button("Say where it is", self._say)
+            self._says = Check("Say it every 3 s")
+        self._spoken = Spoken()
+
+    # --- driving ---------------------------------------------------------------------------
+
+    def _by_keys(self, ways: Any) -> None:
+        ahead, left = ways
+        self._drive(ahead, left)
+
+    def _drive(self, ahead: int, left: int, for_s: float | None = None) -> None:
+        forward_m_s = ahead * float(self._speed.value)
+        turn_rad_s = left * float(self._turn.value)
+        if for_s is None:
+            self._driver.drive(forward_m_s, turn_rad_s)
+        else:
+            self._driver.drive(forward_m_s, turn_rad_s, for_s)
+
+    def _stop(self) -> None:
+        self._driver.stop()
+
+    # --- showing ---------------------------------------------------------------------------
+
+    def refresh(self) -> None:
+        """Move the rover on its map, where something new has come."""
+        self._state.say(self._said_of_topics())
+        if self._odom.count == self._drawn:
+            return
+        self._drawn = self._odom.count
+        pose = pose_in(self._odom.newest())
+        if pose is None:
+            self._place.say("The numbers of /odom are not finite.")
+            return
+        self._place.say(position(pose))
+        if self._goes_to(pose):
+            self._map.props["src"] = _picture(self._trail)
+            self._map.props["alt"] = f"Map of the room. The rover is at {position(pose)}."
+            self._map.update()
+        if self._says.value and time.monotonic() - self._spoken_s >= SPOKEN_EVERY_S:
+            self._say()
+
+    def _goes_to(self, pose: Pose) -> bool:
+        """Whether the map is another one now."""
+        new = Moment(time.monotonic(), pose)
+        if not self._trail:
+            self._trail = [new, new]
+            return True
+        moved = self._trail[-1].pose != pose
+        if _is_far(self._trail[-2].pose, pose):
+            self._trail = [*self._trail[-LONGEST_TRAIL:-1], new, new]
+        else:
+            self._trail[-1] = new
+        return moved
+
+    def _said_of_topics(self) -> str:
+        there = {seen.name: seen for seen in self._hub.topics()}
+        if ODOM not in there or not there[ODOM].publishers:
+            return "No node publishes /odom. Start the rover, in a terminal: ./roslings rover"
+        if not self._driver.listeners:
+            return "No node listens on /cmd_vel, so nothing drives."
+        return "" if self._odom.per_second()[0] else "Nothing comes on /odom at the moment."
+
+    def _say(self) -> None:
+        self._spoken_s = time.monotonic()
+        pose = self._trail[-1].pose if self._trail else None
+        self._spoken.say(position(pose) if pose else "Nothing is known yet.")
+
+
+def pose_in(odometry: Any) -> Pose | None:
+    """Where a nav_msgs/msg/Odometry says that the robot is; None where a number is not finite."""
+    place = odometry.pose.pose
+    z, w = place.orientation.z, place.orientation.w
+    pose = Pose(place.position.x, place.position.y, 2 * math.atan2(z, w))
+    numbers = (pose.x_m, pose.y_m, pose.heading_rad)
+    if not all(map(math.isfinite, numbers)):
+        return None
+    return Pose(pose.x_m, pose.y_m, math.remainder(pose.heading_rad, math.tau))
+
+
+def position(pose: Pose) -> str:
+    """Where it is, in one line."""
+    degrees = math.degrees(pose.heading_rad)
+    return f"x {pose.x_m:.2f} m, y {pose.y_m:.2f} m, heading {degrees:.0f} degrees"
+
+
+def _is_far(one: Pose, other: Pose) -> bool:
+    turned_rad = abs(math.remainder(other.heading_rad - one.heading_rad, math.tau))
+    far_m = math.hypot(other.x_m - one.x_m, other.y_m - one.y_m)
+    return far_m >= PATH_STEP_M or turned_rad >= TURN_STEP_RAD
+
+
+def _picture(trail: list[Moment]) -> str:
+    """The map as the address of an image; before the first news the rover stands at the start."""
+    drawn = moving_map(
+        default_world(), trail or [Moment(0.0, Pose())], Body().radius_m, moves=False
+    )
+    return f"data:image/svg+xml;base64,{base64.b64encode(drawn.encode()).decode()}"
