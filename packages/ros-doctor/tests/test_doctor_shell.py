@@ -36,8 +36,20 @@ def test_well_dead_prefixes(clinic: Clinic) -> None:
 
 
 def test_ill_overlay(clinic: Clinic) -> None:
+    """A terminal that only builds is as the lessons want it, so this is no warning."""
     clinic.installed(clinic.package())
-    assert_ill(clinic.look("overlay"), "warning", "does not know", "install/setup.bash")
+    finding = clinic.look("overlay")
+    assert_ill(finding, "advice", "does not know", "install/setup.bash")
+    assert "greeter" in finding.found and "where you only build, that is right" in finding.found
+
+
+def test_ill_overlay__of_packages_that_were_built_later(clinic: Clinic) -> None:
+    """A terminal that is for running, and was sourced before they were there: each is named."""
+    prefix = clinic.installed(clinic.package())
+    for name in ("waver", "bower"):
+        clinic.file(f"/home/sam/roslings_ws/install/{name}/share/{name}/package.xml")
+    finding = clinic.look("overlay", AMENT_PREFIX_PATH=str(prefix))
+    assert_ill(finding, "warning", "built later: bower, waver", "install/setup.bash")
 
 
 @pytest.mark.parametrize("merged", [False, True])

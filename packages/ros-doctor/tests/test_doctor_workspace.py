@@ -218,6 +218,30 @@ def test_ill_ws_built(clinic: Clinic) -> None:
     assert_ill(clinic.look("ws-built"), "advice", "greeter is not built", "colcon build")
 
 
+@pytest.mark.parametrize(
+    ("names", "said"),
+    [
+        (["waver"], "greeter and waver are not built"),
+        (["waver", "bower"], "bower, greeter and waver are not built"),
+    ],
+)
+def test_ill_ws_built__names_every_package(clinic: Clinic, names: list[str], said: str) -> None:
+    """Who copied three packages learns of all three at once."""
+    for name in ["greeter", *names]:
+        folder = clinic.package(name)
+        change_text(folder / "package.xml", "<name>greeter</name>", f"<name>{name}</name>")
+    assert_ill(clinic.look("ws-built"), "advice", said, "colcon build")
+
+
+def test_ill_ws_built__one_of_two(clinic: Clinic) -> None:
+    """What is built is not named."""
+    clinic.installed(clinic.package())
+    change_text(clinic.package("waver") / "package.xml", "greeter</name>", "waver</name>")
+    finding = clinic.look("ws-built")
+    assert_ill(finding, "advice", "waver is not built", "colcon build")
+    assert "greeter" not in finding.found
+
+
 def test_well_ws_built(clinic: Clinic) -> None:
     clinic.installed(clinic.package())
     assert_well(clinic.look("ws-built"))

@@ -114,9 +114,14 @@ def overlay(machine: Machine) -> Finding:
     missing = [path for path in built if path.parent not in known and path not in _parents(known)]
     if not missing:
         return ok("The workspace is sourced.")
-    return warning(
-        f"{machine.workspace} is built, but this terminal does not know its packages.",
-        do(f"source {quoted(setup)}", "Type this in each terminal where you run your nodes:"),
+    mend = do(f"source {quoted(setup)}", "Type this in each terminal where you run your nodes:")
+    names = ", ".join(sorted({path.parent.name for path in missing}))
+    if len(missing) < len(built):  # sourced before they were built
+        return warning(f"This terminal does not know what you built later: {names}.", mend)
+    return advice(
+        f"This terminal does not know the packages of {machine.workspace}: {names}."
+        " In a terminal where you only build, that is right.",
+        mend,
     )
 
 

@@ -51,8 +51,10 @@ KNOWN_ROS = frozenset(
         "action_msgs",
         "rosbag2_py",
         "rosidl_runtime_py",
+        "tf2_geometry_msgs",
         "tf2_msgs",
         "tf2_ros",
+        "tf_transformations",
         "launch",
         "launch_ros",
         "cv_bridge",
@@ -435,13 +437,15 @@ def _made_by_colcon(folder: Path) -> bool:
 )
 def built(machine: Machine) -> Finding:
     """ros2 run says 'Package not found'."""
-
-    def look(machine: Machine, package: Package) -> Finding | None:
-        if installed_as(machine, package):
-            return None
-        return advice(f"{package.name} is not built yet.", build(machine), source_again(machine))
-
-    return each_package(machine, look, "Every package is built.")
+    packages = packages_of(machine)
+    if not packages:
+        return no_packages(machine)
+    missing = sorted(each.name for each in packages if not installed_as(machine, each))
+    if not missing:
+        return ok("Every package is built.")
+    names = " and ".join(filter(None, [", ".join(missing[:-1]), missing[-1]]))
+    are = "is" if len(missing) == 1 else "are"
+    return advice(f"{names} {are} not built yet.", build(machine), source_again(machine))
 
 
 def installed_as(machine: Machine, package: Package) -> Path | None:
