@@ -8,7 +8,7 @@
 _roslings=$(CDPATH= cd -- "$(dirname -- "${BASH_SOURCE[0]:-$0}")" && pwd -P)
 
 if [ -z "${ROS_DISTRO-}" ]; then
-    [ -e "$_roslings/.venv/roslings" ] || "$_roslings/roslings" >&2
+    [ -e "$_roslings/.venv/roslings" ] || "$_roslings/roslings" ready ros2 >&2
     case :$PATH: in
         *":$_roslings/.venv/bin:"*) ;;
         *) export PATH=$_roslings/.venv/bin:$PATH ;;
@@ -51,8 +51,17 @@ fi
 # robot of your own on the network, say SUBNET before you source this file.
 export ROS_AUTOMATIC_DISCOVERY_RANGE=${ROS_AUTOMATIC_DISCOVERY_RANGE:-LOCALHOST}
 
+# Nor with those of another person on this computer.
+. "$_roslings/packages/roslings-launcher/src/roslings_launcher/domain.sh"
+if [ -n "$_roslings_said" ]; then printf '%s\n' "$_roslings_said" >&2; fi
+unset _roslings_said
+
 case :$PATH: in
     *":$_roslings:"*) ;;
     *) export PATH=$PATH:$_roslings ;;
 esac
+# One line for whoever types it; a script that sources this file has nobody to tell.
+if [ -t 1 ] && { [ -n "${ROS_DISTRO-}" ] || [ -e "$_roslings/.venv/roslings" ]; }; then
+    case $- in *i*) echo "ROS 2 ${ROS_DISTRO:-jazzy} is ready in this terminal." ;; esac
+fi
 unset _roslings

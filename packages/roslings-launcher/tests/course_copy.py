@@ -27,8 +27,9 @@ seen = {
     "python": list(sys.version_info[:2]),
     "path": sys.path,
     "libraries": os.environ.get("LD_LIBRARY_PATH", ""),
+    "ready_s": os.environ.get("ROSLINGS_READY_S"),
     "once": os.environ.get("_ROS_WHEELS_BOOTSTRAP_COMPLETE", ""),
-    "has": [n for n in ("ros_x", "col_x", "check_x", "draw_x", "bag_x", "rclpy")
+    "has": [n for n in ("ros_x", "col_x", "check_x", "draw_x", "bag_x", "type_x", "rclpy")
             if importlib.util.find_spec(n)],
 }
 """

@@ -31,7 +31,7 @@ def wheels_for_all(tmp_path_factory: pytest.TempPathFactory) -> Path:
         except PackageNotFoundError:
             skip_without("pip beside pytest")
             raise
-    for name in ("ros-x", "col-x", "draw-x", "bag-x"):
+    for name in ("ros-x", "col-x", "draw-x", "bag-x", "type-x"):
         make_wheel(folder, name, "1.0")
     program = {"check_x.py": "def main():\n    print('checked')\n"}
     make_wheel(folder, "check-x", "1.0", program, scripts={"check-x": "check_x:main"})

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 import subprocess
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -32,6 +33,37 @@ def test_the_next_runs_are_silent_and_pass_words_and_exit_code(standing: CourseC
     again = standing.run("check", "3", "a word", "*", "")
     assert (again.code, again.err) == (3, "")
     assert again.seen["words"] == ["check", "3", "a word", "*", ""]
+
+
+@pytest.mark.parametrize("place", ["build/site/html", "site/html"])
+def test_a_site_that_is_there_needs_nothing(course: CourseCopy, place: str) -> None:
+    """It opens at once, also while others install."""
+    (course.root / place).mkdir(parents=True)
+    (course.root / place / "index.html").touch()
+    outcome = course.run("site")
+    assert (outcome.code, outcome.err, outcome.seen["has"]) == (0, "", [])
+    assert not course.venv.exists()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("words", [[], ["--build"], ["--out=x"], ["--links"]])
+def test_a_site_that_is_to_be_built_needs_its_packages(
+    course: CourseCopy, words: list[str]
+) -> None:
+    """Where there is none, and where another one is asked for."""
+    if words:
+        (course.root / "site/html").mkdir(parents=True)
+        (course.root / "site/html/index.html").touch()
+    assert course.run("site", *words).seen["has"] == ["ros_x", "col_x", "check_x", "draw_x"]
+
+
+@pytest.mark.slow
+def test_a_command_knows_when_it_was_installed(course: CourseCopy) -> None:
+    """In seconds since the computer was started; where nothing had to be installed, nobody says."""
+    before_s = time.clock_gettime(time.CLOCK_BOOTTIME)
+    first, second = course.run("check"), course.run("check")
+    assert before_s < float(first.seen["ready_s"]) <= time.clock_gettime(time.CLOCK_BOOTTIME)
+    assert second.seen["ready_s"] is None
 
 
 def test_runs_from_anywhere(standing: CourseCopy, tmp_path: Path) -> None:

@@ -14,7 +14,7 @@ from roslings_launcher.place import Place
 from roslings_launcher.virtual import Virtual
 from skips import imported
 
-GROUP = 'interfaces = ["bag-x"]\n'
+GROUP = 'interfaces = ["type-x"]\n'
 SH_TOOLS = ("dirname", "readlink", "cmp")
 
 
@@ -24,7 +24,7 @@ def arm(course: CourseCopy) -> CourseCopy:
     pyproject = course.root / "pyproject.toml"
     pyproject.write_text(pyproject.read_text() + GROUP)
     pins = course.root / "constraints.txt"
-    pins.write_text(pins.read_text().replace("# ros2\n", "# ros2 interfaces\n"))
+    pins.write_text(f"{pins.read_text()}type-x==1.0  # interfaces\n")
     (course.root / "labs/arm").mkdir(parents=True)
     (course.root / "labs/arm/card.yaml").write_text("groups: [interfaces]\n")
     return course
@@ -63,7 +63,7 @@ def test_without_a_compiler_the_next_step_is_said(arm: CourseCopy, tmp_path: Pat
 @pytest.mark.slow
 def test_changed_types_are_built_again(arm: CourseCopy) -> None:
     """The script sees it by itself; a lab that asks for none is not held up."""
-    assert arm.run("check", "arm").seen["has"] == ["ros_x", "col_x", "check_x", "bag_x"]
+    assert arm.run("check", "arm").seen["has"] == ["ros_x", "col_x", "check_x", "type_x"]
     assert arm.run("check", "arm").err == ""
     add_types(arm.root)
     stale = arm.run("check", "arm")  # the tiny packages hold no numpy, so it ends there
@@ -76,8 +76,8 @@ def test_tf_is_built_where_it_can_be(arm: CourseCopy, tmp_path: Path) -> None:
     path = without_compiler(tmp_path)
     plain = arm.run("rover", PATH=path).seen["has"]
     assert arm.run("rover", "--tf", PATH=path).seen["has"] == plain
-    assert "bag_x" not in plain
-    assert "bag_x" in arm.run("rover", "--tf").seen["has"]
+    assert "type_x" not in plain
+    assert "type_x" in arm.run("rover", "--tf").seen["has"]
 
 
 def interfaces_of(root: Path) -> Interfaces:

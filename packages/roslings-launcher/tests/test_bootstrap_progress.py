@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from roslings_launcher import progress
-from roslings_launcher.progress import going_on
+from roslings_launcher.progress import DownloadLine, going_on
 from roslings_launcher.virtual import COMMANDS, Virtual
 
 
@@ -50,6 +50,22 @@ def test_what_is_short_is_not_told(capsys: pytest.CaptureFixture[str]) -> None:
     with going_on(Told(times=3)):
         pass
     assert "packages" not in capsys.readouterr().err
+
+
+def test_the_bar_stays_from_one_download_to_the_next(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """From nothing on; between two pips the terminal is not empty, and at the end it is."""
+    monkeypatch.setattr(progress, "_EVERY_S", 0.0)
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    with DownloadLine(4.0) as line:
+        line.follow(["Progress 1000000 of 2000000", "Saved a.whl"])
+        line.follow(["Progress 3000000 of 3000000", "Saved b.whl"])
+    shown = capsys.readouterr().err.split("\r\033[K")
+    assert [each.partition("] ")[2] for each in shown[1:-1]] == [
+        "0 of 4 MB", "1 of 4 MB", "1 of 4 MB", "4 of 4 MB", "4 of 4 MB",
+    ]  # fmt: skip
+    assert shown[0] == shown[-1] == ""
 
 
 def test_colcon_and_the_terminal_find_what_they_look_for(tmp_path: Path) -> None:

@@ -108,6 +108,51 @@ def test_an_interrupted_change_is_mended(
     assert ready.run("check").err == ""
 
 
+def slow_to_add(wheels: Path) -> None:
+    """The package of `graph` gets so many files that one can look in while they are written."""
+    files: dict[str, str | bytes] = {f"many_x/m{n}.py": "x = 1\n" * 50 for n in range(MANY)}
+    make_wheel(wheels, "draw-x", "1.0", files | {"draw_x.py": ""})
+
+
+def is_adding(course: CourseCopy) -> bool:
+    """Files of the package that is added are there."""
+    return any((course.site / "many_x").glob("m*.py"))
+
+
+def test_who_needs_only_what_stands_goes_on_while_something_is_added(
+    ready: CourseCopy, wheels: Path
+) -> None:
+    """Nobody waits for the packages of `site` to check a lab."""
+    slow_to_add(wheels)
+    first = ready.start("graph")
+    wait_until(lambda: is_adding(ready), first)
+    os.killpg(first.pid, signal.SIGSTOP)  # in the middle
+    try:
+        meanwhile = ready.run("check")
+    finally:
+        os.killpg(first.pid, signal.SIGCONT)
+    assert (meanwhile.code, meanwhile.err) == (0, "")
+    assert first.communicate()[1].count("Installing draw-x==1.0.") == 1
+    assert first.returncode == 0
+    assert (ready.run("graph").err, "draw_x" in ready.run("graph").seen["has"]) == ("", True)
+
+
+def test_what_was_being_added_when_it_was_killed_is_added_again(
+    ready: CourseCopy, wheels: Path
+) -> None:
+    """What stood before is as it was; the next one who wants the new packages gets all of them."""
+    slow_to_add(wheels)
+    started = ready.start("graph")
+    wait_until(lambda: is_adding(ready), started)
+    os.killpg(started.pid, signal.SIGKILL)
+    started.communicate()
+    assert (ready.run("check").code, ready.run("check").err) == (0, "")
+    again = ready.run("graph")
+    assert again.code == 0 and "interrupted" in again.err, again.err
+    assert len(list((ready.site / "many_x").glob("m*.py"))) == MANY
+    assert ready.run("graph").err == ""
+
+
 def wait_until(condition: object, process: subprocess.Popen[str]) -> None:
     """Waits for a condition while `process` runs; its end comes first only by mistake."""
     assert callable(condition)

@@ -21,9 +21,10 @@ from pip._vendor.packaging.requirements import Requirement
 
 def missing(need):
     try:
-        return version(need.name) not in need.specifier
+        seen = version(need.name)
     except PackageNotFoundError:
         return True
+    return need.name not in any_version and seen not in need.specifier
 
 minor = "%d.%d" % sys.version_info[:2]
 others = [minor + ".0", minor + ".99"] if sys.argv[1] == "all" else []
@@ -32,9 +33,23 @@ pythons = [{"python_full_version": full} for full in [platform.python_version(),
 def holds(need):
     return not need.marker or any(map(need.marker.evaluate, pythons))
 
+any_version = sys.argv[2:]
 needs = [Requirement(line) for line in json.load(sys.stdin)]
 here = list(filter(holds, needs))
 print(json.dumps([f"{n.name}{n.specifier}" for n in here if sys.argv[1] == "all" or missing(n)]))
+"""
+
+_ASK_TWICE = """
+import json, sys
+from importlib.metadata import distributions
+
+own = [entry for entry in sys.path if entry.startswith(sys.prefix)]
+others = [entry for entry in sys.path if entry not in own]
+
+def lies_in(path, name):
+    return any(True for _ in distributions(name=name, path=path))
+
+print(json.dumps([n for n in sys.argv[1:] if lies_in(own, n) and lies_in(others, n)]))
 """
 
 
@@ -68,6 +83,11 @@ def of_groups(file: Path, groups: Iterable[str]) -> list[str]:
     return [pin.requirement for pin in read(file) if pin.groups & wanted]
 
 
+def names_of(file: Path, group: str) -> set[str]:
+    """The packages of `group`, on whatever Python."""
+    return {pin.name for pin in read(file) if group in pin.groups}
+
+
 def exact(file: Path, group: str) -> dict[str, str]:
     """Name -> version of a group whose pins hold for every Python.
 
@@ -88,19 +108,36 @@ def applying(python: Path, requirements: Sequence[str], environment: dict[str, s
     return _ask(python, requirements, environment, "all")
 
 
-def missing(python: Path, requirements: Sequence[str], environment: dict[str, str]) -> list[str]:
-    """`name==version` of those that hold for `python` and that it does not see in that version."""
-    return _ask(python, requirements, environment, "missing")
+def missing(
+    python: Path,
+    requirements: Sequence[str],
+    environment: dict[str, str],
+    any_version: Iterable[str] = (),
+) -> list[str]:
+    """`name==version` of those that hold for `python` and that it does not see in that version.
+
+    Of `any_version` it may see any.
+    """
+    return _ask(python, requirements, environment, "missing", *any_version)
+
+
+def seen_twice(python: Path, names: Iterable[str], environment: dict[str, str]) -> list[str]:
+    """Those of `names` that `python` has in its own environment and sees outside of it, too."""
+    return _told([python, "-c", _ASK_TWICE, *names], environment, "")
 
 
 def _ask(
-    python: Path, requirements: Sequence[str], environment: dict[str, str], which: str
+    python: Path, requirements: Sequence[str], environment: dict[str, str], *words: str
 ) -> list[str]:
+    return _told([python, "-c", _ASK, *words], environment, json.dumps(list(requirements)))
+
+
+def _told(command: Sequence[str | Path], environment: dict[str, str], said: str) -> list[str]:
     done = subprocess.run(
-        [python, "-c", _ASK, which],
+        command,
         cwd=os.sep,  # where no file of a student's can stand in for a module
         env=environment,
-        input=json.dumps(list(requirements)),
+        input=said,
         capture_output=True,
         text=True,
         check=False,

@@ -1,6 +1,7 @@
 """The command `roslings` where it came by pip or uv, and not from a clone.
 
     roslings new [DIR]   unpacks the course into a new folder, which then works as a clone does
+    roslings doctor      where there is no course yet: looks at the computer alone
     roslings ...         hands over to the `./roslings` of the course that is nearest
     ROSLINGS_COURSE=DIR roslings ...
                          runs this engine in this environment on the course in DIR; it needs the
@@ -16,7 +17,7 @@ import shutil
 import sys
 import tarfile
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from importlib.metadata import EntryPoint, entry_points
 from importlib.util import find_spec
 from pathlib import Path, PurePosixPath
@@ -26,8 +27,9 @@ from roslings_launcher import __version__
 from roslings_launcher.cli import begin
 from roslings_launcher.cli.table import GROUP
 from roslings_launcher.errors import Trouble, of_the_disk, say
-from roslings_launcher.machine import Machine, require_unix, require_wheels, this_machine
+from roslings_launcher.machine import require_unix, this_machine
 from roslings_launcher.place import require_usable
+from roslings_launcher.readiness import readiness
 from roslings_launcher.seeds import interpreter
 from roslings_launcher.sources import OFFERS
 
@@ -53,6 +55,7 @@ The course is in {folder}
   Next: cd {folder}
         ./roslings check example --solution   (a first grading, for real)
         ./roslings lab                        (today's lesson in JupyterLab)
+        ./roslings doctor                     (a closer look at this machine)
 Your own work lies elsewhere, in ~/roslings_ws: nothing here overwrites it."""
 
 
@@ -77,6 +80,9 @@ def _run(words: Sequence[str]) -> int:
         return 0
     if course := nearest_course(Path.cwd()):
         _hand_over(course, words)
+    if words[:1] == ["doctor"]:
+        say("There is no course in this folder: this looks at the computer alone.")
+        begin()
     if not words or words[0] in HELP:
         print(_WELCOME)
         return 0
@@ -93,19 +99,10 @@ def _new(words: Sequence[str]) -> int:
     folder = Path(*words or [FOLDER])
     unpack(folder.absolute())
     print(_MADE.format(folder=folder))
-    for step in steps_before(this_machine()):
-        print(f"\n{step}")
+    print("\nThis machine:")
+    for line in readiness(this_machine(), os.environ, folder.absolute()):
+        print(line)
     return 0
-
-
-def steps_before(machine: Machine) -> Iterator[str]:
-    """What to do first where there are no ROS wheels; nothing where a Jazzy is sourced."""
-    try:
-        require_unix(machine)
-        if os.environ.get("ROS_DISTRO") != "jazzy":
-            require_wheels(machine)
-    except Trouble as trouble:
-        yield str(trouble)
 
 
 def unpack(folder: Path) -> None:

@@ -11,7 +11,7 @@ for dependencies.
 import os
 import shutil
 import tempfile
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -23,6 +23,7 @@ from roslings_launcher.progress import DownloadLine, going_on
 from roslings_launcher.seeds import find_seed
 from roslings_launcher.virtual import Virtual
 
+ROS = "ros"  # the group of ROS, and of all that it needs itself
 TOOLS = "setup"  # the group of pip itself, and of setuptools for packages that come as sources
 _AT_ONCE = 25  # packages that one pip fetches: what it has fetched is kept when it has ended well
 
@@ -63,29 +64,52 @@ class Installer:
         drain(first, [*words, *tools], self.place.root)
 
     def missing(self, groups: Sequence[str]) -> list[str]:
-        """The packages (`name==version`) that `groups` still need."""
-        return self._asked(constraints.missing, groups)
+        """The packages (`name==version`) that `groups` still need.
+
+        What a sourced ROS was built with (numpy, PyYAML) is taken as it is: another numpy laid over
+        it, and its messages cannot be imported.
+        """
+        return constraints.missing(
+            self.virtual.python,
+            constraints.of_groups(self.place.constraints, groups),
+            self.pip().environment(),
+            self._from_ros(),
+        )
+
+    def replaces(self, packages: Sequence[str]) -> bool:
+        """Whether one of `packages` (`name==version`) is in the environment, in another version."""
+        have = installed(self.virtual.site)
+        return any(package.partition("==")[0] in have for package in packages)
 
     def all_of(self, groups: Sequence[str]) -> list[str]:
         """All packages (`name==version`) of `groups` on this Python."""
-        return self._asked(constraints.applying, groups)
-
-    def _asked(
-        self,
-        ask: Callable[[Path, Sequence[str], dict[str, str]], list[str]],
-        groups: Sequence[str],
-    ) -> list[str]:
         requirements = constraints.of_groups(self.place.constraints, groups)
-        return ask(self.virtual.python, requirements, self.pip().environment())
+        return constraints.applying(self.virtual.python, requirements, self.pip().environment())
+
+    def uncover_ros(self) -> None:
+        """Removes what an older launcher laid over packages that the sourced ROS was built with."""
+        over = constraints.seen_twice(
+            self.virtual.python, self._from_ros(), self.pip().environment()
+        )
+        if over:  # pip would take the one that stands first on the path, and refuse
+            own = replace(self.pip(), sees_path=False, wheels=None)
+            drain(own, ["uninstall", "--yes", *over], self.place.root)
+
+    def _from_ros(self) -> set[str]:
+        """The packages that a sourced ROS brings along; none where no ROS is sourced."""
+        if not self.sees_path:
+            return set()
+        pins = self.place.constraints
+        return constraints.names_of(pins, ROS) - constraints.names_of(pins, TOOLS)
 
     def fetch(self, packages: Sequence[str], folder: Path, total_mb: float | None) -> None:
         """Afterwards `folder` holds a wheel of each of `packages`."""
         left = [package for package in packages if package not in fetched(folder)]
-        line = DownloadLine(total_mb)
         words = ["wheel", "--no-deps", "--no-build-isolation", "--progress-bar=raw"]
         words += ["--ignore-requires-python"]  # the pins know better, and may be for another one
-        for some in at_once(left, _AT_ONCE):
-            line.follow(self.pip().run(*words, "-w", str(folder), *some, cwd=self.place.root))
+        with DownloadLine(total_mb) as line:
+            for some in at_once(left, _AT_ONCE):
+                line.follow(self.pip().run(*words, "-w", str(folder), *some, cwd=self.place.root))
 
     def require_wheels(self, packages: Sequence[str]) -> None:
         """Nothing where the only source of packages has all of `packages`.

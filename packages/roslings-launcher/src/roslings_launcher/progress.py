@@ -14,7 +14,10 @@ _PLAIN_EVERY_S = 10.0
 
 
 class DownloadLine:
-    """Counts what pip downloads, from the lines of `--progress-bar=raw`."""
+    """Counts what pip downloads, from the lines of `--progress-bar=raw`.
+
+    A context manager: one pip follows another, and the line stays until the last of them has ended.
+    """
 
     def __init__(self, total_mb: float | None) -> None:
         self._total_mb = total_mb
@@ -23,14 +26,18 @@ class DownloadLine:
         self._shown_s = 0.0
         self._moves = sys.stderr.isatty()
 
+    def __enter__(self) -> "DownloadLine":
+        self._show()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._write("")
+
     def follow(self, lines: Iterable[str]) -> None:
-        """Reads pip's lines to the end, and leaves the terminal's line empty."""
-        try:
-            for line in lines:
-                self._count(line)
-                self._show()
-        finally:
-            self._write("")
+        """Reads the lines of one pip to the end."""
+        for line in lines:
+            self._count(line)
+            self._show()
 
     def _count(self, line: str) -> None:
         if found := re.match(r"Progress (\d+) of", line):

@@ -9,7 +9,9 @@
     bytecode          an empty file: all packages are compiled
 
 The script `./roslings` reads the same files. A record is there only while all of it is true: it
-is put aside before the first change and comes back, in one step, after the last.
+is put aside before the first change and comes back, in one step, after the last. Where packages are
+only added it stays, for what it tells stays true, and others go on meanwhile; a file beside it says
+that some may be half there.
 """
 
 import filecmp
@@ -44,6 +46,19 @@ class Record:
     def complete(self) -> bool:
         """Whether the last change came to its end."""
         return self._folder.is_dir()
+
+    @property
+    def is_added_to(self) -> bool:
+        """Packages are on their way beside those of the record, or were when that ended."""
+        return self._adding.exists()
+
+    @property
+    def _adding(self) -> Path:
+        return self.place.environment / "roslings.adding"
+
+    def begin_adding(self) -> None:
+        """From here to `write`, packages beside those of the record may be half there."""
+        self._adding.touch()
 
     @property
     def home(self) -> Path | None:
@@ -110,6 +125,7 @@ class Record:
         self.put_aside()
         new.rename(self._folder)
         shutil.rmtree(self._aside, ignore_errors=True)
+        self._adding.unlink(missing_ok=True)
 
     def _keep_types(self, folder: Path) -> None:
         for name, file in files_of(self.place.root):

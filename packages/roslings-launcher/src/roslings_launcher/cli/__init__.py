@@ -21,6 +21,21 @@ from roslings_launcher.paths import absolute_variables
 __all__ = ["begin", "for_pytest", "main", "parser", "run"]
 
 OK, WRONG_USE, INTERRUPTED = 0, 2, 130
+MEANT = {
+    "build": "check", "run": "check", "grade-me": "check", "verify": "check",
+    "submit": "pack", "hand-in": "pack", "zip": "pack",
+    "exercise": "drill", "drills": "drill", "drill-list": "drill --list", "list": "status",
+    "hint": "check LAB --hint, or drill NAME --hint",
+    "hints": "check LAB --hint, or drill NAME --hint",
+    "solution": "check LAB --solution, or drill NAME --solution",
+    "lesson": "lab", "lessons": "lab", "notebook": "lab", "jupyter": "lab", "day": "lab",
+    "labs": "status", "progress": "status", "score": "status", "scores": "status",
+    "reset": "watch, and then the key x", "skip": "watch, and then the key s",
+    "next": "./roslings without a word", "today": "./roslings without a word",
+    "questions": "quiz", "drive": "rover --keys", "sim": "rover", "simulator": "rover",
+    "map": "rover", "docs": "site", "web": "site", "install": "doctor",
+}  # fmt: skip
+"""What people type to what they mean: words of other programs, and of speech."""
 STATUS = "exit_status"
 """An error that has it is one of ours: its text is for whoever typed the command."""
 
@@ -54,8 +69,9 @@ def main(arguments: Sequence[str]) -> int:
 
 def _unknown(name: str) -> int:
     known = [each for each, command in commands().items() if command.about and each]
-    near = get_close_matches(name, known, n=1)
-    said = f"Did you mean {near[0]}?" if near else "All commands: ./roslings --help"
+    near = get_close_matches(name.lower(), [*known, *MEANT], n=1)
+    meant = MEANT.get(near[0], near[0]) if near else ""
+    said = f"Did you mean {meant}?" if near else "All commands: ./roslings --help"
     print(f"roslings: there is no command {name!r}. {said}", file=sys.stderr)
     return WRONG_USE
 

@@ -14,6 +14,12 @@ STDOUT = Path("-")
 def absolute_paths(options: argparse.Namespace) -> argparse.Namespace:
     """The options, with each path in them absolute."""
     for name, value in vars(options).items():
-        if isinstance(value, Path) and value != STDOUT:
-            setattr(options, name, absolute(value))
+        setattr(options, name, _absolute_in(value))
     return options
+
+
+def _absolute_in(value: object) -> object:
+    """A path, or each path of a list; all else as it is."""
+    if isinstance(value, list):
+        return [_absolute_in(each) for each in value]
+    return absolute(value) if isinstance(value, Path) and value != STDOUT else value

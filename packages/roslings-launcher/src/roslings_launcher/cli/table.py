@@ -26,10 +26,10 @@ LEARNERS, TEACHERS = "learners", "teachers"
 TABLE = "command_names"
 GROUP = "roslings.command"
 ORDER = (
-    "doctor", "lab", "drill", "start", "check", "watch", "status", "diff", "pack", "rover", "board",
-    "camera", "graph", "break", "ros2", "ready",
-    "grade", "regrade", "override", "export", "cluster", "new-lab", "prove", "release", "site",
-    "test", "wheels",
+    "doctor", "lab", "site", "drill", "quiz", "start", "check", "watch", "status", "diff", "pack",
+    "rover", "desk", "board", "camera", "graph", "break", "ros2", "ready",
+    "grade", "regrade", "override", "forget", "overview", "export", "cluster", "new-lab", "prove",
+    "release", "serve", "test", "wheels",
 )  # fmt: skip
 """As `--help` lists them; what stands in no place here comes last."""
 FIRST_WORD = ""

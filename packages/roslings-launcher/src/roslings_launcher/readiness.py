@@ -1,0 +1,117 @@
+"""What this machine has and lacks for the course, in a few lines: `roslings new` says it at once.
+
+The doctor looks at far more. This asks nothing that takes time, and imports the standard library.
+"""
+
+import os
+import shutil
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from roslings_launcher import sizes
+from roslings_launcher.errors import Trouble, wrapped
+from roslings_launcher.machine import Machine, require_unix, require_wheels
+
+FIRST_GROUPS = ("setup", "ros", "colcon", "check")
+"""What the first `check` installs where no ROS is sourced."""
+FIRST_BYTES = 500_000_000
+"""The room on the disk that these need, downloads included."""
+APT = "/opt/ros/jazzy/setup.bash"
+COMPILERS = ("c++", "g++", "clang++")
+
+
+@dataclass(frozen=True)
+class Line:
+    """One thing that the machine has or lacks, and what follows."""
+
+    has: bool
+    what: str
+    steps: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        first = wrapped(self.what, "  has    " if self.has else "  lacks  ", " " * 9)
+        return "\n".join([first, *(wrapped(step, " " * 9, " " * 11) for step in self.steps)])
+
+
+def readiness(
+    machine: Machine, environment: Mapping[str, str], folder: Path, root: Path = Path("/")
+) -> list[Line]:
+    """What a course in `folder` finds on `machine`; `root` is where the system's files begin."""
+    if machine.system == "Windows":
+        return [_no_shell(machine)]
+    path = environment.get("PATH", os.defpath)
+    return [_system(machine), *_ros(machine, environment, root), _compiler(path), _disk(folder)]
+
+
+def _no_shell(machine: Machine) -> Line:
+    try:
+        require_unix(machine)
+    except Trouble as trouble:
+        return Line(False, f"a Linux. {trouble.what}", trouble.steps)
+    raise AssertionError(f"asked of {machine.system}")
+
+
+def _system(machine: Machine) -> Line:
+    glibc = f", glibc {_dotted(machine.glibc)}" if machine.glibc else ""
+    python = _dotted(machine.python)
+    return Line(True, f"{machine.system} on {machine.architecture}{glibc}, Python {python}")
+
+
+def _ros(machine: Machine, environment: Mapping[str, str], root: Path) -> Iterator[Line]:
+    """A sourced Jazzy is used; else the wheels come by themselves; else there is another way."""
+    sourced = environment.get("ROS_DISTRO", "")
+    if sourced == "jazzy":
+        yield Line(True, "ROS 2 Jazzy, sourced in this terminal. It is used as it is.")
+        return
+    if sourced:
+        yield Line(
+            False,
+            f"a terminal for Jazzy: this one has ROS 2 {sourced.capitalize()} sourced.",
+            ("Open a new terminal that does not source it (look into ~/.bashrc).",),
+        )
+    if (root / APT.lstrip("/")).is_file():
+        yield Line(True, f"ROS 2 Jazzy from apt. To use it: source {APT}")
+        return
+    yield _wheels(machine)
+
+
+def _wheels(machine: Machine) -> Line:
+    try:
+        require_wheels(machine)
+    except Trouble as trouble:
+        return Line(False, f"ROS 2 Jazzy. {trouble.what}", trouble.steps)
+    mb = sizes.megabytes(machine.python, FIRST_GROUPS)
+    size = f", about {mb:.0f} MB" if mb else ""
+    return Line(True, f"what ROS's Python packages need. They come at the first use{size}.")
+
+
+def _compiler(path: str) -> Line:
+    if any(shutil.which(name, path=path) for name in COMPILERS):
+        return Line(True, "a C++ compiler")
+    return Line(
+        False,
+        "a C++ compiler. Only labs with message types of their own need one (day 5).",
+        ("On Ubuntu and Debian: sudo apt install build-essential",),
+    )
+
+
+def _disk(folder: Path) -> Line:
+    free = shutil.disk_usage(_there(folder)).free
+    told = f"{free / 1e9:.1f} GB free on the disk"
+    if free >= FIRST_BYTES:
+        return Line(True, told)
+    return Line(
+        False,
+        f"room on the disk: {told}, and the first use needs {FIRST_BYTES / 1e9:.1f} GB.",
+        ("Free some (look with: df -h .), or give a folder on another disk.",),
+    )
+
+
+def _there(folder: Path) -> Path:
+    """The folder, or the one above it that is there already."""
+    return next(each for each in (folder, *folder.parents) if each.is_dir())
+
+
+def _dotted(version: tuple[int, ...]) -> str:
+    return ".".join(map(str, version))
