@@ -1,4 +1,4 @@
-"""The class on one page: what most have to mend, how their rates spread, who is alike."""
+"""The class on one page: what most have to mend, everybody in a table, who is alike."""
 
 from __future__ import annotations
 
@@ -9,39 +9,17 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from roslings.course import Lab
-from roslings.report.flow import one_line
-from roslings.report.html.document import POLICY, brand, style
 from roslings.report.html.markup import Markup, prose, tag
-from roslings.report.whole_file import write_whole
 from roslings.saving import asked_rates
+from roslings_class.changes import Regrading
+from roslings_class.class_table import everybody, page_link
 from roslings_class.grades import SAY_WHOSE, Class, Grade
 from roslings_class.result import Result
 from roslings_class.similar import Pair, alike, equal_groups
-from roslings_class.student_pages import folder_name
+from roslings_class.sorted_table import write_page
 
-OWN_STYLE = """
-.holder { overflow-x: auto; }
-table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; }
-th, td { padding: .3rem .6rem .3rem 0; text-align: left; vertical-align: top; }
-th { border-bottom: 1px solid var(--edge); }
-th, td code { overflow-wrap: normal; white-space: nowrap; }
-th:first-child, td:first-child { min-width: 4.5rem; overflow-wrap: break-word; }
-td.words { min-width: 11rem; overflow-wrap: break-word; }
-th:first-child, td:first-child { position: sticky; left: 0; background: var(--ground); }
-.outcome { white-space: nowrap; }
-.outcome.pass { color: var(--good); }
-.outcome.fail { color: var(--bad); }
-.outcome.inconclusive, .outcome.refused, .outcome.unclear { color: var(--open); }
-.counts .refused, .counts .unclear { color: var(--open); }
-.axis-ends { display: flex; justify-content: space-between; font-size: .85rem; }
-svg.part { width: 8rem; height: .7rem; vertical-align: middle; }
-svg.part rect { fill: var(--link); }
-@media (max-width: 640px) { svg.part { width: 3rem; } }
-svg.spread { display: block; width: 100%; height: 5rem; }
-svg.spread rect.right { fill: var(--band); }
-svg.spread line { stroke: var(--edge); }
-svg.spread ellipse { fill: var(--dot); fill-opacity: .5; }
-"""
+MOST_SHOWN = 8
+"""More are folded away: the table of the class comes soon."""
 STEPS = 10
 WORDS = 3
 """More in a cell are a sentence."""
@@ -49,32 +27,34 @@ TAG = re.compile("<[^>]*>")
 WIDTH, HEIGHT = 720.0, 60.0
 
 
-def write_class_page(lab: Lab, found: Class, common: Iterable[int], path: Path) -> None:
+def write_class_page(
+    lab: Lab,
+    found: Class,
+    common: Iterable[int],
+    path: Path,
+    regrading: Regrading | None = None,
+) -> None:
     """Write the page; `common` are the marks of the starter. Raises CannotWrite."""
-    page = tag("html", _head(lab), _body(lab, found, common), lang="en")
-    write_whole(path, f"<!DOCTYPE html>\n{page}\n".encode())
+    parts = _parts(lab, found, common, regrading)
+    write_page(path, f"Lab {lab.name}", lab.card.title, parts)
 
 
-def _head(lab: Lab) -> Markup:
-    return tag(
-        "head",
-        tag("meta", charset="utf-8"),
-        tag("meta", http_equiv="Content-Security-Policy", content=POLICY),
-        tag("meta", name_="viewport", content="width=device-width, initial-scale=1"),
-        tag("title", f"The class: {lab.card.title}"),
-        style(OWN_STYLE),
-    )
+def _parts(
+    lab: Lab, found: Class, common: Iterable[int], regrading: Regrading | None
+) -> Iterator[Markup]:
+    own = {grade.submission: grade.result for grade in found.grades if grade.result}
+    results = list(own.values())  # a team's hand-in is one
+    yield from (*_overview(found), *_first(results, found.grades))
+    yield from (*_judged_again(regrading, found.grades), everybody(found.grades))
+    yield from (*_missing(found.missing), *_loose_ends(found), *_unusual(results))
+    yield from (*_rates(lab, results), *_alike(results, common))
 
 
-def _body(lab: Lab, found: Class, common: Iterable[int]) -> Markup:
-    results = [grade.result for grade in found.grades if grade.result]
-    parts = (
-        *_overview(found), *_everybody(found.grades), *_missing(found.missing),
-        *_loose_ends(found), *_unusual(results), *_checks(results), *_scores(found.grades),
-        *_rates(lab, results), *_alike(results, common),
-    )  # fmt: skip
-    header = tag("header", tag("p", f"Lab {lab.name}", class_="over"), tag("h1", lab.card.title))
-    return tag("body", brand(), header, tag("main", *parts))
+def _first(results: Sequence[Result], grades: Sequence[Grade]) -> Iterator[Markup]:
+    """What most have to mend, and how the points spread: side by side where there is room."""
+    parts = [*_checks(results), *_scores(grades)]
+    if parts:
+        yield tag("div", *parts, class_="first")
 
 
 def _overview(found: Class) -> Iterator[Markup]:
@@ -112,26 +92,33 @@ def _checks(results: Sequence[Result]) -> Iterator[Markup]:
         return
     failing.sort(key=lambda name: (-counts[name]["fail"], -counts[name]["skip"]))
     rows = {
-        name: _row((tag("code", name), prose(titles[name]), _part(_failed_part(counts[name])),
+        name: _row((_find(name), prose(titles[name]), _part(_failed_part(counts[name])),
                     str(counts[name]["fail"]), str(counts[name]["skip"])))
         for name in failing
     }  # fmt: skip
     failed = [row for name, row in rows.items() if counts[name]["fail"]]
     waiting = [row for name, row in rows.items() if not counts[name]["fail"]]
     heading = tag("h2", "What most have to mend")
-    yield tag("section", heading, *_check_table(failed), *_folded_checks(waiting))
+    shown, more = failed[:MOST_SHOWN], failed[MOST_SHOWN:]
+    folded = (_folded(f"{len(more)} more that somebody failed", _check_table(more)),
+              _folded(f"{len(waiting)} that were only skipped", _check_table(waiting)))  # fmt: skip
+    yield tag("section", heading, *_check_table(shown), *folded[0], *folded[1])
+
+
+def _folded(words: str, inside: Iterable[Markup]) -> Iterator[Markup]:
+    if parts := [*inside]:
+        yield tag("details", tag("summary", words), *parts)
+
+
+def _find(check: str) -> Markup:
+    """The name of a check; pressed, it shows who failed it."""
+    return tag("a", tag("code", check), href="#everybody", data_find=check)
 
 
 def _check_table(rows: Sequence[Markup]) -> Iterator[Markup]:
     if rows:
-        yield _table(("check", "what it asks", "part of all", "fail", "skipped"), rows)
-
-
-def _folded_checks(rows: Sequence[Markup]) -> Iterator[Markup]:
-    """Those that nobody failed: they wait for another check."""
-    if rows:
-        words = tag("summary", f"{len(rows)} that were only skipped")
-        yield tag("details", words, *_check_table(rows))
+        head = ("check", "what it asks", "part of all", "fail", "skipped")
+        yield _table(head, rows, name="checks-most")
 
 
 def _failed_part(counts: Counter[str]) -> float:
@@ -195,7 +182,7 @@ def _alike(results: Sequence[Result], common: Iterable[int]) -> Iterator[Markup]
         class_="about",
     )
     equal = [tag("li", f"word for word the same: {', '.join(names)}") for names in groups]
-    near = [_row((_link(p.one), _link(p.other), _percent(p), str(p.marks))) for p in pairs]
+    near = [_row((page_link(p.one), page_link(p.other), _percent(p), str(p.marks))) for p in pairs]
     table = [_table(("one", "other", "alike", "places"), near)] if near else []
     lists = [tag("ul", *equal)] if equal else []
     yield tag("section", tag("h2", "Nearly the same"), about, *lists, *table)
@@ -225,7 +212,7 @@ def _loose_ends(found: Class) -> Iterator[Markup]:
 def _unusual(results: Sequence[Result]) -> Iterator[Markup]:
     """Also of whom no verdict could be told: its neighbours may have waited for it."""
     rows = [
-        _row((_link(each.submission), line))
+        _row((page_link(each.submission), line))
         for each in results
         for line in (*each.unusual, *([each.reason] if each.state == "broken" else []))
     ]
@@ -243,47 +230,32 @@ def _missing(grades: Sequence[Grade]) -> Iterator[Markup]:
         yield tag("section", tag("h2", heading), _table(("who", "id", "address"), rows))
 
 
-def _everybody(grades: Sequence[Grade]) -> Iterator[Markup]:
-    """The lowest score first: these are to be looked at."""
+def _judged_again(regrading: Regrading | None, grades: Sequence[Grade]) -> Iterator[Markup]:
+    """After a regrade: who, which check, from, to."""
+    if regrading is None:
+        return
     rows = [
-        _row((grade.name, _link(grade.submission) if grade.submission else "", _outcome(grade),
-              _score(grade), _remark(grade)))
-        for grade in sorted(grades, key=lambda grade: (-1.0 if grade.final is None
-                                                       else grade.final))
-    ]  # fmt: skip
-    head = ("who", "submission", "outcome", "score", "remark")
-    yield tag("section", tag("h2", "Everybody"), _table(head, rows))
+        _row((page_link(each.submission, who), tag("code", each.check), each.before, each.after))
+        for who, each in regrading.told(grades)
+    ]
+    about = tag("p", regrading.summary, class_="about")
+    shown, more = rows[:MOST_SHOWN], rows[MOST_SHOWN:]
+    folded = _folded(f"{len(more)} more changes", _changes_table(more))
+    heading = tag("h2", "Judged again")
+    yield tag("section", heading, about, *_changes_table(shown), *folded)
 
 
-def _outcome(grade: Grade) -> Markup:
-    return tag("span", grade.outcome, class_=f"outcome {grade.outcome}")
+def _changes_table(rows: Sequence[Markup]) -> Iterator[Markup]:
+    if rows:
+        yield _table(("who", "check", "from", "to"), rows)
 
 
-def _score(grade: Grade) -> str:
-    return "-" if grade.final is None else f"{grade.final:g}"
-
-
-def _remark(grade: Grade) -> str:
-    if grade.override:
-        measured = "none" if grade.measured is None else f"{grade.measured:g}"
-        who = f"{grade.override.by}: {grade.override.reason}"
-        return f"score given by a person (measured: {measured}). {who}"
-    if grade.doubt:
-        return grade.doubt
-    late = f"{grade.late_days} days late, costs {grade.late_points:g}. " if grade.late_days else ""
-    return late + (one_line(grade.result.reason) if grade.result else "")
-
-
-def _link(submission: str) -> Markup:
-    return tag("a", submission, href=f"students/{folder_name(submission)}/report.html")
-
-
-def _table(head: Sequence[str], rows: Sequence[Markup]) -> Markup:
-    """In a holder of its own, which scrolls where a screen is narrow; its first column stays."""
+def _table(head: Sequence[str], rows: Sequence[Markup], name: str | None = None) -> Markup:
+    """In a holder of its own, which scrolls where a screen is narrower than one long word."""
     top = tag("tr", *(tag("th", cell, scope="col") for cell in head))
-    table = tag("table", tag("thead", top), tag("tbody", *rows))
-    name = f"table: {', '.join(filter(None, head))}"
-    return tag("div", table, class_="holder", tabindex="0", role="group", aria_label=name)
+    table = tag("table", tag("thead", top), tag("tbody", *rows), class_=name)
+    label = f"table: {', '.join(filter(None, head))}"
+    return tag("div", table, class_="holder", tabindex="0", role="group", aria_label=label)
 
 
 def _row(cells: Sequence[str]) -> Markup:

@@ -15,14 +15,18 @@ from roslings.experiment import insist_on_wall
 from roslings.experiment.run_folder import LOCK, run_folder
 from roslings.experiment.walls import closed_places
 from roslings.report import Progress
+from roslings.report.safe_text import harmless
 from roslings_class.alone import alone_in
 from roslings_class.capacity import Capacity
+from roslings_class.clock_times import zone_named
 from roslings_class.dask_pool import DaskPool, dask_pool
 from roslings_class.downloads import submissions_at
 from roslings_class.errors import BatchError
+from roslings_class.feedback import Given
 from roslings_class.gradebook import Gradebook, gradebook
-from roslings_class.grades import LateRule
+from roslings_class.handed_in import told_at, told_by_itself
 from roslings_class.handing_out import Settings, hand_out, keep
+from roslings_class.late_days import LateRule, insist_on_people, read_extensions
 from roslings_class.messages import (
     closed_lines,
     root_lines,
@@ -48,6 +52,15 @@ class AlreadyGrading(BatchError):
         )
 
 
+class NoDeadline(BatchError):
+    """There are extensions of a deadline that nobody gave."""
+
+    def __init__(self) -> None:
+        super().__init__(
+            "There is a list of extensions, and no deadline.", "Say it: --deadline 2026-11-30T23:59"
+        )
+
+
 @dataclass(frozen=True)
 class Choices:
     """The options of the command."""
@@ -63,6 +76,10 @@ class Choices:
     limit_s: float = Limits().seconds
     roster: Path | None = None
     rule: LateRule | None = None
+    extensions: Path | None = None
+    """The list of who has more time."""
+    times: tuple[Path, ...] = ()
+    """Files that tell when each was handed in."""
     dask: str | None = None
     """The address of a cluster's scheduler."""
     soak_s: float | None = None
@@ -71,6 +88,8 @@ class Choices:
     """Whether there is never a second one, not even one that only waits."""
     assignment: str = ""
     """What Canvas calls the lab."""
+    points: float | None = None
+    """What the whole is worth on the platform; None: as the class list says, or 100."""
 
 
 @dataclass(frozen=True)
@@ -90,12 +109,13 @@ def grade(choices: Choices) -> Report:
     lab = course.lab(choices.lab, choices.hidden)
     _ = lab.card, lab.hints  # a mistake in the course is told before anything is run
     students = read_roster(choices.roster) if choices.roster else ()
-    with submissions_at(choices.submissions, students) as submissions:
+    zone = choices.rule.zone if choices.rule else ""
+    with submissions_at(choices.submissions, students, zone_named(zone)) as submissions:
         return _graded(choices, lab, submissions)
 
 
 def _graded(choices: Choices, lab: Lab, submissions: list[Submission]) -> Report:
-    settings = _settings(choices, submissions)
+    settings = settings_for(choices, submissions)
     lines: list[str] = []
     if not choices.dask and not choices.trust:
         wall = insist_on_wall(lab, choices.submissions, choices.out)
@@ -139,14 +159,19 @@ def _make(choices: Choices) -> None:
     if out.is_relative_to(choices.submissions.absolute()):
         problem = f"{from_here(choices.out)} lies among the submissions: it would be graded as one."
         raise BatchError(problem, "Give a place outside of that folder: --out ../grades")
+    make_private(choices.out)
+
+
+def make_private(out: Path) -> None:
+    """A folder for nobody else's eyes. Raises BatchError."""
     try:
-        out.mkdir(mode=0o700, parents=True, exist_ok=True)
+        out.absolute().mkdir(mode=0o700, parents=True, exist_ok=True)
     except OSError as error:
-        problem = f"{from_here(choices.out)} cannot be made: {error.strerror}."
+        problem = f"{from_here(out)} cannot be made: {error.strerror}."
         raise BatchError(problem, "Give a place where you may write: --out ~/grades") from error
 
 
-def _settings(choices: Choices, submissions: list[Submission]) -> Settings:
+def settings_for(choices: Choices, submissions: list[Submission]) -> Settings:
     """A class list that cannot be read, or is of others, is told before anything is run.
 
     Raises BadTable, NobodyInTheList.
@@ -155,11 +180,36 @@ def _settings(choices: Choices, submissions: list[Submission]) -> Settings:
         read_worksheet(choices.roster)
         insist_on_owners(choices.roster, [each.name for each in submissions])
     times = {each.name: each.submitted for each in submissions if each.submitted}
+    rule = _rule(choices, [each.name for each in submissions])
+    told = told_at(choices.times, rule.zone if rule else "")
     roster = choices.roster.absolute() if choices.roster else None
     hidden = choices.hidden.absolute() if choices.hidden else None
     return Settings(
-        roster=roster, rule=choices.rule, times=times, hidden=hidden, assignment=choices.assignment
-    )
+        roster=roster, rule=rule, times=times, hidden=hidden, assignment=choices.assignment,
+        points=choices.points, told=(*told, *told_by_itself(submissions)),
+        given=given_names(submissions),
+    )  # fmt: skip
+
+
+def given_names(submissions: list[Submission]) -> dict[str, Given]:
+    """What each was called in the download, and which are clones."""
+    return {
+        each.name: Given(name=harmless(each.path.name), is_clone=(each.path / ".git").is_dir())
+        for each in submissions
+    }
+
+
+def _rule(choices: Choices, submissions: list[str]) -> LateRule | None:
+    """With everybody's own time in it. Raises BadTable, ExtensionOfNobody, NoDeadline."""
+    if choices.extensions is None:
+        return choices.rule
+    if choices.rule is None:
+        raise NoDeadline
+    more = read_extensions(choices.extensions, choices.rule.zone)
+    rule = choices.rule.model_copy(update={"extensions": more})
+    students = read_roster(choices.roster) if choices.roster else []
+    insist_on_people(choices.extensions, rule, students, submissions)
+    return rule
 
 
 def _grade_all(

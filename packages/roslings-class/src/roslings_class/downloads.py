@@ -8,6 +8,7 @@ import zipfile
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from datetime import tzinfo
 from pathlib import Path
 
 from ros2_on_pip.typed_paths import from_here
@@ -27,14 +28,16 @@ UNPACK_IT = "Unpack it yourself, and give the folder that comes out."
 
 
 @contextmanager
-def submissions_at(path: Path, students: Sequence[Student] = ()) -> Iterator[list[Submission]]:
+def submissions_at(
+    path: Path, students: Sequence[Student] = (), zone: tzinfo | None = None
+) -> Iterator[list[Submission]]:
     """What was handed in at `path`; the download of a class is unpacked for as long as the block.
 
-    Raises BatchError.
+    Times in a CSV file that name no zone are of `zone`. Raises BatchError.
     """
     download = _download_at(path, students)
     if download is None:
-        yield find_submissions(_inner(path, students))
+        yield find_submissions(_inner(path, students), zone)
         return
     with run_folder() as room:
         yield find_submissions(_inner(_unpacked(download, room / "downloaded"), students))

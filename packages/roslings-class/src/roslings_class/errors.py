@@ -36,3 +36,11 @@ class BadTable(BatchError):
 
 class BadGradebook(BatchError):
     """The gradebook in the folder cannot be used."""
+
+
+class NoGradebook(BadGradebook):
+    """None lies in the folder."""
+
+    def __init__(self, folder: Path) -> None:
+        step = "Give the folder that ./roslings grade made (--out)."
+        super().__init__(f"There is no gradebook in {folder}.", step)

@@ -124,6 +124,14 @@ class Gradebook:
         results = (Result.model_validate_json(text) for (text,) in rows)
         return {result.submission: result for result in results}
 
+    def first_graded(self) -> dict[str, datetime]:
+        """Submission to when the content that counts was graded first."""
+        rows = self._connection.execute(
+            "SELECT results.submission, min(results.written) FROM results"
+            " JOIN latest USING (submission, digest) GROUP BY results.submission"
+        )
+        return {name: datetime.fromisoformat(written) for name, written in rows}
+
     def attempts(self, submission: str, digest: str) -> int:
         """How often this very content was tried."""
         query = "SELECT coalesce(max(attempt), 0) FROM results WHERE submission=? AND digest=?"
@@ -201,6 +209,17 @@ class Gradebook:
                 " VALUES (?, ?, ?, ?, ?)",
                 (submission, score, reason, by, _now()),
             )
+
+    def forget(self, submission: str) -> None:
+        """Delete every row of a submission. What is deleted is overwritten, too: `shrink`."""
+        with self._transaction() as connection:
+            for table in ("results", "evidence", "overrides"):
+                connection.execute(f"DELETE FROM {table} WHERE submission=?", (submission,))
+
+    def shrink(self) -> None:
+        """Write the file anew without what was deleted, so that no byte of it stays."""
+        self._connection.execute("VACUUM")
+        self._connection.execute("PRAGMA wal_checkpoint(TRUNCATE)")
 
     def overrides(self) -> dict[str, Override]:
         """Submission to the newest score that a person gave."""

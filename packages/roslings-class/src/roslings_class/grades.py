@@ -2,41 +2,23 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from datetime import datetime
 
-from pydantic import BaseModel
-
 from roslings.hand_in.newest import Natural, natural
 from roslings_class.gradebook import Gradebook, Override
+from roslings_class.handed_in import UNKNOWN, HandedIn, Times
+from roslings_class.late_days import LateRule
 from roslings_class.result import Result
 from roslings_class.roster import SUBMISSION, Matched, Student, match
 
-DAY_S = 86_400.0
 UNCLEAR = "unclear"
+DIFFERS = "What counts is not the same for all of the team: see your own grade."
 SAY_WHOSE = (
     "See on the platform who sent it. Write its name into the class list, in the line of that"
     f" student, column `{SUBMISSION}`, and type the same command again."
 )
-
-
-class LateRule(BaseModel):
-    """What being late costs."""
-
-    deadline: datetime
-    points_a_day: float = 0.0
-    free_days: int = 0
-    """Days late that cost nothing."""
-
-    def days(self, submitted: datetime) -> int:
-        """Days late, each begun one counted; 0 in time."""
-        return max(0, math.ceil((submitted - self.deadline).total_seconds() / DAY_S))
-
-    def costs(self, days: int) -> float:
-        """The points that so many days cost."""
-        return self.points_a_day * max(0, days - self.free_days)
 
 
 @dataclass(frozen=True)
@@ -50,6 +32,9 @@ class Grade:
     late_days: int | None = None
     """None where the time of handing in is not known."""
     late_points: float = 0.0
+    handed_in: HandedIn = UNKNOWN
+    team: tuple[str, ...] = ()
+    """Everybody whose hand-in it is, where it is a team's; the one of a team of one, too."""
     may_have_sent: tuple[str, ...] = ()
     """Submissions that may be of this student, where none is for sure."""
     may_be_of: tuple[str, ...] = ()
@@ -82,6 +67,22 @@ class Grade:
         return f"May be of {' or '.join(self.may_be_of)}." if self.may_be_of else ""
 
     @property
+    def late_words(self) -> str:
+        """What being late has cost, for the student; empty where it has cost nothing."""
+        if not self.late_points or self.override or self.measured is None:
+            return ""
+        days = "1 day" if self.late_days == 1 else f"{self.late_days} days"
+        return f"Handed in {days} late: {self.late_points:g} points less."
+
+    @property
+    def counts(self) -> str:
+        """What counts for the student beside the measured score; empty where that is all."""
+        if self.override:
+            by = self.override
+            return f"{by.score:g} of 100 count, by {by.by}: {by.reason}"
+        return f"{self.late_words} {self.final:g} of 100 count." if self.late_words else ""
+
+    @property
     def measured(self) -> float | None:
         """The score of the verdict."""
         return self.result.score if self.result else None
@@ -111,6 +112,20 @@ class Class:
         return [grade for grade in self.grades if grade.outcome == "missing"]
 
     @property
+    def counts(self) -> dict[str, str]:
+        """Submission to what counts beside its score; in a team it may differ."""
+        found: dict[str, str] = {}
+        for grade in self.grades:
+            if grade.result and found.setdefault(grade.submission, grade.counts) != grade.counts:
+                found[grade.submission] = DIFFERS
+        return found
+
+    @property
+    def teams(self) -> dict[str, tuple[str, ...]]:
+        """Submissions of several students, and who has each of them."""
+        return {grade.submission: grade.team for grade in self.grades if len(grade.team) > 1}
+
+    @property
     def unclear(self) -> list[Grade]:
         """Submissions of which nobody can say whose they are."""
         return [grade for grade in self.grades if grade.may_be_of]
@@ -118,12 +133,13 @@ class Class:
 
 def class_of(
     book: Gradebook,
-    times: dict[str, datetime],
+    times: Times | dict[str, datetime],
     students: Sequence[Student] = (),
     rule: LateRule | None = None,
 ) -> Class:
     """Join the gradebook, the times of handing in, the class list and the rule on being late."""
     latest = book.latest()
+    times = times if isinstance(times, Times) else Times(times)
     join = _Join(latest, book.overrides(), times, rule)
     if not students:
         return Class([join.grade(None, name) for name in latest])
@@ -136,13 +152,15 @@ def class_of(
 class _Join:
     latest: dict[str, Result]
     overrides: dict[str, Override]
-    times: dict[str, datetime]
+    times: Times
     rule: LateRule | None
 
     def grades(self, found: Matched) -> Iterable[Grade]:
         for student, names in found.of_student.items():
             if names:
-                yield self.grade(student, self._newest(names))
+                own = self.grade(student, self._newest(student, names))
+                team = tuple(_told_apart(found.teams.get(own.submission, ())))
+                yield replace(own, team=team)
             else:
                 yield Grade(student, None, may_have_sent=tuple(found.doubts(student)))
         for name in found.unknown:
@@ -152,22 +170,28 @@ class _Join:
             yield replace(self.grade(None, name), may_be_of=may_be_of)
 
     def grade(self, student: Student | None, name: str) -> Grade:
-        submitted = self.times.get(name)
-        days = self.rule.days(submitted) if self.rule and submitted else None
+        handed_in = self.times.of(student, name)
+        days = self._days(student, name, handed_in)
         costs = self.rule.costs(days) if self.rule and days else 0.0
-        return Grade(student, self.latest[name], self.overrides.get(name), days, costs)
+        return Grade(student, self.latest[name], self.overrides.get(name), days, costs, handed_in)
 
-    def _newest(self, names: list[str]) -> str:
+    def _days(self, student: Student | None, name: str, handed_in: HandedIn) -> int | None:
+        """None where nobody tells the time; 0 where a platform says that it was in time."""
+        if self.rule is None or handed_in.gap:
+            return None
+        if handed_in.at is None:
+            return 0
+        return self.rule.days(handed_in.at, self.rule.deadline_of(student, name))
+
+    def _newest(self, student: Student, names: list[str]) -> str:
         """A person's word first; what was refused never stands before what was graded."""
-        return max(names, key=self._rank)
+        return max(names, key=lambda name: self._rank(student, name))
 
-    def _rank(self, name: str) -> tuple[bool, bool, float, Natural]:
+    def _rank(self, student: Student, name: str) -> tuple[bool, bool, float, Natural]:
         was_graded = self.latest[name].word != "refused"
-        return name in self.overrides, was_graded, self._stamp(name), natural(name)
-
-    def _stamp(self, name: str) -> float:
-        submitted = self.times.get(name)
-        return submitted.timestamp() if submitted else 0.0
+        submitted = self.times.of(student, name).at
+        stamp = submitted.timestamp() if submitted else 0.0
+        return name in self.overrides, was_graded, stamp, natural(name)
 
 
 def _told_apart(students: Sequence[Student]) -> Iterable[str]:

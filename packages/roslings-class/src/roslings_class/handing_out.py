@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import textwrap
+from collections.abc import Iterator, Mapping, Sequence
 from datetime import datetime
 from pathlib import Path
 
@@ -10,12 +10,19 @@ from pydantic import BaseModel
 
 from ros2_on_pip.typed_paths import from_here
 from roslings.course import Lab
+from roslings_class.canvas_list import points_of_assignments
+from roslings_class.changes import FILE, last_regrading
 from roslings_class.class_page import write_class_page
-from roslings_class.csv_files import write_all
+from roslings_class.csv_files import WHOLE, write_all, write_changes
+from roslings_class.feedback import Feedback, Given
 from roslings_class.fingerprints import fingerprint
+from roslings_class.folders import STUDENTS
 from roslings_class.gradebook import Gradebook
-from roslings_class.grades import SAY_WHOSE, Class, LateRule, class_of
-from roslings_class.messages import COLUMNS
+from roslings_class.grades import SAY_WHOSE, Class, Grade, class_of
+from roslings_class.handed_in import LATE_BY_SOME, NOT_KNOWN, Times, Told
+from roslings_class.late_days import LateRule
+from roslings_class.messages import few as _few
+from roslings_class.messages import wrapped as _wrapped
 from roslings_class.moodle_worksheet import read_worksheet
 from roslings_class.roster import read_roster
 from roslings_class.student_pages import write_pages
@@ -30,10 +37,28 @@ class Settings(BaseModel):
     rule: LateRule | None = None
     times: dict[str, datetime] = {}
     """Submission to the time of handing in, where a list told it."""
+    told: tuple[Told, ...] = ()
+    """The same, from files of `--times` and from the submissions themselves."""
     hidden: Path | None = None
     """The checks that students do not have."""
+    given: dict[str, Given] = {}
+    """Submission to what it was called in the download."""
     assignment: str = ""
     """What Canvas calls the lab: the head of its column; empty for the lab's own title."""
+    points: float | None = None
+    """What the whole is worth on the platform; None: as the class list says, or 100."""
+
+    def without(self, submission: str) -> Settings:
+        """The same, where nothing is kept of it."""
+        return self.model_copy(update={
+            "times": {each: at for each, at in self.times.items() if each != submission},
+            "told": tuple(each for each in self.told if each.submission != submission),
+            "given": {each: as_ for each, as_ in self.given.items() if each != submission},
+        })  # fmt: skip
+
+    def known_times(self) -> Times:
+        """When each was handed in, from all that is known."""
+        return Times(self.times, self.rule.zone if self.rule else "").add(self.told)
 
 
 def settings_of(book: Gradebook) -> Settings:
@@ -54,21 +79,33 @@ def hand_out(book: Gradebook, lab: Lab, folder: Path) -> list[str]:
     """
     settings = settings_of(book)
     students = read_roster(settings.roster) if settings.roster else ()
-    found = class_of(book, settings.times, students, settings.rule)
+    found = class_of(book, settings.known_times(), students, settings.rule)
     worksheet = read_worksheet(settings.roster) if settings.roster else None
-    write_all(found.grades, lab, folder, settings.assignment, worksheet)
-    write_pages(book, lab, found.grades, folder / "students")
-    write_class_page(lab, found, fingerprint(lab.starter).marks, folder / "class.html")
+    assignments = points_of_assignments(settings.roster) if settings.roster else {}
+    whole = settings.points or assignments.get(settings.assignment.strip()) or WHOLE
+    write_all(found.grades, lab, folder, settings.assignment, worksheet, whole)
+    write_pages(book, lab, found, folder / STUDENTS)
+    feedback = Feedback(lab, folder, settings.given, found.counts, worksheet is not None)
+    regrading = last_regrading(book)
+    if regrading:
+        write_changes(regrading, found.grades, folder / FILE)
+    common = fingerprint(lab.starter).marks
+    write_class_page(lab, found, common, folder / "class.html", regrading)
     back = [f"To upload as Moodle's worksheet: {from_here(folder)}/moodle.csv"] if worksheet else []
     return [
         *_remarks(found, settings),
+        *_about_assignment(settings, assignments),
         *back,
+        *feedback.write(found),
         f"The class on one page: {from_here(folder)}/class.html",
     ]
 
 
 def _remarks(found: Class, settings: Settings) -> list[str]:
     lines = []
+    if found.teams:
+        teams = (f"{name} ({len(members)})" for name, members in found.teams.items())
+        lines.append(_few("One hand-in for all of a team", list(teams)))
     if found.missing:
         lines.append(_few("Handed in nothing", [grade.name for grade in found.missing]))
     if found.unknown:
@@ -80,21 +117,40 @@ def _remarks(found: Class, settings: Settings) -> list[str]:
         lines.append(
             _few("Handed in several, the newest that was graded counts", list(found.twice))
         )
-    untimed = sum(grade.late_days is None for grade in found.grades if grade.result)
-    if settings.rule and untimed:
-        lines.append(
-            f"For {untimed} submissions the time is not known: none of them counts as late.\n"
-            "Give a CSV file with the columns student, path, submitted."
-        )
-    return lines
+    return [*lines, *(_late(found.grades, settings.rule) if settings.rule else ())]
 
 
-def _few(label: str, names: list[str], most: int = 8) -> str:
-    more = f" and {len(names) - most} more" if len(names) > most else ""
-    return _wrapped(f"{label} ({len(names)}): {', '.join(names[:most])}{more}")
+TIMES_FROM = (
+    "Nobody is charged for what is not known. To tell it: --times FILE, a CSV file with the columns"
+    " student, submitted, or Canvas's list of submissions; or Moodle's worksheet as the class list."
+)
 
 
-def _wrapped(text: str) -> str:
-    return textwrap.fill(
-        text, COLUMNS, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False
-    )
+def _late(grades: Sequence[Grade], rule: LateRule) -> Iterator[str]:
+    """Whose deadline it was, who was late, and of whom nobody can tell."""
+    yield rule.line()
+    handed_in = [grade for grade in grades if grade.result]
+    late = [f"{each.name} ({each.late_days})" for each in handed_in if each.late_days]
+    if late:
+        yield _few("Late, in days", late)
+    gaps = {
+        NOT_KNOWN: "When it was handed in is not known",
+        LATE_BY_SOME: LATE_BY_SOME.capitalize(),
+    }
+    for gap, label in gaps.items():
+        if names := [each.name for each in handed_in if each.handed_in.gap == gap]:
+            yield _few(label, names)
+    if any(each.handed_in.gap for each in handed_in):
+        yield _wrapped(f"  {TIMES_FROM}")
+
+
+def _about_assignment(settings: Settings, known: Mapping[str, float | None]) -> list[str]:
+    """Canvas makes a new column of a name that it does not know."""
+    name = settings.assignment.strip()
+    if not known or known.get(name) or (name in known and settings.points):
+        return []
+    if name in known:
+        return [f"{name!r} has no points in the class list: 100 are taken (--points N)."]
+    called = f"No assignment is called {name!r}" if name else "No --canvas-assignment was given"
+    problem = _wrapped(f"{called}: with canvas.csv, Canvas would make a new column.")
+    return [problem, _few("Its assignments", [*known])]

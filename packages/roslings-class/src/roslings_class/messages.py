@@ -8,6 +8,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 
 from roslings.report.flow import one_line
+from roslings.report.safe_text import harmless
 from roslings_class.gradebook import Gradebook
 from roslings_class.result import Result
 from roslings_class.scheduler import Standing
@@ -109,3 +110,17 @@ def closed_lines(places: Sequence[str]) -> Iterator[str]:
             f"No node could use {', '.join(places)}: a copy of the course with its solutions lies"
             " there, and every user can read it."
         )
+
+
+def few(label: str, names: Sequence[str], most: int = 8) -> str:
+    """How many, and the first of them by name."""
+    more = f" and {len(names) - most} more" if len(names) > most else ""
+    shown = ", ".join(map(harmless, names[:most]))
+    return wrapped(f"{label} ({len(names)}): {shown}{more}")
+
+
+def wrapped(text: str) -> str:
+    """A sentence; where it takes more than a line, the others stand below its words."""
+    return textwrap.fill(
+        text, COLUMNS, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False
+    )

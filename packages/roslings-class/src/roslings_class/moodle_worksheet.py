@@ -2,8 +2,9 @@
 
 An assignment gives it to an instructor ("Download grading worksheet") and takes it back ("Upload
 grading worksheet"). Its importer wants the three columns of `NEEDED`, called as in the language in
-which Moodle is read then. By the date it sees whether somebody gave another grade meanwhile. So
-each cell stays as it is, but for the grade and the feedback of whom we graded.
+which Moodle is read then (`headings.yaml` knows some). By the date it sees whether somebody gave
+another grade meanwhile. So each cell stays as it is, but for the grade and the feedback of whom we
+graded.
 
 Source: Moodle's own importer, mod/assign/feedback/offline/importgradeslib.php.
 """
@@ -18,20 +19,24 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from roslings_class import headings
 from roslings_class.errors import BadTable
-from roslings_class.roster import FIRST, NAMES
+from roslings_class.roster import FIRST, IDS, LOGINS, NAMES
 from roslings_class.tables import Cells, read_cells
 
 IDENTIFIER, GRADE, CHANGED = "Identifier", "Grade", "Last modified (grade)"
 NEEDED = (IDENTIFIER, GRADE, CHANGED)
 MAXIMUM, FEEDBACK = "Maximum Grade", "Feedback comments"
+SCALE = "scale"
+"""Its column stands in place of the maximum where the grade is a word, as `passed`."""
 USUAL_MAXIMUM = 100.0
 AGAIN = (
-    "Give the worksheet as Moodle writes it, in English: the assignment's page, Grading action,\n"
+    "Give the worksheet as Moodle writes it: the assignment's page, Grading action,\n"
     "Download grading worksheet."
 )
-_PARTICIPANT = re.compile(r"Participant \d+")
-_IN_ANY_LANGUAGE = re.compile(r"(\D{3,}\s)\d+")
+FEWEST_COLUMNS = 4
+_PARTICIPANT = re.compile(r"(\D+)\d+")
+_IN_ANY_LANGUAGE = re.compile(r"(\D{2,})\d+")
 _NUMBER = re.compile(r"\d+(?:[.,]\d+)?")
 
 
@@ -66,7 +71,7 @@ class Worksheet:
     def _lines(self, marks: Mapping[str, Mark]) -> Iterator[Sequence[str]]:
         (_, head), *lines = self.cells.lines
         yield head
-        places = {name: at for at, name in enumerate(_names(head))}
+        places = {name: at for at, name in enumerate(headings.english(head))}
         for _, line in lines:
             at = places[IDENTIFIER.lower()]
             mark = marks.get(line[at].strip()) if at < len(line) else None
@@ -89,43 +94,46 @@ def read_worksheet(path: Path) -> Worksheet | None:
     """The worksheet; None for another class list. Raises BadTable for what Moodle would refuse."""
     cells = read_cells(path)
     (_, head), *lines = cells.lines
-    names = _names(head)
+    names = headings.english(head)
     whole = [line for _, line in lines if any(cell.strip() for cell in line)]
     if not _is_of_moodle(path, names, whole):
         return None
     if wanting := [name for name in NEEDED if name.lower() not in names]:
         problem = f"Moodle would not take this worksheet back: it has no column {wanting[0]!r}."
-        raise BadTable(path, 1, problem, AGAIN)
+        raise BadTable(path, 1, problem, f"{AGAIN}\n{headings.other_language()}")
     maximum = _maximum(path, names, whole)
     return Worksheet(cells, _as_points(maximum), "," in maximum)
-
-
-def _names(head: Sequence[str]) -> list[str]:
-    return [name.strip().lower() for name in head]
 
 
 def _is_of_moodle(path: Path, names: Sequence[str], lines: Sequence[Sequence[str]]) -> bool:
     """Raises BadTable where it is one, in a language that nobody here knows."""
     if IDENTIFIER.lower() in names:
         at = names.index(IDENTIFIER.lower())
-        return any(at < len(line) and _PARTICIPANT.fullmatch(line[at].strip()) for line in lines)
+        return any(at < len(line) and _is_participant(line[at]) for line in lines)
     words = [_IN_ANY_LANGUAGE.fullmatch(line[0].strip()) for line in lines]
     same = len({word[1] if word else "" for word in words}) == 1 and all(words)
-    if same and not {*NAMES, *FIRST} & set(names):
-        problem = "this looks like a grading worksheet of a Moodle in another language."
-        raise BadTable(path, 1, problem, AGAIN)
+    if same and len(names) >= FEWEST_COLUMNS and not {*NAMES, *FIRST, *IDS, *LOGINS} & set(names):
+        problem = "this looks like a grading worksheet of a Moodle in a language that is not known."
+        raise BadTable(path, 1, problem, headings.other_language())
     return False
+
+
+def _is_participant(cell: str) -> bool:
+    """`Participant 12`, `Teilnehmer/in12`: some languages have no space there."""
+    found = _PARTICIPANT.fullmatch(cell.strip())
+    return found is not None and found[1].strip() in headings.participants()
 
 
 def _maximum(path: Path, names: Sequence[str], lines: Sequence[Sequence[str]]) -> str:
     """What Moodle says that the whole is worth. Raises BadTable where these are no points."""
-    if MAXIMUM.lower() not in names:
+    column = next((name for name in (MAXIMUM.lower(), SCALE) if name in names), None)
+    if column is None:
         return f"{USUAL_MAXIMUM}"
-    at = names.index(MAXIMUM.lower())
+    at = names.index(column)
     said = next((line[at].strip() for line in lines if at < len(line) and line[at].strip()), "")
-    if _NUMBER.fullmatch(said) and _as_points(said) > 0:
+    if column != SCALE and _NUMBER.fullmatch(said) and _as_points(said) > 0:
         return said
-    problem = f"this assignment is not graded by points: its maximum is {said!r}."
+    problem = f"this assignment is not graded by points: its {column} is {said!r}."
     step = "Moodle, the assignment's settings, Grade: choose the type Point, and download it again."
     raise BadTable(path, 2, problem, step)
 

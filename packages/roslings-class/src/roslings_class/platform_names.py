@@ -28,7 +28,7 @@ _FORMS = {
         re.DOTALL,
     ),
     CANVAS: re.compile(
-        r"(?P<person>[^_]+)(?:_LATE)?_(?P<number>[0-9]+)_[0-9]+_(?P<own>.+)", re.DOTALL
+        r"(?P<person>[^_]+)(?P<late>_LATE)?_(?P<number>[0-9]+)_[0-9]+_(?P<own>.+)", re.DOTALL
     ),
 }
 """No name has both forms."""
@@ -45,6 +45,12 @@ class PlatformName:
     part: str = FILE
     own: str = ""
     """What the student called the file, where that is told."""
+    late: str = ""
+
+    @property
+    def is_late(self) -> bool:
+        """Marked as late, by the due date that the platform has."""
+        return bool(self.late)
 
     @property
     def is_certain(self) -> bool:

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-import getpass
 from collections import Counter
+from collections.abc import Mapping
 from dataclasses import dataclass
+from datetime import datetime, timezone
 from pathlib import Path
 
 from roslings import course
 from roslings.course import Lab
 from roslings.judge import judge
-from roslings_class.errors import BadGradebook, BatchError
+from roslings_class.changes import CHANGED_LAST, Regrading, changed_lines, changes
+from roslings_class.errors import BatchError, NoGradebook
 from roslings_class.gradebook import Gradebook, gradebook, lab_of
-from roslings_class.grades import SAY_WHOSE, Grade, class_of
+from roslings_class.grades import SAY_WHOSE, Class, class_of
 from roslings_class.grading import rates_of, unpacked
 from roslings_class.handing_out import hand_out, keep, settings_of
 from roslings_class.messages import summary_lines
@@ -23,22 +25,26 @@ from roslings_class.signing import BadKey
 from roslings_class.version import version_of
 
 
-def override(folder: Path, submission: str, score: float, reason: str, by: str | None) -> list[str]:
+def override(folder: Path, submission: str, score: float, reason: str, by: str) -> list[str]:
     """Put a person's score beside the measured one, and write everything anew.
 
     `submission` is its name, or what the class list says of the student.
-    Raises BatchError for a submission that is not there, a score that is none, or no reason.
+    Raises BatchError for a submission that is not there, a score that is none, no reason, nobody.
     """
     if not reason.strip():
         raise BatchError("A score by hand needs a reason.", 'Say it: --reason "..."')
+    if not by.strip():
+        raise BatchError("A score by hand needs somebody who gives it.", 'Say who: --by "..."')
     if not 0 <= score <= 100:
         raise BatchError(f"{score:g} is no score.", "Give a number from 0 to 100.")
     name = _lab_in(folder)
     with gradebook(folder, name) as book:
         lab = course.lab(name, settings_of(book).hidden)
         submission = _meant(book, submission)
-        book.override(submission, score, reason, by or _who())
+        book.override(submission, score, reason, by)
         told = f"{submission} has {score:g} of 100 now; the measured score is kept beside it."
+        if team := _class(book).teams.get(submission):
+            told += f"\nIt counts for the whole team: {', '.join(team)}."
         return [told, *_about_key(book, folder), *hand_out(book, lab, folder)]
 
 
@@ -53,8 +59,7 @@ def _about_key(book: Gradebook, folder: Path) -> list[str]:
 def _lab_in(folder: Path) -> str:
     found = lab_of(folder)
     if found is None:
-        step = "Give the folder that ./roslings grade made (--out)."
-        raise BadGradebook(f"There is no gradebook in {folder}.", step)
+        raise NoGradebook(folder)
     return found
 
 
@@ -62,7 +67,9 @@ def _meant(book: Gradebook, who: str) -> str:
     """The submission of that name, else the one that counts for that student. Raises BatchError."""
     if who in book.latest():
         return who
-    found = [grade for grade in _grades(book) if grade.student and grade.student.is_called(who)]
+    found = [
+        grade for grade in _class(book).grades if grade.student and grade.student.is_called(who)
+    ]
     if not found:
         raise _nobody(book, who)
     if len(found) > 1:
@@ -79,10 +86,10 @@ def _meant(book: Gradebook, who: str) -> str:
     return found[0].submission
 
 
-def _grades(book: Gradebook) -> list[Grade]:
+def _class(book: Gradebook) -> Class:
     settings = settings_of(book)
     students = read_roster(settings.roster) if settings.roster else ()
-    return class_of(book, settings.times, students, settings.rule).grades
+    return class_of(book, settings.known_times(), students, settings.rule)
 
 
 def _nobody(book: Gradebook, who: str) -> BatchError:
@@ -90,13 +97,6 @@ def _nobody(book: Gradebook, who: str) -> BatchError:
     near = ", ".join(name for name in names if who.lower() in name.lower())
     step = f"Is it one of these: {near}?" if near else "The names are in grades.csv."
     return BatchError(f"There is no submission and no student {who!r} here.", step)
-
-
-def _who() -> str:
-    try:
-        return getpass.getuser()
-    except (KeyError, OSError):  # a user without a name
-        return "unknown"
 
 
 @dataclass(frozen=True)
@@ -122,15 +122,31 @@ def regrade_all(folder: Path, lab_name: str, hidden: Path | None) -> Regraded:
             keep(book, settings)
         lab = course.lab(lab_name, settings.hidden)
         forged = book.forged()
-        told = Counter(_again(book, result, lab) for name, result in book.latest().items()
-                       if name not in forged)  # fmt: skip
+        before = {name: each for name, each in book.latest().items() if name not in forged}
+        told = Counter(_again(book, result, lab) for result in before.values())
         changed, same, without = (told[word] for word in ("changed", "same", "without"))
         lines = [*about_key, f"{changed + same} judged again, {changed} scores changed."]
+        lines += changed_lines(_noted(book, before, changed + same), _class(book).grades, folder)
         if without:
             lines.append(f"{without} have no evidence: grade those again to judge them anew.")
         lines += forged_lines(forged, lab.name, folder)
         lines += summary_lines(book, list(book.latest()))
         return Regraded([*lines, *hand_out(book, lab, folder)], forged)
+
+
+def _noted(book: Gradebook, before: Mapping[str, Result], judged: int) -> Regrading:
+    """What was changed; kept for the page of the class, where it is anything."""
+    latest = book.latest()
+    found = [
+        change
+        for name, result in before.items()
+        if result.verdict and (verdict := latest[name].verdict)
+        for change in changes(name, result.verdict, verdict)
+    ]
+    regrading = Regrading(at=datetime.now(timezone.utc), judged=judged, changes=found)
+    if found:
+        book.note(CHANGED_LAST, regrading.model_dump_json())
+    return regrading
 
 
 def _again(book: Gradebook, result: Result, lab: Lab) -> str:

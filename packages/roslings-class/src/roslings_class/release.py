@@ -14,7 +14,8 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
 from ros2_on_pip.typed_paths import from_here
-from roslings.course import CourseError, Lab, all_labs
+from roslings.built_site import BROUGHT, forget, is_up_to_date, note_texts, site_here
+from roslings.course import CourseError, Lab, all_labs, root
 from roslings.course.labs import EXAMPLE, example_root
 from roslings.course.promises import NAME as PROMISES
 from roslings.workspace.sources import files
@@ -32,20 +33,33 @@ TESTS_OF_THE_ENGINE = (("arena",), ("report",))
 INSTRUCTORS_ONLY = ("roslings-class", "roslings-prove")
 """Packages that grade others, and that prove."""
 MAINTAINERS_ONLY = (".ci", ".github", "example-course")
-SOLUTION_COMMAND = re.compile(r"(\./roslings check )[\w-]+( --solution)")
-"""The first command of the README: in this edition it grades the example's solution."""
+_BETWEEN = r"(?:\s|<[^<>]*>)+"
+SOLUTION_COMMAND = re.compile(
+    rf"(\./roslings{_BETWEEN}check{_BETWEEN})[\w-]+({_BETWEEN}--solution)"
+)
+"""The first command of the README: in this edition it grades the example's solution. On a page of
+the website, tags stand between its words."""
 REWRITTEN = (
     "README.md",
     "CONTRIBUTING.md",
     "packages/ros-doctor",
     "days",
     "site/pages",
+    BROUGHT.as_posix(),
 )
 """Files, and folders of them, that tell students what to type."""
-TEXTS = (".md", ".ipynb", ".py")
+TEXTS = (".md", ".ipynb", ".py", ".html")
 GUIDE = "site/pages/teachers/new-lab.md"
 """It shows a mutant, to be copied."""
 
+NO_SITE = (
+    "There is no website in it, which students could read with nothing installed.\n"
+    "To bring one: ./roslings site --build, then do this again."
+)
+OLD_SITE = (
+    "There is no website in it: the one that was built here shows the course as it was before.\n"
+    "To bring one: ./roslings site --build, then do this again."
+)
 LEAST_LINE = 20
 LIKE_THE_ANSWER = 0.5
 
@@ -76,12 +90,27 @@ def release(to: Path) -> Edition:
     names = [name for name in found.paths if is_for_students(name)]
     for name in names:
         _copy(found.paths[name], to / name)
+    about_the_site = _bring_the_site(to)
     rewrite_texts(to)
+    if about_the_site is None:
+        note_texts(to / BROUGHT, to)
     if leaking := list(leaks(to, all_labs())):
         shutil.rmtree(to)
         told = "\n".join(leaking)
         raise CannotRelease(f"An answer would leak. Nothing was released.\n{told}")
-    return Edition(names, list(found.remarks(names)))
+    return Edition(names, [*found.remarks(names), *filter(None, [about_the_site])])
+
+
+def _bring_the_site(to: Path) -> str | None:
+    """Put the website that was built into the edition; what is to be said where there is none."""
+    html = site_here()
+    if html is None:
+        return NO_SITE
+    if not is_up_to_date(html, root()):
+        return OLD_SITE
+    shutil.copytree(html, to / BROUGHT)
+    forget(to / BROUGHT)
+    return None
 
 
 def is_for_students(name: str) -> bool:

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import re
-import zlib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from roslings.course import Lab
@@ -13,41 +11,44 @@ from roslings.report.flow import paragraphs
 from roslings.report.html import OfClass
 from roslings.report.html.document import POLICY, brand, style
 from roslings.report.html.markup import prose, tag
+from roslings.report.shown_checks import shown_checks
 from roslings.report.whole_file import write_whole
 from roslings.saving import Graded
 from roslings.verdict import Verdict
+from roslings_class.folders import PAGE, bring_over, folder_name
 from roslings_class.gradebook import Gradebook
-from roslings_class.grades import Grade
+from roslings_class.grades import Class, Grade
 from roslings_class.grading import unpacked
 from roslings_class.result import Result
 
-LONGEST_NAME = 60
-CLASS_PAGE = "../../class.html"
-"""Seen from the folder of a submission."""
 STAMP = "made-from"
 """Holds the name of the result that a folder was made from, so that it is made once."""
-_UNSAFE = re.compile(r"[^\w-]+", re.ASCII)
 
 
-def folder_name(submission: str) -> str:
-    """The folder of a submission; one of its own, whatever the submission is called."""
-    safe = _UNSAFE.sub("_", submission).strip("_")[:LONGEST_NAME]
-    if safe == submission:
-        return safe
-    return f"{safe or 'submission'}-{zlib.crc32(submission.encode('utf-8', 'replace')):08x}"
-
-
-def write_pages(book: Gradebook, lab: Lab, grades: list[Grade], folder: Path) -> None:
+def write_pages(book: Gradebook, lab: Lab, found: Class, folder: Path) -> None:
     """Bring the folder of each submission up to date. Raises CannotWrite."""
-    for grade in (grade for grade in grades if grade.result):
+    counts = found.counts
+    for grade in one_each(found.grades):
         assert grade.result
         place = folder / folder_name(grade.result.submission)
-        stamp = f"{grade.result.digest} {grade.result.attempt} {grade.name}\n"
+        bring_over(folder, grade.result.submission)
+        reader = OfClass(whose(grade), counts[grade.submission])
+        stamp = f"{grade.result.digest} {grade.result.attempt} {reader.student} {reader.counts}\n"
         if _stamp_of(place) == stamp:
             continue
         place.mkdir(parents=True, exist_ok=True)
-        _write(book, lab, grade, grade.result, place)
+        _write(book, lab, reader, grade.result, place)
         write_whole(place / STAMP, stamp.encode())
+
+
+def one_each(grades: list[Grade]) -> Iterator[Grade]:
+    """One of each submission: a team's grades have the same page."""
+    yield from {grade.submission: grade for grade in reversed(grades) if grade.result}.values()
+
+
+def whose(grade: Grade) -> str:
+    """Whose work it is, all of a team."""
+    return ", ".join(grade.team) or grade.name
 
 
 def _stamp_of(place: Path) -> str:
@@ -55,22 +56,28 @@ def _stamp_of(place: Path) -> str:
     return stamp.read_text("utf-8") if stamp.is_file() else ""
 
 
-def _write(book: Gradebook, lab: Lab, grade: Grade, result: Result, place: Path) -> None:
+def _write(book: Gradebook, lab: Lab, reader: OfClass, result: Result, place: Path) -> None:
     verdict = result.verdict
     told = verdict or _refusal(lab, result)
     write_gradescope(told, place / "results.json")
     write_junit(told, place / "junit.xml")
     write_check50(told, place / "check50.json")
     if verdict is None:
-        write_whole(place / "report.html", _page_without(grade.name, result).encode())
+        (place / "verdict.json").unlink(missing_ok=True)  # of what was handed in before
+        write_whole(place / PAGE, _page_without(reader, result).encode())
         return
     write_json(verdict, place / "verdict.json")
-    content = book.evidence(result)
+    content, shown = book.evidence(result), for_students(verdict)
     if content is not None:
-        graded = Graded(lab, verdict, unpacked(content))
-        graded.write_page(place / "report.html", OfClass(grade.name, CLASS_PAGE))
+        graded = Graded(lab, shown, unpacked(content))
+        graded.write_page(place / PAGE, reader)
     else:
-        write_whole(place / "report.html", _page_of_lines(grade.name, verdict).encode())
+        write_whole(place / PAGE, _page_of_lines(reader, shown).encode())
+
+
+def for_students(verdict: Verdict) -> Verdict:
+    """The same with one line for all checks that students do not have."""
+    return verdict.model_copy(update={"checks": shown_checks(verdict)})
 
 
 def _refusal(lab: Lab, result: Result) -> Refusal:
@@ -78,18 +85,19 @@ def _refusal(lab: Lab, result: Result) -> Refusal:
     return Refusal(lab.name, *result.told_to_student, result.state == "refused")
 
 
-def _page_of_lines(name: str, verdict: Verdict) -> str:
+def _page_of_lines(reader: OfClass, verdict: Verdict) -> str:
     lines = [f"{check.outcome}: {check.title}" for check in verdict.checks]
     score = "no score" if verdict.score is None else f"{verdict.score:g} of 100"
-    return _page(name, score, lines)
+    return _page(reader.student, score, filter(None, (reader.counts, *lines)))
 
 
-def _page_without(name: str, result: Result) -> str:
+def _page_without(reader: OfClass, result: Result) -> str:
     words = {
         "refused": "This could not be graded as it was handed in",
         "inconclusive": "No verdict yet: not everything could be told",
     }
-    return _page(name, words[result.word], _told(result))
+    lines = filter(None, (reader.counts, *_told(result)))
+    return _page(reader.student, words[result.word], lines)
 
 
 def _told(result: Result) -> Iterator[str]:
@@ -97,7 +105,7 @@ def _told(result: Result) -> Iterator[str]:
         yield from paragraphs(text)
 
 
-def _page(name: str, heading: str, lines: Iterator[str] | list[str]) -> str:
+def _page(name: str, heading: str, lines: Iterable[str]) -> str:
     """A short page, where there is no evidence to show."""
     head = tag(
         "head",
@@ -108,8 +116,7 @@ def _page(name: str, heading: str, lines: Iterator[str] | list[str]) -> str:
         style(),
     )
     over = tag("p", name, class_="over")
-    back = tag("a", "The class", href=CLASS_PAGE)
     header = tag("header", over, tag("h1", heading))
     told = tag("main", *(tag("p", prose(line)) for line in lines))
-    body = tag("body", brand(back), header, told)
+    body = tag("body", brand(), header, told)
     return f"<!DOCTYPE html>\n{tag('html', head, body, lang='en')}\n"

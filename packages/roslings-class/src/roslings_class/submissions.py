@@ -6,13 +6,14 @@ import hashlib
 import os
 from collections.abc import Iterator
 from dataclasses import dataclass
-from datetime import datetime
+from datetime import datetime, tzinfo
 from pathlib import Path
 
 from roslings.hand_in.archives import SUFFIXES, is_archive, is_clutter
 from roslings.report.safe_text import harmless
 from roslings.workspace.errors import WorkspaceError
 from roslings.workspace.sources import sources
+from roslings_class.clock_times import as_time
 from roslings_class.errors import BadTable, NoSubmissions
 from roslings_class.platform_names import beside_a_file
 from roslings_class.tables import Row, read_table
@@ -34,15 +35,15 @@ class Submission:
     """Known from a CSV file alone: a file's own date is often that of the download."""
 
 
-def find_submissions(path: Path) -> list[Submission]:
+def find_submissions(path: Path, zone: tzinfo | None = None) -> list[Submission]:
     """All submissions at `path`, by name: of a folder of them, a CSV file, or one alone.
 
-    Raises NoSubmissions and BadTable.
+    Times that name no zone are of `zone`. Raises NoSubmissions and BadTable.
     """
     if not path.exists():
         raise NoSubmissions(path, "there is nothing.")
     if path.is_file() and path.suffix.lower() == ".csv":
-        found = list(_listed(path))
+        found = list(_listed(path, zone))
     elif path.is_file() or (path / "package.xml").is_file():
         found = [Submission(name_of(path.absolute()), path)]
     else:
@@ -87,29 +88,23 @@ def _with_own_names(found: list[Submission]) -> Iterator[Submission]:
 # --- a CSV file --------------------------------------------------------------------------------
 
 
-def _listed(table: Path) -> Iterator[Submission]:
+def _listed(table: Path, zone: tzinfo | None) -> Iterator[Submission]:
     for row in read_table(table):
         path = Path(row.needed(PATHS)).expanduser()
         name = row.first(NAMES)
         path = path if path.is_absolute() else table.parent / path
-        yield Submission(harmless(name) if name else name_of(path), path, _time_in(row))
+        yield Submission(harmless(name) if name else name_of(path), path, _time_in(row, zone))
 
 
-def _time_in(row: Row) -> datetime | None:
+def _time_in(row: Row, zone: tzinfo | None) -> datetime | None:
     text = row.first(TIMES)
     if not text:
         return None
     try:
-        return as_time(text)
+        return as_time(text, zone)
     except ValueError:
         step = "Write it as 2026-11-30 23:59."
         raise BadTable(row.table, row.line, f"{text!r} is no date and time.", step) from None
-
-
-def as_time(text: str) -> datetime:
-    """A date and time; in local time where it names no zone. Raises ValueError."""
-    time = datetime.fromisoformat(text.strip().replace("Z", "+00:00"))
-    return time if time.tzinfo else time.astimezone()
 
 
 # --- what is in it -----------------------------------------------------------------------------

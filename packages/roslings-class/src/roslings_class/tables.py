@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from roslings_class.errors import BadTable
+from roslings_class.headings import english
 
 MOST_BYTES = 50_000_000
 SEPARATORS = ",;\t"
@@ -18,7 +19,7 @@ MARK = "\ufeff"
 
 @dataclass(frozen=True)
 class Row:
-    """One line of the table: column, in small letters, to text."""
+    """One line of the table: column, in English and small letters, to text."""
 
     table: Path
     line: int
@@ -39,7 +40,7 @@ class Row:
 def read_table(path: Path) -> list[Row]:
     """Every line below the head. Raises BadTable."""
     (_, head), *lines = read_cells(path).lines
-    names = [name.strip().lower() for name in head]
+    names = english(head)
     return [Row(path, number, dict(zip(names, cells, strict=False))) for number, cells in lines
             if any(cell.strip() for cell in cells)]  # fmt: skip
 

@@ -15,11 +15,12 @@ import tarfile
 import tempfile
 import time
 from collections.abc import Iterator, Mapping
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any, NoReturn
 
 from setuptools import build_meta
 
+from roslings_class.description import address, for_its_page, urls
 from roslings_class.release import release
 from roslings_launcher import __version__, constraints, groups
 from roslings_launcher.installed import ARCHIVE
@@ -42,15 +43,25 @@ def build_wheel(
 ) -> str:
     """Write the wheel into `wheel_directory`; its file name.
 
-    Raises CannotRelease where an answer would leak.
+    Raises CannotRelease where an answer would leak, and NoAddress.
     """
-    to = str(Path(wheel_directory).absolute())
+    address()  # asked for before anything is made
     with tempfile.TemporaryDirectory(prefix="roslings-") as scratch:
-        edition, made = Path(scratch).resolve() / "edition", Path(scratch).resolve() / "made"
+        edition = Path(scratch).resolve() / "edition"
         release(edition)
+        return wheel_of(edition, Path(wheel_directory).absolute())
+
+
+def wheel_of(edition: Path, to: Path) -> str:
+    """Write the wheel of a students' edition into the folder `to`; its file name.
+
+    Raises NoAddress.
+    """
+    with tempfile.TemporaryDirectory(prefix="roslings-") as scratch:
+        made = Path(scratch).resolve() / "made"
         lay_out(edition, made)
         with _in(made):
-            name: str = build_meta.build_wheel(to)
+            name: str = build_meta.build_wheel(str(to))
             return name
 
 
@@ -75,12 +86,21 @@ def lay_out(edition: Path, made: Path) -> None:
     """Put what goes into the wheel into the new folder `made`."""
     for folder in source_folders(edition):
         shutil.copytree(folder, made / "src", dirs_exist_ok=True)
-    own = edition / "packages" / ENGINE
-    for name in ("pyproject.toml", "README.md"):
-        shutil.copy(own / name, made)
+    describe(edition, made, address())
     (made / OFFERS).write_text(offers(edition), "utf-8")
     (made / "setup.py").write_text(_SETUP.format(extras=extras(Place(edition))), "utf-8")
     pack(edition, made / "src" / ENGINE / ARCHIVE)
+
+
+def describe(edition: Path, made: Path, at: str) -> None:
+    """Put what the wheel says of itself, and the licences, into `made`."""
+    own = PurePosixPath("packages", ENGINE)
+    readme = (edition / own / "README.md").read_text("utf-8")
+    (made / "README.md").write_text(for_its_page(readme, own, at), "utf-8")
+    project = (edition / own / "pyproject.toml").read_text("utf-8")
+    (made / "pyproject.toml").write_text(project + urls(at), "utf-8")
+    for licence in edition.glob("LICENSE*"):
+        shutil.copy(licence, made)
 
 
 def pack(edition: Path, archive: Path) -> None:

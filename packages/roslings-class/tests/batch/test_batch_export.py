@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import csv
 import re
+import unicodedata
+import zlib
 from datetime import datetime, timedelta, timezone
 from pathlib import Path
+from urllib.parse import unquote
 
 import pytest
 
@@ -14,6 +17,7 @@ from roslings.course import lab
 from roslings.verdict import CheckResult, Environment, Timings, Verdict, outcome_of, score_of
 from roslings_class.errors import BadTable, BatchError
 from roslings_class.fingerprints import fingerprint, winnowed
+from roslings_class.folders import folder_name
 from roslings_class.gradebook import gradebook
 from roslings_class.grades import LateRule, class_of
 from roslings_class.handing_out import Settings, hand_out, keep
@@ -22,7 +26,7 @@ from roslings_class.regrade import override
 from roslings_class.result import Result
 from roslings_class.roster import Student, match, read_roster
 from roslings_class.similar import alike, equal_groups
-from roslings_class.student_pages import folder_name
+from roslings_launcher.cli import main
 
 TOPICS = lab("topics")
 DEADLINE = datetime(2026, 11, 20, 12, tzinfo=timezone.utc)
@@ -168,24 +172,28 @@ def test_the_files_and_pages_tell_the_same(tmp_path: Path) -> None:
     assert (rows["Zoe"]["outcome"], rows["Zoe"]["final"]) == ("missing", "")
     assert "'=cmd|'x'!A1" in rows
     canvas = cells(tmp_path / "canvas.csv")
-    assert [row["A talker and a listener (topics)"] for row in canvas] == ["100", "84", "55", ""]
+    assert [row["A talker and a listener (topics)"] for row in canvas] == ["100", "84", "55"]
     moodle = cells(tmp_path / "moodle.csv")
     assert [row["Grade"] for row in moodle] == ["84", "55", ""]
     assert "About rate." in moodle[0]["Feedback comments"]
     page = (tmp_path / "class.html").read_text("utf-8")
     assert "showed it &lt;b&gt;in class" in page
-    assert "<script" not in page
-    links = re.findall(r'href="([^"]+)"', page)
+    assert page.count("<script") == 1
+    links = [unquote(link) for link in re.findall(r'href="(students[^"]+)"', page)]
     assert len(links) == 3
     assert all((tmp_path / link).is_file() for link in links)
     names = ["Zoe", "Ben Kaya", "Anna Berg", "=cmd"]
-    places = [page.index(f"<td>{name}") for name in names]
+    table = page.partition(">Everybody<")[2]
+    places = [table.index(f">{name}") for name in names]
     assert places == sorted(places), "the lowest score comes first"
-    assert page.index("Everybody") < page.index("What most have to mend")
+    heads = ["What most have to mend", "Scores", "Everybody", "Handed in nothing"]
+    assert [*map(page.index, (f"<h2>{head}" for head in heads))] == sorted(
+        map(page.index, (f"<h2>{head}" for head in heads))
+    )
     assert "Scores: mean" in page
     for link in links:
         own = (tmp_path / link).read_text("utf-8")
-        assert 'href="../../class.html"' in own
+        assert "href=" not in own and "class.html" not in own, "it stands alone"
     anna = next(link for link in links if "1001" in link)
     assert re.search(r"<title>Anna Berg: ", (tmp_path / anna).read_text("utf-8"))
 
@@ -236,16 +244,16 @@ def test_a_score_by_hand_for_a_student_by_name(tmp_path: Path) -> None:
         book.write(graded("Anna Berg_17_assignsubmission_file_", "rate"))
         book.write(refused("Anna Berg_17_assignsubmission_onlinetext_", "It is a text."))
     for score, who in ((60, "Anna Berg"), (70, "berg, anna"), (80, "a.berg@example.org")):
-        told = override(tmp_path, who, score, "showed it", None)
+        told = override(tmp_path, who, score, "showed it", "tutor")
         assert "Anna Berg_17_assignsubmission_file_" in told[0]
         rows = {row["name"]: row["final"] for row in cells(tmp_path / "grades.csv")}
         assert rows["Anna Berg"] == f"{score}"
     with pytest.raises(BatchError, match="Zoe handed in nothing"):
-        override(tmp_path, "Zoe", 5, "x", None)
+        override(tmp_path, "Zoe", 5, "x", "tutor")
     with pytest.raises(BatchError, match="one of several"):
-        override(tmp_path, "Kim Lee", 5, "x", None)
+        override(tmp_path, "Kim Lee", 5, "x", "tutor")
     with pytest.raises(BatchError, match="no student 'Max'"):
-        override(tmp_path, "Max", 5, "x", None)
+        override(tmp_path, "Max", 5, "x", "tutor")
 
 
 def test_canvas_is_told_which_assignment(tmp_path: Path) -> None:
@@ -256,6 +264,105 @@ def test_canvas_is_told_which_assignment(tmp_path: Path) -> None:
         book.write(graded("s1001"))
         hand_out(book, TOPICS, tmp_path)
     assert cells(tmp_path / "canvas.csv")[1]["Lab 3 (48151)"] == "100"
+
+
+def test_a_score_by_hand_names_who_gives_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Nobody's user name goes to a student unasked."""
+    with gradebook(tmp_path, "topics") as book:
+        book.write(graded("anna"))
+    words = ["override", str(tmp_path), "anna", "70", "--reason", "it ran in class"]
+    with pytest.raises(SystemExit):
+        main(words)
+    assert "--by" in capsys.readouterr().err
+    assert main([*words, "--by", "Dr. Tutor"]) == 0
+    (row,) = cells(tmp_path / "grades.csv")
+    assert (row["final"], row["reason"]) == ("70", "Dr. Tutor: it ran in class")
+
+
+CANVAS_EXPORT = (
+    "Student,ID,SIS User ID,SIS Login ID,Section,Lab 2 (7),Lab 3 (48151),Final Score\n"
+    "    Points Possible,,,,,10.00,{points},(read only)\n"
+    '"Berg, Anna",12,s1001,aberg,S1,,,\n'
+    '"Kaya, Ben",13,s1002,bkaya,S1,,,\n'
+)
+
+
+@pytest.mark.parametrize(
+    ("points", "asked", "whole", "score"),
+    [("20.00", None, "20", "16.8"), ("20,00", None, "20", "16.8"), ("20.00", 7.5, "7.5", "6.3"),
+     ("", None, "100", "84"), ("0.00", None, "100", "84"), ("12", None, "12", "10.08")],
+)  # fmt: skip
+def test_scores_are_in_the_points_of_the_platform(
+    points: str, asked: float | None, whole: str, score: str, tmp_path: Path
+) -> None:
+    """As the class list says, or as the instructor does; 0 to 100 stands beside it."""
+    roster = tmp_path / "class.csv"
+    roster.write_text(CANVAS_EXPORT.format(points=points if "," not in points else f'"{points}"'))
+    settings = Settings(roster=roster, assignment="Lab 3 (48151)", points=asked)
+    with gradebook(tmp_path, "topics") as book:
+        keep(book, settings)
+        book.write(graded("bergannalate_12_8_x", "rate", "figure", hz=1.0))
+        told = "\n".join(hand_out(book, TOPICS, tmp_path))
+    assert ("has no points in the class list" in told) == (points in ("", "0.00"))
+    assert "new column" not in told
+    canvas = [row["Lab 3 (48151)"] for row in cells(tmp_path / "canvas.csv")]
+    assert canvas == [whole, score]
+    assert [row["Grade"] for row in cells(tmp_path / "moodle.csv")] == [score, ""]
+    anna = cells(tmp_path / "grades.csv")[0]
+    assert (anna["final"], anna["points"], anna["of"]) == ("84", score, whole)
+
+
+def test_an_assignment_that_canvas_does_not_have_is_told(tmp_path: Path) -> None:
+    """With those that it has; Canvas would make another one without a word."""
+    (tmp_path / "class.csv").write_text(CANVAS_EXPORT.format(points="20.00"))
+    with gradebook(tmp_path, "topics") as book:
+        book.write(graded("bergannalate_12_8_x"))
+        for name, says in (("Lab 3", "No assignment is called 'Lab 3'"), ("", "was given")):
+            keep(book, Settings(roster=tmp_path / "class.csv", assignment=name))
+            told = "\n".join(hand_out(book, TOPICS, tmp_path))
+            assert says in told and "Lab 2 (7), Lab 3 (48151)" in told
+
+
+@pytest.mark.parametrize("points", ["0", "-1", "nan", "inf", "ten"])
+def test_points_that_are_none_are_refused(
+    points: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Before anything is run."""
+    with pytest.raises(SystemExit):
+        main(["grade", "topics", str(tmp_path), "--out", str(tmp_path / "o"), "--points", points])
+    assert "--points" in capsys.readouterr().err
+
+
+def test_a_refused_hand_in_is_told_whole_in_each_file(tmp_path: Path) -> None:
+    """The reason and what to do, in all its lines; a verdict of before does not stay."""
+    reason = "There is no ROS package in it.\nThese lie there:\n  a.pdf\n  b.pdf"
+    step = "Hand in the zip file\nthat pack makes."
+    roster = "name,id\nAnna Berg,s1001\n"
+    (tmp_path / "class.csv").write_text(roster)
+    with gradebook(tmp_path, "topics") as book:
+        keep(book, Settings(roster=tmp_path / "class.csv"))
+        book.write(graded("s1001"))
+        hand_out(book, TOPICS, tmp_path)
+        assert (tmp_path / "students/s1001/verdict.json").is_file()
+        again = refused("s1001", reason)
+        book.write(again.model_copy(update={"digest": "e", "next_step": step}))
+        hand_out(book, TOPICS, tmp_path)
+    whole = (
+        "There is no ROS package in it. These lie there: a.pdf, b.pdf"
+        " Hand in the zip file that pack makes."
+    )
+    (row,) = cells(tmp_path / "grades.csv")
+    assert (row["outcome"], row["final"], row["points"], row["reason"]) == (
+        "refused", "", "", whole,
+    )  # fmt: skip
+    assert cells(tmp_path / "moodle.csv")[0]["Feedback comments"] == whole
+    theirs = tmp_path / "students/s1001"
+    assert not (theirs / "verdict.json").exists()
+    for name in ("results.json", "junit.xml", "check50.json", "report.html"):
+        text = " ".join((theirs / name).read_text("utf-8").replace("\\n", " ").split())
+        assert "b.pdf" in text and "that pack makes." in text, name
 
 
 def test_many_who_handed_in_nothing_are_a_table(tmp_path: Path) -> None:
@@ -278,24 +385,50 @@ def test_an_override_needs_reason_score_and_submission(tmp_path: Path) -> None:
     with gradebook(tmp_path, "topics") as book:
         book.write(graded("anna"))
     with pytest.raises(BatchError, match="reason"):
-        override(tmp_path, "anna", 5, " ", None)
+        override(tmp_path, "anna", 5, " ", "tutor")
+    with pytest.raises(BatchError, match="somebody who gives it"):
+        override(tmp_path, "anna", 5, "x", " ")
     with pytest.raises(BatchError, match="no score"):
-        override(tmp_path, "anna", 101, "x", None)
+        override(tmp_path, "anna", 101, "x", "tutor")
     with pytest.raises(BatchError, match="anna"):
-        override(tmp_path, "ann", 5, "x", None)
+        override(tmp_path, "ann", 5, "x", "tutor")
     with pytest.raises(BatchError, match="no gradebook"):
-        override(tmp_path / "elsewhere", "anna", 5, "x", None)
+        override(tmp_path / "elsewhere", "anna", 5, "x", "tutor")
     with gradebook(tmp_path, "topics") as book:
         assert book.overrides() == {}
 
 
 def test_a_folder_name_leads_nowhere_else() -> None:
     """And two submissions never share one."""
-    names = ["anna", "../../etc", "a/b", "a b", "a_b", "\\xff", "." * 5, "ä" * 300, "ä" * 301]
+    names = ["anna", "../../etc", "a/b", "a b", "a_b", "\\xff", "." * 5, "ä" * 300, "ä" * 301,
+             "-rf", "~", ".git", "a:b", "a*", "a ", "\U0001f916" * 90, "<b>"]  # fmt: skip
     folders = [folder_name(name) for name in names]
     assert folders[0] == "anna"
     assert len(set(folders)) == len(names)
-    assert all(re.fullmatch(r"[\w-]{1,80}", folder, re.ASCII) for folder in folders)
+    assert all(re.fullmatch(r"\w[\w .,'()@+-]*\w", folder) for folder in folders)
+    assert max(len(folder.encode()) for folder in folders) < 255
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["Zoë Müller_17_assignsubmission_file", "Finn O'Neill_3_assignsubmission_file_", "Groß, Lea",
+     "李伟_9_assignsubmission_file", "lab-topics-annaberg", "v1.2 (3)", "a.berg@example.org"],
+)  # fmt: skip
+def test_a_folder_is_spelt_as_its_student(name: str) -> None:
+    """Letters of any language, and what names have between them."""
+    assert folder_name(name) == name
+    assert folder_name(unicodedata.normalize("NFD", "Zoë")).startswith("Zoë-")
+
+
+def test_a_folder_of_before_is_brought_over(tmp_path: Path) -> None:
+    """It is not left beside the new one."""
+    name = "Zoë Müller"
+    before = tmp_path / f"students/Zo_M_ller-{zlib.crc32(name.encode()):08x}"
+    before.mkdir(parents=True)
+    with gradebook(tmp_path, "topics") as book:
+        book.write(graded(name))
+        hand_out(book, TOPICS, tmp_path)
+    assert [each.name for each in (tmp_path / "students").iterdir()] == [name]
 
 
 # --- who is alike ------------------------------------------------------------------------------

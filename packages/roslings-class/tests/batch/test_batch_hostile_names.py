@@ -269,7 +269,7 @@ def test_unclear_is_shown_where_an_instructor_looks(tmp_path: Path) -> None:
     assert page.count("May be of Anna Berg, or of somebody called so.") >= 2
     assert "outcome unclear" in page and "column <code>submission</code>" in page
     with pytest.raises(BatchError, match=r"(?s)unclear which is of Anna Berg.*column `submission`"):
-        override(tmp_path, "Anna Berg", 50, "x", None)
+        override(tmp_path, "Anna Berg", 50, "x", "tutor")
 
 
 def test_the_instructors_word_decides(tmp_path: Path) -> None:

@@ -7,6 +7,7 @@ import os
 import subprocess
 import sys
 import unicodedata
+import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -94,4 +95,8 @@ def test_a_moodle_class_is_graded_by_one_command(download: Path, roster: Path) -
     with (place / "out/moodle.csv").open(encoding="utf-8", newline="") as file:
         grades = {row["Identifier"]: row["Grade"] for row in csv.DictReader(file)}
     assert [grades[f"Participant {101 + n}"] for n in range(30)] == ["100.00"] * PERFECT + [""] * 24
+    with zipfile.ZipFile(place / "out/moodle-feedback.zip") as archive:
+        folders = {unicodedata.normalize("NFC", name).split("/")[0] for name in archive.namelist()}
+    assert folders == {f"{name}_{number}{FILES}" for number, name in enumerate(NAMES, start=101)
+                       if name != "Ida Berg"} | {f"Ida Berg_109{TEXT}"}  # fmt: skip
     assert list((place / "tmp").iterdir()) == []

@@ -129,7 +129,8 @@ def test_what_a_person_says_goes_into_it(tmp_path: Path) -> None:
     assert (line.grade, line.feedback) == ("70.00", "tutor: it ran in class")
 
 
-GERMAN = 'ID,"Vollständiger Name",Bewertung,"Zuletzt geändert (Bewertung)"\n'
+CZECH = 'Identifikátor,"Celé jméno",Známka,"Naposledy změněno (známka)"\n'
+SCALE = PLAIN.replace("Maximum Grade", "Scale").replace("100.00", '"Pass or fail"')
 
 
 @pytest.mark.parametrize(
@@ -139,9 +140,10 @@ GERMAN = 'ID,"Vollständiger Name",Bewertung,"Zuletzt geändert (Bewertung)"\n'
          "Download grading worksheet"),
         (PLAIN.replace('"Last modified (grade)"', "Changed"), r"'Last modified \(grade\)'",
          "Download grading worksheet"),
-        (GERMAN + "Teilnehmer/in 101,Anna Berg,,-\nTeilnehmer/in 102,Ben Kaya,,-\n",
-         "another language", "in English"),
+        (CZECH + "Účastník101,Anna Berg,,-\nÚčastník102,Ben Kaya,,-\n",
+         "in a language that is not known", "headings.yaml"),
         (PLAIN.replace("100.00", "Pass or fail"), "not graded by points", "type Point"),
+        (SCALE, "its scale is 'Pass or fail'", "type Point"),
     ],
 )  # fmt: skip
 def test_what_moodle_would_refuse_is_told_before_anything_is_run(
@@ -166,6 +168,7 @@ def test_what_moodle_would_refuse_is_told_before_anything_is_run(
         "Student,ID,SIS User ID,SIS Login ID,Section\nBerg Anna,77,s1001,aberg,A\n",
         "identifier,github_username\ns1001,annaberg\n",
         "name\nStudent 1\nStudent 2\n",
+        "login,a,b,c\nstud1001,,,\nstud1002,,,\n",
         "id\nstud1001\nstud1002\n",
     ],
 )

@@ -22,6 +22,7 @@ from roslings.shapes import SHAPES
 from roslings.workspace.inspect import inspect_package
 from roslings_class.command import Choices, grade
 from roslings_class.dask_pool import _packed
+from roslings_class.folders import folder_name
 from roslings_class.gradebook import SCHEMA, gradebook
 from roslings_class.grading import packed, unpacked
 from roslings_class.regrade import override, regrade_all
@@ -29,7 +30,6 @@ from roslings_class.result import Result
 from roslings_class.scheduler import GradingRequest
 from roslings_class.signed_gradebook import take_key
 from roslings_class.signing import BYTES, FILE, BadKey, ClassKey, Origin
-from roslings_class.student_pages import folder_name
 from roslings_class.submissions import Submission, digest_of
 from roslings_class.worker_pool import Limits
 from roslings_launcher.cli import main

@@ -81,6 +81,7 @@ def test_each_answer_says_what_to_mend(shape: str, tmp_path: Path) -> None:
     told = written(shape, TOLD["fail"], tmp_path).replace("\\", "")
     assert "1.00 Hz: 12 messages" in told
     assert "There is no ROS package" in written(shape, MENDABLE, tmp_path)
+    assert "Hand in the zip." in written(shape, MENDABLE, tmp_path)
     assert "no fault of yours" in written(shape, MACHINES, tmp_path)
     assert "This is no grade" in written(shape, TOLD["inconclusive"], tmp_path)
 

@@ -17,7 +17,7 @@ from roslings.commands.options import (
 )
 
 if TYPE_CHECKING:
-    from roslings_class.grades import LateRule
+    from roslings_class.late_days import LateRule
 
 
 def add_options(word: argparse.ArgumentParser) -> None:
@@ -59,8 +59,10 @@ def roster_options(word: argparse.ArgumentParser) -> None:
         help="the class list, a CSV file with name, id, email; tells who is missing",
     )  # fmt: skip
     word.add_argument(
-        "--deadline", metavar="TIME", help="for example 2026-11-30T23:59; late days are counted"
-    )
+        "--deadline", metavar="TIME",
+        help="for example 2026-11-30T23:59, or '2026-11-30 23:59 Europe/Berlin'; late days are"
+        " counted, and times without a zone are read in this one",
+    )  # fmt: skip
     word.add_argument(
         "--late-points", metavar="P", type=float, default=0.0, help="what each day late costs"
     )
@@ -68,9 +70,30 @@ def roster_options(word: argparse.ArgumentParser) -> None:
         "--late-free", metavar="N", type=int, default=0, help="late days that cost nothing"
     )
     word.add_argument(
+        "--points", metavar="N", type=_points,
+        help="what the whole is worth on your platform (default: what its class list says, or 100)",
+    )  # fmt: skip
+    word.add_argument(
+        "--extensions", metavar="FILE", type=Path,
+        help="who has more time, a CSV file with name or id, and until",
+    )  # fmt: skip
+    word.add_argument(
+        "--times", metavar="FILE", type=Path, action="append", default=[],
+        help="when each was handed in: a CSV file with name or id, and submitted; GitHub"
+        " Classroom's grades; or Canvas's list of submissions (.json); may be given again",
+    )  # fmt: skip
+    word.add_argument(
         "--canvas-assignment", metavar="NAME", default="",
         help='the head of the column in canvas.csv, for example "Lab 3 (48151)"',
     )  # fmt: skip
+
+
+def _points(text: str) -> float:
+    """More than 0. Raises ValueError, which argparse tells."""
+    points = float(text.replace(",", "."))
+    if not 0 < points < 1e6:
+        raise ValueError
+    return points
 
 
 def run(options: argparse.Namespace) -> int:
@@ -82,7 +105,8 @@ def run(options: argparse.Namespace) -> int:
         trust=options.trust, clock=options.clock, limit_s=options.limit,
         roster=options.roster, rule=_late_rule(options), dask=options.dask,
         keeps_evidence=not options.dask or options.evidence, soak_s=options.soak,
-        assignment=options.canvas_assignment,
+        assignment=options.canvas_assignment, points=options.points,
+        extensions=options.extensions, times=tuple(options.times),
     )  # fmt: skip
     try:
         report = grade(choices)
@@ -94,17 +118,17 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _late_rule(options: argparse.Namespace) -> LateRule | None:
+    from roslings_class.clock_times import EXAMPLES, as_time, zone_of
     from roslings_class.errors import BatchError
-    from roslings_class.grades import LateRule
-    from roslings_class.submissions import as_time
+    from roslings_class.late_days import LateRule
 
     if not options.deadline:
         return None
     try:
-        deadline = as_time(options.deadline)
+        deadline, zone = as_time(options.deadline), zone_of(options.deadline)
     except ValueError:
         problem = f"{options.deadline!r} is no date and time."
-        raise BatchError(problem, "Write it as 2026-11-30T23:59.") from None
+        raise BatchError(problem, f"Write it as {EXAMPLES}.") from None
     return LateRule(
-        deadline=deadline, points_a_day=options.late_points, free_days=options.late_free
+        deadline=deadline, points_a_day=options.late_points, free_days=options.late_free, zone=zone
     )

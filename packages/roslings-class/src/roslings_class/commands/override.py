@@ -14,7 +14,9 @@ def add_options(word: argparse.ArgumentParser) -> None:
     word.add_argument("submission", metavar="SUBMISSION", help="its name, or the student's")
     word.add_argument("score", metavar="SCORE", type=float, help="0 to 100")
     word.add_argument("--reason", required=True, help="kept beside the score")
-    word.add_argument("--by", metavar="NAME", help="who says so (default: your user name)")
+    word.add_argument(
+        "--by", metavar="NAME", required=True, help="who says so; the student reads it"
+    )
 
 
 def run(options: argparse.Namespace) -> int:
