@@ -34,7 +34,10 @@ class CheckResult(Frozen):
         default=None, description="What was seen instead; of a check that passes: how long"
     )
     why: str | None = Field(default=None, description="Why it matters, or why it was not judged")
-    hint: str | None = Field(default=None, description="What to try next")
+    hint: str | None = Field(default=None, description="Where to look next")
+    mend: str | None = Field(
+        default=None, description="What mends it; shown with the last of the hints"
+    )
     fault: str | None = Field(default=None, description="The kind of fault, e.g. `WrongTopic`")
     lesson: str | None = Field(default=None, description="Anchor of the lesson's paragraph")
     log: tuple[str, ...] = Field(default=(), description="The node's last lines, where they help")

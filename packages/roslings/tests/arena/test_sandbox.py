@@ -337,10 +337,35 @@ def test_what_stands_in_for_packages_of_ros_is_there(sandbox: Sandbox) -> None:
         reader.open_uri("bag")
         print(reader.read_next()[::2], importlib.util.find_spec("roslings.course"))
     """
+    assert said_in(sandbox, source) == ["('/heard', 1) None"]
+
+
+def test_frames_are_looked_up_there(sandbox: Sandbox) -> None:
+    """By `tf2_ros` and what goes with it, as outside."""
+    source = """
+        import tf2_geometry_msgs, tf2_ros
+        from geometry_msgs.msg import PointStamped, TransformStamped
+        from tf_transformations import euler_from_quaternion, quaternion_from_euler
+        step = TransformStamped(child_frame_id="laser")
+        step.header.frame_id = "base_link"
+        turn = step.transform.rotation
+        turn.x, turn.y, turn.z, turn.w = quaternion_from_euler(0, 0, 1.5)
+        buffer = tf2_ros.Buffer()
+        buffer.set_transform_static(step, "it")
+        point = PointStamped()
+        point.header.frame_id = "laser"
+        print(buffer.transform(point, "base_link").header.frame_id)
+        print(round(euler_from_quaternion((turn.x, turn.y, turn.z, turn.w))[2], 3))
+    """
+    assert said_in(sandbox, source) == ["base_link", "1.5"]
+
+
+def said_in(sandbox: Sandbox, source: str) -> list[str]:
+    """What a program prints there, line by line."""
     assert sandbox.home
     environment = base_environment(sandbox.home)
     command = [sys.executable, "-c", textwrap.dedent(source)]
     launch = Launch(command, environment, sandbox.home, namespaces=True, sandbox=sandbox)
     with Process("it", launch) as process:
         assert process.wait_ended(LONG_S)
-    assert [line.text for line in process.seen.lines] == ["('/heard', 1) None"]
+    return [line.text for line in process.seen.lines]

@@ -29,7 +29,7 @@ from kills_of_old import read_kills
 
 HERE = Path(__file__).parent
 LABS = tuple(sorted(folder.name for folder in (HERE / "schema1").iterdir()))
-TOLD = {"id", "outcome", "points", "expected", "measured", "why", "hint", "fault", "log"}
+TOLD = {"id", "outcome", "points", "expected", "measured", "why", "hint", "mend", "fault", "log"}
 """What judging says of a check. Titles and the three hints are the course's texts."""
 
 Words = dict[str, list[dict[str, Any]]]

@@ -54,7 +54,7 @@ def test_a_python_launch_file_that_misses_a_node(tmp_path: Path) -> None:
     """The hint speaks Python, too."""
     with pytest.raises(LaunchMissesNode) as caught:
         view_of(tmp_path, PYTHON.replace(', "right"', ",")).must(BOTH)
-    assert "Node(package=..., executable=...)" in caught.value.hint
+    assert "Node(package=..., executable=...)" in caught.value.mend
 
 
 @pytest.mark.slow

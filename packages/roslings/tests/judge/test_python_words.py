@@ -11,7 +11,7 @@ import pytest
 
 from ros2_on_pip.near_names import nearest
 from roslings.judge.faults.files import SyntaxErrorInCode
-from roslings.judge.faults.python_words import hint_for
+from roslings.judge.faults.python_words import hint_for, mend_for
 from roslings.workspace import code
 
 LAUNCHER = """\
@@ -73,23 +73,25 @@ def test_an_entry_point(tmp_path: Path, target: str, hint: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("words", "hint"),
+    ("words", "hint", "mend"),
     [
-        ("node.create_timer(0.1, tell())", "the function itself: self.tell"),
-        ("node.create_subscription(String, 'x', tell(), 10)", "the function itself: self.tell"),
-        ("node.declare_parameter('period_s', 1)", "Write the default with a point: 1.0"),
-        ("node.create_publisher(String, 'x')", "wants three things"),
-        ("node.create_publisher(String, 'x', 10).publish('hello')", "message = String()"),
-        ("node.create_timer(0.1, lambda: 1 / 0)", ""),
+        ("node.create_timer(0.1, tell())", "want a function", "the function itself: self.tell"),
+        ("node.create_subscription(String, 'x', tell(), 10)", "want a function", "self.tell"),
+        ("node.declare_parameter('period_s', 1)", "a whole number", "with a point: 1.0"),
+        ("node.create_publisher(String, 'x')", "wants three things", "a number such as 10"),
+        ("node.create_publisher(String, 'x', 10).publish('hi')", "got a text", "= String()"),
+        ("node.create_timer(0.1, lambda: 1 / 0)", "", ""),
     ],
 )
-def test_a_call_of_rclpy(tmp_path: Path, words: str, hint: str) -> None:
-    """The mistake is named, and how the call is written."""
+def test_a_call_of_rclpy(tmp_path: Path, words: str, hint: str, mend: str) -> None:
+    """The mistake is named; how the call is written comes with the last hint."""
     file = tmp_path / "node.py"
     file.write_text(NODE.format(code=words), "utf-8")
-    found = hint_for(said_by(file, "--ros-args", "-p", "period_s:=2.0"))
-    assert hint in found
-    assert bool(hint) == bool(found)
+    log = said_by(file, "--ros-args", "-p", "period_s:=2.0")
+    found = hint_for(log)
+    assert hint in found and mend in mend_for(log)
+    assert bool(hint) == bool(found) == bool(mend_for(log))
+    assert not mend or mend not in found
 
 
 @pytest.mark.parametrize(
@@ -108,7 +110,8 @@ def test_a_callback_that_was_called_and_failed(line: str, named: bool) -> None:
         'File ".../talker.py", line 21, in tell', "  message.data = self.count",
         "AttributeError: 'Talker' object has no attribute 'count'",
     ]  # fmt: skip
-    assert ("the function itself: self.tell" in hint_for(log)) == named
+    assert ("want a function" in hint_for(log)) == named
+    assert ("the function itself: self.tell" in mend_for(log)) == named
 
 
 @pytest.mark.parametrize(

@@ -16,7 +16,7 @@ from written_verdicts import HINTS, TOO_SLOW, failing, left_open, too_slow, verd
 
 from ros2_on_pip.rates import measure_rate
 from roslings.evidence import Evidence, ExperimentSeen, LogLine, Qos, Segment, Spoken, Tick
-from roslings.report.html import Asked, Own, html_of
+from roslings.report.html import Asked, OfClass, Own, html_of
 from roslings.report.html.interval_plot import BOTTOM, TOP, interval_plot
 from roslings.report.html.intervals import watched
 from roslings.report.html.markup import prose, tag
@@ -96,7 +96,7 @@ def test_what_a_student_writes_is_text_and_nothing_else() -> None:
     seen.processes[EVIL] = process(EVIL, EVIL)
     bad = evidence(seen, talking([]).model_copy(update={"name": EVIL}), package=EVIL)
     bad.attempts, bad.advice = [seen], [EVIL]
-    words = {name: EVIL for name in ("expected", "measured", "why", "hint", "lesson")}
+    words = {name: EVIL for name in ("expected", "measured", "why", "hint", "mend", "lesson")}
     failed = failing("rate", log=(EVIL,), hints=(EVIL,) * 3, **words)
     text = html_of(verdict(failed, advice=(EVIL,)), bad, ASKED)
     found = Page(text)
@@ -115,6 +115,8 @@ def test_a_failure_says_all_that_the_verdict_says() -> None:
     assert all(hint in found.text for hint in HINTS)
     passed_and_colcon = 2
     assert found.tags["details"] == len(HINTS) + passed_and_colcon
+    mended = page(evidence(), verdict(failing("rate", **TOO_SLOW, mend="Take 0.5 s.")))
+    assert "What mends it" in mended.text and "Take 0.5 s." in mended.text
 
 
 def test_the_page_says_what_is_next() -> None:
@@ -132,7 +134,17 @@ def test_what_to_read_is_a_link_where_the_site_is_built() -> None:
     linked = html_of(too_slow(), seen, ASKED, Own(typed, "file:///site"))
     assert re.search(r'<a href="file:///site/days/[\w-]+/index.html#[\w-]+">days/', linked)
     assert "./roslings check topics ~/mine" in linked
-    assert "<a " not in html_of(too_slow(), seen, ASKED, Own(typed))
+    plain = html_of(too_slow(), seen, ASKED, Own(typed))
+    assert "<a " not in plain and "in the lesson that ./roslings lab 3 opens" in Page(plain).text
+
+
+def test_a_page_of_a_class_stands_alone() -> None:
+    """It names its student, and what counts besides; it leads to no page of the others."""
+    seen = evidence(talking(messages(steady(0.5, 12))))
+    text = html_of(verdict(), seen, ASKED, OfClass("Zoë <b>", "88 of 100 count, by tutor: <i>"))
+    assert "<b>Zoë &lt;b&gt;</b>" in text and "<b>88 of 100 count, by tutor: &lt;i&gt;</b>" in text
+    assert "href=" not in text
+    assert "count, by" not in html_of(verdict(), seen, ASKED, OfClass("Zoë"))
 
 
 def test_a_rate_that_failed_has_its_plot_in_its_card() -> None:
@@ -278,7 +290,10 @@ def test_a_misspelt_topic_is_shown_beside_what_was_asked() -> None:
 def test_a_topic_that_nobody_heard_is_named() -> None:
     """It stands in the graph and in the list."""
     found = page(evidence(talking([])))
-    assert "/chatter (std_msgs/msg/String) in talking: no message came" in found.text
+    assert "/chatter (std_msgs/msg/String) in talking" in found.text
+    assert "No message came on these topics" in found.text
+    heard = page(evidence(talking(messages(steady(0.5, 12)))))
+    assert "No message came" not in heard.text
 
 
 def test_the_graph_has_its_picture_and_its_words() -> None:
@@ -309,7 +324,16 @@ def test_a_run_that_was_made_again_is_told() -> None:
     """With its reason."""
     seen = evidence(talking(messages(steady(0.5, 12))))
     seen.attempts = [talking([]).model_copy(update={"clock": "sim", "not_believed": "it slept"})]
-    assert "talking, in simulated time: it slept" in page(seen).text
+    text = page(seen).text
+    assert "talking, in simulated time: it slept" in text and "That costs no points." in text
+    assert "once more" not in page(evidence()).text
+
+
+def test_the_jitter_is_explained() -> None:
+    """Beside the number; where there is none, there is nothing to explain."""
+    told = "The jitter is the standard deviation of the periods"
+    assert told in page(evidence(talking(messages(steady(0.5, 12))))).text
+    assert told not in page(evidence(talking([]))).text
 
 
 def test_a_long_log_shows_both_ends() -> None:

@@ -12,6 +12,7 @@ import time
 import pytest
 from rich.console import Console
 
+from roslings.commands.check import READY, began_ns
 from roslings.evidence import Part, Span
 from roslings.report.timings import print_timings
 from roslings.timeline import FIRST, noted, process_began_ns, shares_s
@@ -64,6 +65,17 @@ def test_a_process_knows_when_it_began() -> None:
     tick_ns = S // os.sysconf("SC_CLK_TCK")
     assert before_ns - 2 * tick_ns <= int(done.stdout) <= time.monotonic_ns()
     assert process_began_ns() < before_ns
+
+
+def test_what_was_installed_before_is_no_part_of_a_check() -> None:
+    """A process that waited for an installation counts from its end; a later one, from its own."""
+    now_ns, uptime_s = time.monotonic_ns(), time.clock_gettime(time.CLOCK_BOOTTIME)
+    began = began_ns({READY: f"{uptime_s - 0.01:.2f}"})  # as the kernel, which rounds down
+    assert process_began_ns() < began <= time.monotonic_ns()
+    assert abs(began - now_ns) < 10 * S
+    for written in ("1.00", "", "soon", "inf", "nan"):
+        assert abs(began_ns({READY: written}) - process_began_ns()) < S / 2
+    assert abs(began_ns({}) - process_began_ns()) < S / 2
 
 
 def test_the_table_has_a_row_for_each_part_and_their_sum() -> None:

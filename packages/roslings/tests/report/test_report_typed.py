@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import io
+from dataclasses import replace
 
 import pytest
 import written_verdicts as written
 from rich.console import Console
 
 from roslings.report import print_verdict
+from roslings.report.html.verdict_part import head
 from roslings.report.typed import Typed
 from roslings.verdict import Verdict
 
@@ -45,6 +47,20 @@ def test_pack_takes_the_path_and_no_option() -> None:
     assert (
         "hand in: roslings pack topics 'my ws/chatter' Then go on with the course: roslings" in text
     )
+
+
+def test_nobody_hands_in_what_only_shows_a_check() -> None:
+    """The example of the first page: the course goes on, in the terminal and on the page."""
+    example = replace(TYPED, handed_in=False)
+    console = Console(width=80, record=True, file=io.StringIO())
+    print_verdict(written.full_score(), console=console, typed=example)
+    text = " ".join(console.export_text().split())
+    assert "Next Go on with the course: roslings" in text
+    assert "pack" not in text.partition("Next")[2]
+    assert "`pack`" not in text
+    page = head(written.full_score(), example)
+    assert "Go on with the course:" in page and "roslings pack" not in page
+    assert "roslings pack" in head(written.full_score(), TYPED)
 
 
 def test_a_command_in_a_fault_is_typed_alike() -> None:

@@ -97,11 +97,31 @@ def test_what_tools_write_is_not_told(watcher: Watcher) -> None:
         "chatter/talker.py~",
         "chatter/#talker.py#",
         "chatter/talker.py___jb_tmp___",
+        "chatter/talker.py.tmp",
+        "chatter/talker.py.tmp.4711.1700000000",
+        "chatter/.talker.py.swo",
+        "chatter/talker.py.bck",
+        "chatter/talker.py.aB3dEf",
+        "chatter/talker.py.sb-1f2e3d4c-Xy12ab",
+        "chatter/.#talker.py",
+        "chatter/flycheck_talker.py",
+        "chatter/talker_flymake.py",
+        "chatter/sedQx81Zz",
+        "chatter/talker.py.yours2",
     ):
         (watcher.folder / name).parent.mkdir(parents=True, exist_ok=True)
         (watcher.folder / name).write_text("made")
     (watcher.folder / "setup.py").write_text("x")
     assert watcher.until("setup.py") == {"setup.py"}
+
+
+@pytest.mark.parametrize(
+    "name", ["rover.launch.py", "rover.urdf.xacro", "template.py", "sediment.py", "old.py"]
+)
+def test_a_name_that_looks_like_an_editors_is_told(watcher: Watcher, name: str) -> None:
+    """It is the student's own."""
+    (watcher.folder / name).write_text("x")
+    assert name in watcher.until(name)
 
 
 def test_new_and_removed_files_are_told(watcher: Watcher) -> None:

@@ -7,7 +7,7 @@ from typing import Any
 
 from roslings.evidence import UnreadablePart
 from roslings.judge.faults import Fault, Inconclusive, NothingToJudge, Unmet
-from roslings.judge.faults.python_words import hint_for
+from roslings.judge.faults.python_words import hint_for, mend_for
 from roslings.judge.remarks import remarks
 
 
@@ -24,6 +24,7 @@ def words_for(error: BaseException | None, title: str) -> dict[str, Any]:
             "measured": error.measured,
             "why": error.why,
             "hint": hint_for(error.log) or error.hint,
+            "mend": (mend_for(error.log) if hint_for(error.log) else error.mend) or None,
             "fault": type(error).__name__,
             "log": error.log,
         }

@@ -65,11 +65,12 @@ def put_details(page: Page, check: CheckResult, package: str) -> None:
         "measured": check.measured,
         "why": check.why,
         "try": check.hint,
-        "read": check.lesson,
     }
     for label, text in parts.items():
         if text:
             page.labelled(label, page.typed.told(text), indent=INDENT)
+    if check.lesson:
+        page.lesson("read", check.lesson, indent=INDENT)
     _put_log(page, check.log, package)
 
 

@@ -46,13 +46,15 @@ def _put_step(page: Page, verdict: Verdict, check: CheckResult, step: int) -> No
     else:
         page.line(f"Hint {step} of {len(check.hints)}: {STEPS[step - 1]}", "bold")
         page.text(page.typed.told(check.hints[step - 1]), indent=INDENT)
+    if check.mend and step >= len(check.hints):
+        page.labelled("mend", page.typed.told(check.mend), indent=INDENT)
     page.blank()
     _put_after(page, verdict, check, step)
 
 
 def _put_after(page: Page, verdict: Verdict, check: CheckResult, step: int) -> None:
     if check.lesson:
-        page.labelled("Read", check.lesson)
+        page.lesson("Read", check.lesson)
     if step < len(check.hints):
         page.command("More", "The next hint:", hint_command(page.typed, verdict, check, step + 1))
     page.command("Next", "Mend it, then check again:", page.typed.check())

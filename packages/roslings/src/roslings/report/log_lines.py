@@ -32,7 +32,7 @@ def helpful(lines: Sequence[str], package: str, at_most: int) -> list[str]:
     )
     if len(kept) > at_most or any(_is_own(line, package) for line in kept):
         kept = _without_frames(kept, lambda line: _is_library(line, package))
-    installed = re.compile(rf'(File ")[^"]*/site-packages/(?={re.escape(package)}/)')
+    installed = re.compile(rf'(File ")[^"]*/(?:site-packages|share)/(?={re.escape(package)}/)')
     return [installed.sub(r"\1.../", line) for line in kept[-at_most:]]
 
 

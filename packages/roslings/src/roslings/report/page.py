@@ -12,6 +12,7 @@ from rich.padding import Padding
 from rich.panel import Panel
 from rich.text import Text
 
+from roslings.report.lesson_link import link_of
 from roslings.report.safe_text import can_show, cut_to, filled, harmless, in_encoding, wrapped
 from roslings.report.typed import Typed
 
@@ -82,6 +83,11 @@ class Page:
         room = self.width - len(head)
         lines = self._bounded(text, room, LONGEST_TEXT_LINES, keep_newlines=True)
         self._beside(head, lines, "bold", style)
+
+    def lesson(self, label: str, lesson: str, *, indent: int = 0) -> None:
+        """Where a lesson tells of it; a terminal that can opens it at a click."""
+        link = link_of(lesson)
+        self.labelled(label, lesson, indent=indent, style=f"link {link}" if link else "")
 
     def command(self, label: str, text: str, command: str) -> None:
         """A label, a sentence, and what to type, which no line break comes into."""

@@ -189,6 +189,9 @@ def _put_next(page: Page, verdict: Verdict) -> None:
 
 def _put_praise(page: Page, verdict: Verdict) -> None:
     page.labelled("", f"Well done: {verdict.package} does all that this lab asks for.")
+    if not page.typed.handed_in:
+        page.command("Next", "Go on with the course:", page.typed.program)
+        return
     if not verdict.soak_s:
         page.labelled("", UNSOAKED)
     page.command("Next", "Make the file to hand in:", page.typed.pack)

@@ -15,6 +15,8 @@ class Typed:
     """Where the package lies, if it was named."""
     options: tuple[str, ...] = ()
     """What else decides what is checked, for example `--port /dev/ttyACM0`."""
+    handed_in: bool = True
+    """Somebody wants to have the package; nobody wants what only shows how a check works."""
 
     def check(self, *more: str) -> str:
         """`./roslings check LAB PATH`, then `more`."""

@@ -210,7 +210,7 @@ def test_an_impossible_goal_is_named_with_its_nan() -> None:
     with pytest.raises(faults.AcceptsImpossible) as fault:
         flight(read_back).must(refuse_each(NODE, {"first": "x is no number"}))
     assert "x: nan" in fault.value.expected
-    assert "isfinite" in fault.value.hint
+    assert "isfinite" in fault.value.mend
     flight(goal(accepted=False)).must(refuse_each(NODE, {"first": "x is no number"}))
 
 
@@ -265,7 +265,7 @@ def test_an_error_in_the_execute_function_is_shown() -> None:
     line = "Error raised in execute callback: no attribute 'publish_feedback'"
     with pytest.raises(faults.ExecuteFailed) as fault:
         flight(goal(status="aborted"), lines=(line,)).must(arrives)
-    assert "goal_handle.publish_feedback" in fault.value.hint
+    assert "goal_handle.publish_feedback" in fault.value.mend
 
 
 def test_a_state_that_nobody_set_is_told_from_a_wrong_one() -> None:
@@ -364,5 +364,5 @@ def test_a_loop_without_a_pause_is_told_on_any_computer() -> None:
     with pytest.raises(faults.NeverRests) as fault:
         turning(800.0).must(demand)
     assert fault.value.measured == "800 times a second: the loop never waits"
-    assert "time.sleep(0.1)" in fault.value.hint
+    assert "time.sleep(0.1)" in fault.value.mend
     turning(20.0).must(demand)

@@ -157,7 +157,7 @@ def test_a_section_of_the_node_is_told_where_only_it_has_won() -> None:
     named.must(every)
     with pytest.raises(faults.SectionOfTheNodeWins, match="in its section /right/it") as caught:
         named.must(own)
-    assert "name=..." in caught.value.hint
+    assert "name=..." in caught.value.mend
     with pytest.raises(faults.ArgumentIgnored) as nobody:
         view(launch=launch, read={"/left/it": quiet, "/right/it": quiet}).must(every)
     assert type(nobody.value) is faults.ArgumentIgnored

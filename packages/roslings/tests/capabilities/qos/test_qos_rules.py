@@ -131,8 +131,8 @@ def test_a_subscription_is_told_what_it_asks_for() -> None:
         demands.ask_for(asked)(view(graph=end("subscription")))
     assert fault.value.expected == "on /motors the node asks for a lease of 2 s"
     assert fault.value.measured == "it asks for none"
-    assert "create_subscription(...) for /motors" in fault.value.hint
-    assert "liveliness_lease_duration=Duration(seconds=2.0)" in fault.value.hint
+    assert "create_subscription(...) for /motors" in fault.value.mend
+    assert "liveliness_lease_duration=Duration(seconds=2.0)" in fault.value.mend
 
 
 def test_a_topic_that_is_not_there_offers_nothing() -> None:

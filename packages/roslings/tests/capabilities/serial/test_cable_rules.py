@@ -76,7 +76,7 @@ def test_a_way_is_told_in_words() -> None:
     fault = WrongOdometry("arc", (0.3, -0.3, -90.0), (-0.3, -0.3, -90.0))
     assert fault.expected.endswith("0.30 m ahead, 0.30 m right, turned 90 degrees right")
     assert fault.measured == "/odom says 0.30 m back, 0.30 m right, turned 90 degrees right"
-    assert "its direction is not" in fault.hint
+    assert "its direction is not" in fault.mend
     assert WrongOdometry("x", (1.0, 0.0, 0.0), (2.0, 0.0, 0.0)).measured.endswith("not turned")
 
 

@@ -24,6 +24,10 @@ class NoAction(Fault):
     why = "Without an action server nobody takes a goal."
     expected = "a node that performs {action}"
     hint = (
+        "Does your class make an action server in __init__? `ros2 action list` tells, while "
+        "the node runs."
+    )
+    mend = (
         "Create ActionServer(self, TYPE, NAME, FUNCTION) in __init__ of your class, and keep it in"
         " self. Check with `ros2 action list` while the node runs."
     )
@@ -110,7 +114,8 @@ class RefusesGoodGoal(Fault):
 class AnswersNothing(RefusesGoodGoal):
     """The goal callback returns nothing, which ROS takes for a refusal."""
 
-    hint = (
+    hint = "What does the goal callback give back, on each way through it?"
+    mend = (
         "Let the goal callback end with `return GoalResponse.ACCEPT`, on each way through it"
         " that is to accept. Without a return it gives back None."
     )
@@ -139,8 +144,12 @@ class AcceptsImpossible(Fault):
     expected = "the goal {goal} is refused: {because}"
     measured = "it was accepted"
 
+    hint = (
+        "Which line of the goal callback should refuse this goal? Go through it with these numbers."
+    )
+
     @property
-    def hint(self) -> str:
+    def mend(self) -> str:
         """The trap of nan."""
         if "nan" in self.goal:
             return (
@@ -167,6 +176,10 @@ class BlocksTheNode(Fault):
         " hears nothing: not where the rover is, and no request to cancel."
     )
     hint = (
+        "While the execute callback works, who runs the other callbacks of the node? Look at "
+        "how main() spins."
+    )
+    mend = (
         "Give the node several threads:"
         " rclpy.spin(node, executor=MultiThreadedExecutor(num_threads=4)). The threads are what"
         " counts: a callback group alone changes nothing."
@@ -187,8 +200,10 @@ class ExecuteFailed(Fault):
     expected = "the execute callback runs to its end"
     measured = "it raised an error: {error}"
 
+    hint = "The lines below show the place: the last one names the error."
+
     @property
-    def hint(self) -> str:
+    def mend(self) -> str:
         """Where to look."""
         if "publish_feedback" in self.error:
             return (
@@ -204,7 +219,8 @@ class NoFeedback(Fault):
 
     seconds: float
     why = "Who waits for a robot wants to see that it gets on."
-    hint = (
+    hint = "What becomes of the feedback in each turn of the loop? Look at the execute callback."
+    mend = (
         "In the loop of the execute callback: fill TYPE.Feedback(), and call"
         " goal_handle.publish_feedback(feedback)."
     )
@@ -223,13 +239,15 @@ class WrongFeedbackRate(Fault):
         " way"
     )
 
+    hint = "How long does one turn of the loop take? Look at what waits in it."
+
     @property
     def measured(self) -> str:
         """The rate, or the shape of the intervals."""
         return self.rhythm.measured
 
     @property
-    def hint(self) -> str:
+    def mend(self) -> str:
         """The length of a turn."""
         period_s = 1 / self.rhythm.wanted_hz
         return (
@@ -252,8 +270,10 @@ class NeverRests(Fault):
     expected = "feedback at {wanted_hz:g} Hz: the loop waits in each turn"
     measured = "{hz:.0f} times a second: the loop never waits"
 
+    hint = "What makes the loop of the execute callback wait, once in each turn?"
+
     @property
-    def hint(self) -> str:
+    def mend(self) -> str:
         """The missing line."""
         period_s = 1 / self.wanted_hz
         return (
@@ -273,14 +293,15 @@ class WrongFeedback(Fault):
     expected = "feedback.{field_name} tells the truth: {wanted}"
     measured = "it says {found}"
 
+    hint = (
+        "Look at `feedback.{field_name} = ...`. Does it get the right value, from the newest "
+        "/odom message?"
+    )
+
     @property
-    def hint(self) -> str:
+    def mend(self) -> str:
         """Where it is set."""
-        way = " It is math.hypot(goal.x - x, goal.y - y)." if self.field_name == "distance" else ""
-        return (
-            f"Look at `feedback.{self.field_name} = ...`. Does it get the right value, from the"
-            f" newest /odom message?{way}"
-        )
+        return "It is math.hypot(goal.x - x, goal.y - y)." if self.field_name == "distance" else ""
 
 
 @dataclass(eq=False)
@@ -328,13 +349,23 @@ class NeverArrives(Fault):
             )
         if self.nearest_m > self.began_m - NEARER_M:
             return (
-                "It does not come nearer. The direction to the goal is atan2(goal.y - y, goal.x -"
-                " x), with x and y of the newest place. Watch it on the map of `./roslings rover`."
+                "It does not come nearer. Watch it on the map of `./roslings rover`: in which"
+                " direction does it drive, and in which one is the goal?"
             )
         return (
             "Watch it on the map of `./roslings rover`. Does the loop use the newest place each"
-            " time, and does it end where the distance is within goal.tolerance?"
+            " time, and when does it end?"
         )
+
+    @property
+    def mend(self) -> str:
+        """The direction, or the end."""
+        if self.moved and self.nearest_m > self.began_m - NEARER_M:
+            return (
+                "The direction to the goal is atan2(goal.y - y, goal.x - x), with x and y of the"
+                " newest place."
+            )
+        return "The loop ends where the distance is within goal.tolerance." if self.moved else ""
 
 
 @dataclass(eq=False)
@@ -345,7 +376,8 @@ class EndsTooFar(Fault):
     tolerance_m: float
     found_m: float
     why = "Who gave the goal believes that the rover is there, and goes on from there."
-    hint = (
+    hint = "When does your loop end? Compare its condition with what the goal asks for."
+    mend = (
         "Compare the distance with goal_handle.request.tolerance, not with a number of your own,"
         " and end the loop only where it is smaller."
     )
@@ -361,7 +393,8 @@ class KeepsDriving(Fault):
     speed_m_s: float
     turn_rad_s: float
     why = "A robot does what it was told last. Without a last command of zero it drives on."
-    hint = (
+    hint = "What is the last command on /cmd_vel? Look at each way out of the loop."
+    mend = (
         "After the loop, on each way out of it, publish an empty Twist(): all its speeds are zero."
     )
     expected = "{when}, the last command is zero: stand still"
@@ -380,7 +413,8 @@ class StopsLate(Fault):
     limit_s: float
     found_s: float
     why = "Perhaps a child stands in the robot's way. Then each tenth of a second counts."
-    hint = "Look at goal_handle.is_cancel_requested in each turn of the loop, and sleep shortly."
+    hint = "How often does your loop look whether it is to stop?"
+    mend = "Look at goal_handle.is_cancel_requested in each turn of the loop, and sleep shortly."
     expected = "the rover is told to stand still within {limit_s:g} s of the cancel"
     measured = "that took {found_s:.2f} s"
 
@@ -396,8 +430,10 @@ class WrongEnd(Fault):
     expected = "{when}, the goal's state is {wanted!r}"
     measured = "it is {found!r}"
 
+    hint = "Which call says how the goal has ended? Look at this way through the function."
+
     @property
-    def hint(self) -> str:
+    def mend(self) -> str:
         """The call that sets it."""
         call = {"succeeded": "succeed", "canceled": "canceled", "aborted": "abort"}[self.wanted]
         return (
@@ -418,7 +454,8 @@ class NoResult(Fault):
     """The execute callback has ended, and the result did not come."""
 
     why = "Who waits for the result waits for ever."
-    hint = (
+    hint = "What does the execute callback give back, on each way through it?"
+    mend = (
         "The execute callback must end with `return result`, where result = TYPE.Result(). Without"
         " a return it gives back None, and ROS cannot send that."
     )
@@ -438,15 +475,17 @@ class WrongResult(Fault):
     expected = "{when}, result.{field_name} is {wanted}"
     measured = "it is {found}"
 
+    hint = "Look at `result.{field_name} = ...`, on each way through the function."
+
     @property
-    def hint(self) -> str:
-        """Where it is set."""
-        if self.field_name == "elapsed":
-            return (
-                "Note time.monotonic() at the start of the execute callback. At the end, subtract"
-                " it from the new one: seconds."
-            )
-        return f"Look at `result.{self.field_name} = ...`, on each way through the function."
+    def mend(self) -> str:
+        """How long it took."""
+        if self.field_name != "elapsed":
+            return ""
+        return (
+            "Note time.monotonic() at the start of the execute callback. At the end, subtract"
+            " it from the new one: seconds."
+        )
 
 
 # --- cancel ------------------------------------------------------------------------------------
@@ -458,6 +497,10 @@ class CancelRefused(Fault):
 
     why = "Who cannot cancel must wait, or pull the plug."
     hint = (
+        "Who answers a request to cancel? Look at what ActionServer(...) gets, and what that "
+        "function returns."
+    )
+    mend = (
         "ROS refuses each cancel where ActionServer(...) has no cancel_callback=FUNCTION, and where"
         " that function ends without `return CancelResponse.ACCEPT`. Which is it?"
     )
@@ -480,7 +523,8 @@ class GoesOnAfterCancel(Fault):
 
     waited_s: float
     why = "Accepting a cancel is a promise. The execute callback must keep it."
-    hint = (
+    hint = "ROS does not stop your loop. Where does the loop learn that somebody has cancelled?"
+    mend = (
         "ROS does not stop your loop. In each turn, look at goal_handle.is_cancel_requested; where"
         " it is True, leave the loop and call goal_handle.canceled()."
     )
@@ -495,7 +539,8 @@ class CancelsLate(Fault):
     limit_s: float
     found_s: float
     why = "Perhaps a child stands in the robot's way. Then each tenth of a second counts."
-    hint = (
+    hint = "How long does one turn of the loop take, and where in it do you look for a cancel?"
+    mend = (
         "Look at goal_handle.is_cancel_requested in each turn of the loop. Let a turn take 0.1 s,"
         " and do not sleep in the cancel callback."
     )
@@ -511,7 +556,8 @@ class TakesSecondGoal(Fault):
     """A second goal is accepted while the first is under way."""
 
     why = "Two loops then drive one rover, each to another place."
-    hint = (
+    hint = "How does the goal callback know that the rover has work already?"
+    mend = (
         "Note in the goal callback that the rover has work (self.busy = True), and refuse a goal"
         " while it has."
     )
@@ -525,7 +571,8 @@ class FirstGoalDisturbed(Fault):
 
     found: str
     why = "A goal that was refused must not change anything."
-    hint = "Let the goal callback change nothing where it returns GoalResponse.REJECT."
+    hint = "What does the goal callback change before it refuses a goal?"
+    mend = "Let the goal callback change nothing where it returns GoalResponse.REJECT."
     expected = "after another goal was refused, the first one goes on, and the rover gets there"
 
     @property
@@ -580,7 +627,8 @@ class SentAnotherGoal(Fault):
         " a goal with {field_name} {wanted}"
     )
     measured = "the goal had {field_name} {found}"
-    hint = (
+    hint = "Where does the value of goal.{field_name} come from? Look at the line that fills it."
+    mend = (
         "Declare the parameter '{field_name}' in __init__, and set goal.{field_name} ="
         " self.get_parameter('{field_name}').value"
     )
@@ -594,6 +642,6 @@ class GoalSentAgain(Fault):
     action: str
     count: int
     why = "A second goal is another journey: the server refuses it, or the rover drives twice."
-    hint = "Call send_goal_async(goal) once. Is it in a loop, or in a timer that goes on?"
+    hint = "How often is send_goal_async(goal) reached? Look for a loop, or a timer that goes on."
     expected = "{executable} sends one goal to {action}"
     measured = "it sent {count} goals"

@@ -109,7 +109,8 @@ class UnknownTopicTold(Fault):
     was_seen = True
     why = "Who looks for a fault must be able to rely on what is there."
     measured = "it tells of {topic}, which the bag does not have"
-    hint = "get_all_topics_and_types() of the reader gives the topics of this bag."
+    hint = "Where does your code take the names of the topics from?"
+    mend = "get_all_topics_and_types() of the reader gives the topics of this bag."
 
     @property
     def expected(self) -> str:
@@ -159,7 +160,8 @@ class NoGap(Fault):
     was_seen = True
     why = "A warning that comes for nothing is soon read by nobody."
     expected = "a line for each time of more than {limit:g} usual periods, and no other"
-    hint = "Compare each time with the usual period (median) of its own topic, times {limit:g}."
+    hint = "Which period does your code compare this time with?"
+    mend = "Compare each time with the usual period (median) of its own topic, times {limit:g}."
 
     @property
     def measured(self) -> str:

@@ -35,13 +35,15 @@ class LaunchMissesNode(LaunchFailed):
     found: tuple[str, ...]
     expected = "`{command}` starts {missing}"
 
+    hint = "Compare the launch file with the card, node by node. Which one is missing?"
+
     @property
     def measured(self) -> str:  # type: ignore[override]
         """The nodes that are there."""
         return f"the nodes are: {', '.join(self.found) or 'none'}"
 
     @property
-    def hint(self) -> str:  # type: ignore[override]
+    def mend(self) -> str:
         """What to compare."""
         line = "<node pkg=... exec=.../>"
         word = "exec"
@@ -57,8 +59,10 @@ class LaunchMissesNode(LaunchFailed):
 class NodeElsewhere(LaunchMissesNode):
     """The node is there, in another namespace."""
 
+    hint = "Which nodes stand under which namespace? Look at the groups of the launch file."
+
     @property
-    def hint(self) -> str:  # type: ignore[override]
+    def mend(self) -> str:
         """What makes a namespace."""
         return (
             "A namespace is pushed for the nodes that come after it in the same group:"
@@ -76,7 +80,8 @@ class TopicOutside(Fault):
     why = "Two robots that share a topic mix their messages: both obey the command for one."
     expected = "each topic of {node} lies in {namespace}"
     measured = "it uses {topic}"
-    hint = (
+    hint = "Look at the first sign of this topic's name in your code."
+    mend = (
         "A name that begins with a slash stays the same in every namespace. Write it without the"
         " slash in create_publisher and create_subscription."
     )
@@ -92,7 +97,8 @@ class NamespacesDiffer(Fault):
     only_second: tuple[str, ...]
     why = "Who has learned to know one robot must find the same things in the other one."
     expected = "the graph is the same in {first} and in {second}"
-    hint = (
+    hint = "Compare what the launch file says of the one robot with what it says of the other."
+    mend = (
         "Write the nodes of one robot once, in a function or in a launch file of its own, and use"
         " it twice."
     )
@@ -116,7 +122,8 @@ class WrongValueAfterLaunch(Fault):
     why = "The same programs drive every robot: only the values of the file make the difference."
     expected = "after `{command}`, {name} of {node} is {wanted}"
     measured = "it is {found}"
-    hint = (
+    hint = "Which file does this node get, and for which names do the values in it count?"
+    mend = (
         "Does the node get the file, by parameters=[...]? In the file, a value counts for nodes"
         " whose full name fits: /red/beacon for one, /** for all. Below it stands ros__parameters,"
         " and below that NAME: VALUE."
@@ -128,7 +135,8 @@ class FileIgnored(WrongValueAfterLaunch):
     """The values are those of another file than the argument names."""
 
     why = "Who tries other values writes another file, and does not touch the package."
-    hint = (
+    hint = "Where does the launch file take the path of the parameters from?"
+    mend = (
         "Give each node the file that the argument names: parameters=[LaunchConfiguration(NAME)]."
         " A path that is put together in Python is the same in each launch."
     )
@@ -140,6 +148,9 @@ class ArgumentIgnored(WrongValueAfterLaunch):
 
     why = "What somebody types is newer than what stands in a file: it wins."
     hint = (
+        "Follow the argument through the launch file: which node gets it, and what comes after it?"
+    )
+    mend = (
         "parameters=[FILE, {{NAME: LaunchConfiguration(NAME)}}]: the later one of the list wins."
         " Does each node that has the parameter get it?"
     )
@@ -150,7 +161,8 @@ class SectionOfTheNodeWins(ArgumentIgnored):
     """The argument wins over what the file says for all nodes, and not for this one."""
 
     measured = "it is {found}, as the file says in its section {node}"
-    hint = (
+    hint = "Two places give this value. Which of them fits the node's full name better?"
+    mend = (
         "In the file, the section {node} comes after /**. Give the Node its name, name=..., beside"
         " its namespace: then the dictionary in parameters=[FILE, {{NAME: ...}}] counts for this"
         " full name. Without name=... it counts for /** only."
@@ -166,7 +178,8 @@ class WrongArguments(Fault):
     found: tuple[str, ...]
     why = "Nobody reads a launch file to learn what can be chosen: --show-args tells."
     expected = "`{command}` shows {wanted}"
-    hint = (
+    hint = "Compare the arguments that the launch file declares with the card: names and defaults."
+    mend = (
         "DeclareLaunchArgument(NAME, default_value=TEXT, description=...), with the card's names."
     )
 
@@ -184,7 +197,8 @@ class StartedAllTheSame(Fault):
     found: tuple[str, ...]
     why = "A robot that is not there needs no nodes."
     expected = "`{command}` starts nothing there"
-    hint = (
+    hint = "On what does it depend whether these nodes are started?"
+    mend = (
         "Give the group a condition: GroupAction([...],"
         " condition=IfCondition(LaunchConfiguration(NAME)))."
     )
@@ -220,7 +234,8 @@ class NotBack(Fault):
     after_s: float | None
     why = "Programs crash. A robot whose node comes back by itself drives on."
     expected = "{node} answers again within {within_s:g} s of being killed"
-    hint = (
+    hint = "What in the launch file says that a node is to be started again?"
+    mend = (
         "Node(..., respawn=True) starts it again. respawn_delay=SECONDS makes that wait;"
         " respawn_max_retries=NUMBER ends it."
     )
@@ -243,7 +258,8 @@ class LeftByTheLaunch(Fault):
     why = "A forgotten node still commands the motors, and the next launch meets it."
     expected = "after Ctrl-C, nothing that `{command}` has started still runs"
     measured = "{count} process(es) still ran after it had ended"
-    hint = (
+    hint = "What does the launch file start besides nodes?"
+    mend = (
         "Start nodes with Node(...) alone: the launch ends these. What a launch file starts with"
         " subprocess, nobody ends."
     )

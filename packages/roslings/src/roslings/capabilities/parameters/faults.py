@@ -17,7 +17,8 @@ class NoParameter(Fault):
     near: str | None
     why = "ROS gives a node only those parameters that its code has declared."
     expected = "{node} has a parameter {wanted!r}"
-    hint = (
+    hint = "Which parameters has the node? `ros2 param list` tells, while it runs."
+    mend = (
         "Look at declare_parameter(NAME, DEFAULT) in __init__. Check with `ros2 param list` while"
         " the node runs."
     )
@@ -42,7 +43,8 @@ class WrongParameterType(Fault):
     why = "A parameter takes values of the type of its default, and refuses all others."
     expected = "the parameter {name!r} of {node} is of type {wanted}"
     measured = "it is of type {found}"
-    hint = (
+    hint = "Look at the default in declare_parameter('{name}', ...). Of which type is it?"
+    mend = (
         "Look at the default in declare_parameter('{name}', ...): 1 is an integer, 1.0 a double,"
         " '1' a string, True a bool."
     )
@@ -69,7 +71,8 @@ class ParameterIgnored(Fault):
     why = "A parameter lets others change the node without changing its code."
     expected = "with `--ros-args -p {name}:={value}`: {wanted}"
     measured = "{found}, as if the parameter were not there"
-    hint = (
+    hint = "Follow the parameter {name}: where is it read, and what is done with its value?"
+    mend = (
         "Read it with self.get_parameter('{name}').value, after declare_parameter, and give that"
         " value to create_timer. Does main() say rclpy.init(args=args)?"
     )
@@ -96,7 +99,8 @@ class NameStays(Fault):
     wanted: str
     found: tuple[str, ...]
     why = "A robot with two wheels starts one program twice. Each node then needs its own name."
-    hint = (
+    hint = "What does main() hand on to rclpy.init(...), and what does the node get?"
+    mend = (
         "The words after --ros-args reach the node through rclpy.init(args=args). Does main() give"
         " it a list of its own, or does the node say use_global_arguments=False?"
     )
@@ -122,7 +126,8 @@ class TopicStays(Fault):
     found: tuple[str, ...]
     why = "Two nodes that publish on one topic mix their messages: nobody knows who said what."
     expected = "the node {node} publishes on {wanted}"
-    hint = (
+    hint = "Look at the first sign of the topic's name in your code."
+    mend = (
         "A topic's name that begins with a slash stays the same in every namespace. Write the name"
         " in create_publisher without the slash."
     )
@@ -161,8 +166,10 @@ class SetRefused(Fault):
 class RefusedTogether(SetRefused):
     """Two values that fit together were refused."""
 
+    hint = "With which values does your function compare? Somebody may set both at once."
+
     @property
-    def hint(self) -> str:
+    def mend(self) -> str:
         """What is compared with what."""
         return (
             "The function of add_on_set_parameters_callback gets all new values in one list."
@@ -211,7 +218,8 @@ class RefusedAndChanged(SetHasNoEffect):
 
     why = "All at once or none: half of a change is worse than no change."
     expected = "after {node} refused {asked}, all parameters are as before"
-    hint = "Set no parameter in the function of add_on_set_parameters_callback: it says yes or no."
+    hint = "What does your function change before it says no?"
+    mend = "Set no parameter in the function of add_on_set_parameters_callback: it says yes or no."
 
 
 @dataclass(eq=False)
@@ -225,7 +233,8 @@ class WrongValueTaken(Fault):
     why = "A value that nobody checks reaches the motors."
     expected = "{node} refuses {asked} ({rule})"
     measured = "the value was taken"
-    hint = (
+    hint = "Who refuses a value that the card does not allow? Look at what declare_parameter gets."
+    mend = (
         "Give declare_parameter a third argument, a ParameterDescriptor with floating_point_range"
         " or integer_range (rcl_interfaces.msg)."
     )
@@ -236,9 +245,10 @@ class WrongTypeTaken(WrongValueTaken):
     """A value of another type was taken."""
 
     why = "A text where a number should be ends the node at the next calculation."
-    hint = (
+    hint = "Which type has the default, and what does the descriptor say of other types?"
+    mend = (
         "A parameter keeps the type of its default, where its descriptor does not say"
-        " dynamic_typing=True. Is the default of the type that the card says?"
+        " dynamic_typing=True. Give it a default of the type that the card says."
     )
 
 
@@ -247,7 +257,8 @@ class RuleBroken(WrongValueTaken):
     """Two values were taken that do not fit together."""
 
     why = "A range looks at one parameter alone. What two must keep between them, your code checks."
-    hint = (
+    hint = "Which function sees both values before they are set, and what does it answer?"
+    mend = (
         "Compare both in the function that you give to add_on_set_parameters_callback, and return"
         " SetParametersResult(successful=False, reason=...). What is not in the list keeps the"
         " value that get_parameter says."
@@ -259,7 +270,8 @@ class ReadOnlyChanged(WrongValueTaken):
     """A parameter was changed that is chosen at the start."""
 
     why = "Others have read this value already, and do not ask again."
-    hint = "Give declare_parameter a third argument: ParameterDescriptor(read_only=True)."
+    hint = "What tells ROS that nobody may change this parameter?"
+    mend = "Give declare_parameter a third argument: ParameterDescriptor(read_only=True)."
 
 
 @dataclass(eq=False)
@@ -272,7 +284,8 @@ class ActsOtherwise(Fault):
     why = "Who sets a parameter believes that the robot now does what it says."
     expected = "{when}: {wanted}"
     measured = "{found}"
-    hint = (
+    hint = "When does your code read the parameter?"
+    mend = (
         "Read a parameter where you use it: self.get_parameter(NAME).value. A value that __init__"
         " has kept is the one of the start."
     )
@@ -283,7 +296,8 @@ class ActsOnRefused(ActsOtherwise):
     """The node acts on a value that it has refused."""
 
     why = "A value that is refused changes nothing, also not inside of the node."
-    hint = (
+    hint = "What does your function keep before it is known that all values are taken?"
+    mend = (
         "The function of add_on_set_parameters_callback only says yes or no: another value of its"
         " list may still be refused. Keep nothing there. Read the parameter where you use it, or"
         " act in add_post_set_parameters_callback."

@@ -21,6 +21,8 @@ class OtherPromise(Fault, ABC):
     topic: str
     kind: EndpointKind
 
+    hint = "Compare what is set with the card: `ros2 topic info -v {topic}`."
+
     @property
     def verb(self) -> str:
         """What a node does with it."""
@@ -32,7 +34,7 @@ class OtherPromise(Fault, ABC):
         """The word of QoSProfile, as Python for rclpy."""
 
     @property
-    def hint(self) -> str:
+    def mend(self) -> str:
         """Which profile gets it."""
         return (
             f"Give the QoSProfile of {CALLS[self.kind]}(...) for {self.topic} the word"
@@ -102,7 +104,8 @@ class NothingForLateJoiners(Fault):
     why = "A guard that starts after the press must still hear of it."
     expected = "who subscribes to {topic} after {after} gets the last message"
     measured = "it gets none"
-    hint = (
+    hint = "What is kept for who comes late? Look at the QoS of create_publisher(...) for {topic}."
+    mend = (
         "Give create_publisher(...) for {topic} {profile}: it keeps messages for late joiners. A"
         " lifespan would throw them away again."
     )
@@ -123,6 +126,10 @@ class OtherCountForLateJoiners(NothingForLateJoiners):
     expected = "who subscribes to {topic} after {after} gets {wanted} message(s)"
     measured = "it gets {found}"
     hint = (
+        "How many of the last messages are kept? Look at the QoS of create_publisher(...) for"
+        " {topic}."
+    )
+    mend = (
         "Give create_publisher(...) for {topic} {profile}: depth says how many of the last messages"
         " it keeps."
     )
@@ -139,7 +146,8 @@ class OldForLateJoiners(Fault):
     why = "Who comes late knows nothing else than this message."
     expected = "who subscribes to {topic} after {after} gets {wanted}"
     measured = "it gets {found}"
-    hint = "Publish in the function of the service, each time; and once in __init__, with True."
+    hint = "When does your code publish, and what was true then?"
+    mend = "Publish in the function of the service, each time; and once in __init__, with True."
 
 
 @dataclass(eq=False)
@@ -153,7 +161,8 @@ class OtherThanPressed(Fault):
     why = "The topic is all that the guard hears of the button."
     expected = "the call with {asked} leads to one message on {topic}: {wanted}"
     measured = "it leads to: {found}"
-    hint = "Publish request.data in the function of the service, once for each call."
+    hint = "Compare what the service was asked with what is published."
+    mend = "Publish request.data in the function of the service, once for each call."
 
 
 @dataclass(eq=False)
@@ -181,7 +190,8 @@ class TellsTheMotorsNothing(Fault):
     why = "Motors that hear nothing do what they were told last."
     expected = "messages on {topic} {when}"
     measured = "none came"
-    hint = "A timer publishes 20 times a second, also while there is a reason to stop: then zero."
+    hint = "What does your node publish while there is a reason to stop, and how often?"
+    mend = "A timer publishes 20 times a second, also while there is a reason to stop: then zero."
 
 
 @dataclass(eq=False)
@@ -211,7 +221,8 @@ class OtherCommand(Fault):
     why = "The guard stands between the operator and the motors, and changes nothing on the way."
     expected = "{when}, {topic} says what the operator wants: {command}"
     measured = "it says: {found}"
-    hint = "Keep the last message of /cmd_vel_raw as it is, with all its fields, and publish it."
+    hint = "What becomes of the fields of /cmd_vel_raw on their way through your node?"
+    mend = "Keep the last message of /cmd_vel_raw as it is, with all its fields, and publish it."
 
 
 @dataclass(eq=False)
@@ -252,7 +263,8 @@ class StopsLate(DoesNotStop):
     """It stops, and not soon enough."""
 
     measured = "the last other command came {watched_s:.2f} s later"
-    hint = (
+    hint = "What lies between the event and your stop: a wait, a timer?"
+    mend = (
         "Act in the event's own function. A wait, or a timer that looks now and then, comes on top"
         " of the time that the middleware takes."
     )
@@ -285,7 +297,8 @@ class DrivesUnasked(Fault):
     why = "A robot that nobody has released must not move: somebody may stand before it."
     expected = "{when}, {topic} says zero"
     measured = "it says: {found}"
-    hint = "Begin with `stopped = True`, and with a button that is not there."
+    hint = "In which state does your guard begin, before anything has come?"
+    mend = "Begin with `stopped = True`, and with a button that is not there."
 
 
 @dataclass(eq=False)
@@ -304,7 +317,8 @@ class ReasonNotTold(Fault):
     near: str | None
     why = "Who stands beside a rover that stopped wants to know why, before anything else."
     expected = "after {cause}, the guard writes: {line}"
-    hint = "Write the line where the stop begins. Text, colon and reason are those of the card."
+    hint = "Where in your code does a stop begin, and what is written there?"
+    mend = "Write the line where the stop begins. Text, colon and reason are those of the card."
 
     @property
     def measured(self) -> str:
@@ -322,7 +336,8 @@ class ReasonToldAgain(Fault):
     why = "A log that says the same again and again hides all that is new."
     expected = "after {cause}, one line: {line}"
     measured = "it stands there {times} times"
-    hint = (
+    hint = "How often does this event come, and when is the reason a new one?"
+    mend = (
         "The deadline's event comes again, for each deadline that passes. Write the line only when"
         " the reason is new."
     )

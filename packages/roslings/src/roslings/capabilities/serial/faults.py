@@ -17,7 +17,8 @@ class WrongField(Fault):
     wanted: str
     found: str
     why = "Other nodes look for these names: with others they do not find what belongs together."
-    hint = "Set the field before you call publish(), with exactly the card's word."
+    hint = "Where is this field set, and to which word?"
+    mend = "Set the field before you call publish(), with exactly the card's word."
     expected = "{field_name} of {topic} is: {wanted}"
 
     @property
@@ -37,8 +38,10 @@ class LinesAndMessagesDiffer(Fault):
     expected = "one message on {topic} for each line of the board ({lines} lines)"
     measured = "{messages} messages"
 
+    hint = "Count both: how many lines come, and how often do you publish?"
+
     @property
-    def hint(self) -> str:
+    def mend(self) -> str:
         """Too few, or too many."""
         if self.messages < self.lines:
             return (
@@ -55,7 +58,8 @@ class WrongSpeeds(Fault):
     left: float
     right: float
     why = "Everything that the robot knows of its own way comes from these two numbers."
-    hint = (
+    hint = "Which parts of the line are the speeds, and in which unit are they?"
+    mend = (
         "In W,SEQ,MS,LEFT,RIGHT the speeds are the last two numbers, in mrad/s."
         " Divide both by 1000."
     )
@@ -67,7 +71,8 @@ class WrongSpeeds(Fault):
 class SpeedsSwapped(WrongSpeeds):
     """Left and right are the wrong way round."""
 
-    hint = "The board tells the left wheel first. Your velocity has the right wheel first."
+    hint = "Which wheel comes first in the board's line, and which in your message?"
+    mend = "The board tells the left wheel first. Your velocity has the right wheel first."
     measured = "[{left:.3f}, {right:.3f}]: left and right are exchanged"
 
 
@@ -75,7 +80,8 @@ class SpeedsSwapped(WrongSpeeds):
 class SpeedsInMilliradians(WrongSpeeds):
     """Not divided by 1000."""
 
-    hint = "The board tells mrad/s; ROS wants rad/s (REP 103). Divide by 1000."
+    hint = "In which unit does the board tell its speeds, and which one does ROS want?"
+    mend = "The board tells mrad/s; ROS wants rad/s (REP 103). Divide by 1000."
     measured = "[{left:.3f}, {right:.3f}]: these are mrad/s"
 
 
@@ -86,7 +92,8 @@ class BadLineUsed(Fault):
     left: float
     right: float
     why = "Cables pick up noise. One wrong number sends the robot, on its map, through a wall."
-    hint = (
+    hint = "What does your code look at before it uses a line?"
+    mend = (
         "Compute the checksum of what stands between $ and *, and compare it with the four"
         " digits after *. Use the line only when both are equal."
     )
@@ -101,7 +108,8 @@ class SilentAfter(Fault):
     what: str
     topic: str
     why = "Plugs come loose on a robot that drives. Nobody is there to start the node again."
-    hint = (
+    hint = "What does your node do after a read or a write had an error?"
+    mend = (
         "When a read or a write raises an error, close the port, and try from a timer to open"
         " it again. Keep no half line from before."
     )
@@ -114,7 +122,8 @@ class GaveUpInSilence(SilentAfter):
     """The board was silent for long, and the node stopped to listen."""
 
     why = "A board that starts anew, or works for long, says nothing. Its next line counts again."
-    hint = "An empty read is no error: go on reading. Close the port only when read() raises one."
+    hint = "What does your code do when a read gives nothing?"
+    mend = "An empty read is no error: go on reading. Close the port only when read() raises one."
 
 
 @dataclass(eq=False)
@@ -125,6 +134,11 @@ class WrongOdometry(Fault):
     really: tuple[float, float, float]
     told: tuple[float, float, float]
     why = "Odometry is how the robot knows where it is between two looks at the world."
+
+    hint = (
+        "Let it drive one simple way, and reckon by hand: how far, and how much of a turn? "
+        "Then compare."
+    )
 
     @property
     def expected(self) -> str:
@@ -137,7 +151,7 @@ class WrongOdometry(Fault):
         return f"/odom says {_way(self.told)}"
 
     @property
-    def hint(self) -> str:
+    def mend(self) -> str:
         """The likeliest cause."""
         turn, length_m = self.really[2], math.hypot(*self.really[:2])
         told_x, told_y, told_turn = self.told
@@ -167,7 +181,8 @@ class WrongTwist(Fault):
     """Forward, in m/s, and turn, in rad/s."""
     told: tuple[float, float]
     why = "Who plans the way needs both: where the robot is, and how fast it moves there."
-    hint = (
+    hint = "What goes into twist.twist.linear.x, and what into angular.z? Reckon one case by hand."
+    mend = (
         "Forward = (left + right) / 2 x radius goes into twist.twist.linear.x, and"
         " turn = (right - left) x radius / separation into twist.twist.angular.z."
     )
@@ -204,7 +219,8 @@ class WrongDrive(Fault):
     wanted: tuple[int, int]
     got: tuple[int, int]
     why = "The robot must do what it is told: this fast, and this way round."
-    hint = (
+    hint = "Take one command, and reckon both wheels by hand. Then compare with what you send."
+    mend = (
         "Left wheel = (forward - turn x separation / 2) / radius; the right wheel has + in place"
         " of -. PWM = wheel speed / max_wheel_speed x 255, rounded."
     )
@@ -228,7 +244,8 @@ class WrongDrive(Fault):
 class DoesNotDrive(WrongDrive):
     """The motors stand."""
 
-    hint = (
+    hint = "Which line does your node send to the board, and how often?"
+    mend = (
         "Send $M,SEQ,LEFT,RIGHT*CRC and a new line. Repeat it faster than twice a second:"
         " without a command the board stops its motors after half a second."
     )
@@ -238,7 +255,8 @@ class DoesNotDrive(WrongDrive):
 class WheelsSwapped(WrongDrive):
     """Left and right are the wrong way round."""
 
-    hint = "A positive angular.z turns left: the right wheel is then the faster one."
+    hint = "To which side does a positive angular.z turn, and which wheel is then the faster one?"
+    mend = "A positive angular.z turns left: the right wheel is then the faster one."
 
 
 @dataclass(eq=False)
@@ -248,7 +266,8 @@ class MovesUntold(Fault):
     got: tuple[int, int]
     expected = "before the first command, the motors stand still"
     why = "A robot that drives off when it is switched on runs over what lies before it."
-    hint = "Until the first message comes, the motion is zero: 0.0 forward and 0.0 turn."
+    hint = "What does your node publish before the first message has come?"
+    mend = "Until the first message comes, the motion is zero: 0.0 forward and 0.0 turn."
 
     @property
     def measured(self) -> str:
@@ -262,7 +281,8 @@ class SettingIgnored(WrongDrive):
 
     name: str
     why = "The next robot has other wheels: who uses your node changes a parameter, not your code."
-    hint = (
+    hint = "Follow the parameter: where is it read, and what is reckoned with its value?"
+    mend = (
         "Read the parameter with self.get_parameter(NAME).value, and reckon with that value."
         " Does main() say rclpy.init(args=args)?"
     )
@@ -282,7 +302,8 @@ class TooFast(WrongDrive):
 
     sent: str
     why = "A PWM beyond 255 is no command: the board refuses it, and the robot stops on its way."
-    hint = "Where a wheel would need more than 255, make both PWM smaller by the same factor."
+    hint = "What does your code do where a wheel would need more than 255?"
+    mend = "Where a wheel would need more than 255, make both PWM smaller by the same factor."
 
     @property
     def measured(self) -> str:
@@ -296,7 +317,8 @@ class OtherOdometry(WrongOdometry):
     """The odometry does not reckon with the parameters."""
 
     settings: str
-    hint = "The odometry needs the values of the parameters, too: not the numbers of the card."
+    hint = "With which numbers does your odometry reckon?"
+    mend = "The odometry needs the values of the parameters, too: not the numbers of the card."
 
     @property
     def expected(self) -> str:
@@ -312,7 +334,8 @@ class PortNotOpened(Fault):
     why = "The board has another name on each computer: /dev/ttyACM0 here, /dev/ttyUSB0 there."
     expected = "started with `-p {name}:=PORT`, the node opens this port"
     measured = "nobody opened it, and no message came from it"
-    hint = (
+    hint = "Which port does your code open? Follow the parameter {name}."
+    mend = (
         "Give self.get_parameter({name!r}).value to serial.Serial(). Does main() say"
         " rclpy.init(args=args)?"
     )
@@ -327,7 +350,8 @@ class WrongSpeedOfPort(Fault):
     found: int | None
     why = "Nothing on a cable tells its speed: where the two ends differ, each reads nonsense."
     expected = "with {name} {wanted}, the port is opened with {wanted} bits a second"
-    hint = "Give self.get_parameter({name!r}).value to serial.Serial() as the baud rate."
+    hint = "Which baud rate does serial.Serial() get?"
+    mend = "Give self.get_parameter({name!r}).value to serial.Serial() as the baud rate."
 
     @property
     def measured(self) -> str:
@@ -342,7 +366,8 @@ class DoesNotStop(Fault):
     within_s: float
     after_s: float | None
     why = "When the program that steers has crashed, the robot must not drive on."
-    hint = (
+    hint = "What does your node send when no command comes any more?"
+    mend = (
         "Remember when the last command came. In the timer that sends to the board, send zero"
         " once that is more than half a second ago."
     )
@@ -363,7 +388,8 @@ class RejectedLine(Fault):
     line: str
     reason: str
     why = "The board obeys only what it can trust: a whole line with the right checksum."
-    hint = (
+    hint = "Compare your line with the expected one, sign by sign."
+    mend = (
         "$BODY*CRC and a new line. CRC is binascii.crc_hqx(BODY, 0) as four capital"
         " hexadecimal digits: '%04X'. PWM is a whole number from -255 to 255."
     )
@@ -381,7 +407,8 @@ class FollowedNonsense(Fault):
 
     got: tuple[int, int]
     why = "Software has faults: a program divides by zero, and sends its result to your robot."
-    hint = "Look at each number with math.isfinite() before you use it."
+    hint = "What does your code do with a number that is no number (nan)?"
+    mend = "Look at each number with math.isfinite() before you use it."
     expected = "after a command with NaN the motors stand, and the node goes on"
 
     @property
@@ -395,6 +422,7 @@ class DeafAfterNonsense(FollowedNonsense):
     """It lives, and follows no command any more."""
 
     why = "One wrong message must not end the work of the day."
-    hint = "Leave the command aside, and nothing else: keep no NaN in what you remember."
+    hint = "What of the bad command does your code remember?"
+    mend = "Leave the command aside, and nothing else: keep no NaN in what you remember."
     expected = "after commands with NaN and infinity, the node follows the next good one"
     measured = "the motors stood"

@@ -18,6 +18,10 @@ class NoService(Fault):
     why = "Without a server nobody answers: whoever asks waits for ever."
     expected = "a node that serves {service}"
     hint = (
+        "Does your class make a service in __init__? `ros2 service list` tells, while the "
+        "node runs."
+    )
+    mend = (
         "Call self.create_service(TYPE, NAME, FUNCTION) in __init__ of your class. Check with"
         " `ros2 service list` while the node runs."
     )
@@ -37,7 +41,8 @@ class ServedTwice(Fault):
     service: str
     servers: int
     why = "Each server answers each call: what is asked for once is done twice."
-    hint = "Is self.create_service(...) there twice for this name? Take one of them out."
+    hint = "How often does your code call create_service(...) for this name?"
+    mend = "Is self.create_service(...) there twice for this name? Take one of them out."
     expected = "one server of {service}"
     measured = "there are {servers}"
 
@@ -86,7 +91,8 @@ class NoAnswer(Fault):
     asked: str
     waited_s: float
     why = "Whoever calls a service waits for its answer, and can do nothing until it comes."
-    hint = (
+    hint = "What does the service's function give back, on each way through it?"
+    mend = (
         "Does the function that you gave to create_service end with `return response`, on each"
         " way through it?"
     )
@@ -100,6 +106,10 @@ class EndedInsteadOfAnswering(NoAnswer):
 
     why = "An error in a callback ends the whole node, and the answer is lost with it."
     hint = (
+        "Read the last lines below: the last one names the error. What did the service's "
+        "function give back?"
+    )
+    mend = (
         "Read the last lines below: the last one names the error. `TypeError` without more means"
         " that the function gave back no response: end it with `return response`."
     )
@@ -128,7 +138,8 @@ class Deadlock(StuckInCallback):
         "The callback waits for an answer. The node can take that answer only when the callback"
         " has ended. Each waits for the other, for ever: a deadlock."
     )
-    hint = (
+    hint = "Which line of the callback waits, and who would have to run meanwhile?"
+    mend = (
         "Never wait for a service inside a callback. In the same node, call the method itself."
         " For another node, use call_async(...).add_done_callback(...) and return."
     )
@@ -179,7 +190,8 @@ class WrongState(Fault):
     wanted: str
     found: str | None
     why = "A server that says yes and does nothing is worse than one that says no."
-    hint = (
+    hint = "Under which name is the state kept? Who changes it, and who publishes it?"
+    mend = (
         "Keep the state in the node (self.NAME). The service's function changes it; the timer's"
         " function publishes it. Do both use the same name?"
     )
@@ -202,7 +214,8 @@ class LateAnswers(Fault):
     asked: int
     slowest_s: float
     why = "Whoever calls waits so long. A robot that waits for its motors drives on meanwhile."
-    hint = (
+    hint = "What takes so long in the service's function?"
+    mend = (
         "Take sleep and other long work out of the service's function: set the value, fill the"
         " answer, return. The timer can do the rest."
     )
@@ -261,7 +274,8 @@ class AskedOtherwise(Fault):
     wanted: str
     found: str
     why = "The server does what the request says, and not what you meant."
-    hint = "Set the request's field before the call: request = TYPE.Request(), request.data = ..."
+    hint = "Which fields of the request are set before the call, and to what?"
+    mend = "Set the request's field before the call: request = TYPE.Request(), request.data = ..."
     expected = "{executable} asks with {wanted}"
     measured = "it asked with {found}"
 
@@ -276,7 +290,8 @@ class ClientStays(Fault):
     why = "This client has one task. When it is done, the terminal belongs to you again."
     expected = "{when}, {executable} ends by itself"
     measured = "it still ran {waited_s:.0f} s after its start"
-    hint = (
+    hint = "What does main() wait for, after the answer has come?"
+    mend = (
         "rclpy.spin(node) never ends by itself. Use rclpy.spin_until_future_complete(node,"
         " future), and let main() come to its end."
     )
@@ -291,7 +306,8 @@ class ClientDeadlock(ClientStays):
         "An answer is taken while the node spins. Who waits inside a callback, or without"
         " spinning, keeps the answer out and waits for ever: a deadlock."
     )
-    hint = (
+    hint = "Which line waits for the answer, and who would have to run so that it can arrive?"
+    mend = (
         "Use call_async(request), not call(request). Then wait in main(), outside any callback:"
         " rclpy.spin_until_future_complete(node, future)."
     )
@@ -311,7 +327,8 @@ class NeverGivesUp(ClientStays):
     wait: str
     why = "A program that waits for ever looks like one that works. Say what is missing, and end."
     expected = "without a server, {executable} ends by itself within {limit_s:g} s"
-    hint = (
+    hint = "How long does your client wait for a server that never comes?"
+    mend = (
         "Give a time to the wait: client.{wait}(timeout_sec=2.0). When no server came, it gives"
         " back False."
     )
@@ -335,13 +352,15 @@ class WrongExitCode(Fault):
     why = "Other programs see only the exit code: 0 says that all went well, 1 that it did not."
     expected = "{when}, {executable} ends with exit code {wanted}"
 
+    hint = "What does main() return in this case? Read the last lines below, too."
+
     @property
     def measured(self) -> str:
         """The code that came."""
         return self.found
 
     @property
-    def hint(self) -> str:
+    def mend(self) -> str:
         """How a code is given."""
         if self.wanted:
             return f"Let main() return {self.wanted} in that case. setup.py hands it on."
@@ -356,6 +375,6 @@ class AskedAgain(Fault):
     service: str
     count: int
     why = "Each request does something: what is asked twice is done twice."
-    hint = "Call call_async(request) once. Is it in a loop, or in a timer that goes on?"
+    hint = "How often is call_async(request) reached? Look for a loop, or a timer that goes on."
     expected = "{executable} calls {service} once"
     measured = "it called {count} times, and each call was answered at once"

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
-SENTENCES = ("expected", "measured", "why", "hint")
+SENTENCES = ("expected", "measured", "why", "hint", "mend")
 
 
 class Sentence:
@@ -60,6 +60,8 @@ class Fault(Exception):
         for name in SENTENCES:
             if name not in fields and isinstance(text := vars(cls).get(name), str):
                 setattr(cls, name, Sentence(text))
+        if "hint" in vars(cls) and "mend" not in vars(cls):
+            setattr(cls, "mend", Sentence(""))  # noqa: B010 - the class above has its own hint
 
     @property
     def expected(self) -> str:
@@ -73,8 +75,13 @@ class Fault(Exception):
 
     @property
     def hint(self) -> str:
-        """What to try."""
+        """Where to look. It names what is wrong, and not the mend: who finds that has learnt it."""
         raise NotImplementedError
+
+    @property
+    def mend(self) -> str:
+        """What mends it, told with the last hint; empty where the hint is all that can be said."""
+        return ""
 
     def __str__(self) -> str:
         return f"expected {self.expected}; measured {self.measured}"

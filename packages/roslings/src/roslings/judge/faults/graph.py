@@ -79,8 +79,13 @@ class NoTopic(Fault):
     expected = "a node that {verb} {topic}"
     measured = "it {verb} no topic of its own"
 
+    hint = (
+        "Which calls make publishers and subscriptions in your class? And does main() make "
+        "the node?"
+    )
+
     @property
-    def hint(self) -> str:
+    def mend(self) -> str:
         """Which call is missing."""
         call = "create_publisher" if self.verb.startswith("publishes") else "create_subscription"
         return (

@@ -43,7 +43,7 @@ class DidNotComeUp(Fault):
             return READ_THE_LINES
         return (
             "Start it by hand with `ros2 run` and read the last line of what it prints. "
-            "Without an error: does main() call rclpy.spin(node)?"
+            "Without an error: what does main() do last?"
         )
 
 
@@ -172,7 +172,8 @@ class UncleanExit(Fault):
         "Much tutorial code ends like this. It is a small thing, but other programs take the "
         "error for a crash."
     )
-    hint = (
+    hint = "What does your program do when Ctrl-C comes? The last lines below tell where it was."
+    mend = (
         "Catch KeyboardInterrupt and ExternalShutdownException around rclpy.spin(), and end "
         "with rclpy.try_shutdown()."
     )
@@ -192,6 +193,7 @@ class LeavesProcesses(Fault):
     count: int
     was_seen = True
     why = "A forgotten process still sends messages, and the next start meets it."
-    hint = "End what your node starts (subprocess, multiprocessing) before the node itself ends."
+    hint = "What does your node start besides itself, and who ends it?"
+    mend = "End what your node starts (subprocess, multiprocessing) before the node itself ends."
     expected = "nothing that {executable} started outlives it"
     measured = "{count} process(es) still ran after it had ended"

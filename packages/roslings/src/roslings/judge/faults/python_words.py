@@ -20,8 +20,12 @@ PACKAGES = (
 """What a beginner imports."""
 
 NOT_CALLED = (
-    "create_timer, create_subscription and create_service want the function itself: self.tell."
-    " With brackets, self.tell(), Python calls it at once, and hands over what it gave back: None."
+    "create_timer, create_subscription and create_service want a function. What do they get"
+    " here: the function, or what it gives back?"
+)
+ITSELF = (
+    "Name the function itself: self.tell. With brackets, self.tell(), Python calls it at once, and"
+    " hands over what it gave back: None."
 )
 
 
@@ -32,6 +36,8 @@ class Known:
     line: str
     """A pattern of `re`."""
     hint: Callable[[re.Match[str]], str]
+    mend: str = ""
+    """What mends it; `{0}` is the first thing that the pattern found."""
     at_the_door: bool = False
     """Only where the program could not even be entered: setup.py names another one."""
 
@@ -48,8 +54,9 @@ KNOWN = (
         r"TypeError: 'module' object is not callable",
         lambda _: (
             "In setup.py, under console_scripts, this executable names a file and no function"
-            " in it. Write 'NAME = PACKAGE.FILE:main'."
+            " in it."
         ),
+        "Write 'NAME = PACKAGE.FILE:main'.",
         at_the_door=True,
     ),
     Known(
@@ -69,41 +76,45 @@ KNOWN = (
         at_the_door=True,
     ),
     Known(r"No module named '(\w+)'", _misspelt_package),
-    Known(r"TypeError: 'NoneType' object is not callable", lambda _: NOT_CALLED),
-    Known(r"__init__\(\): callback should be either be callable", lambda _: NOT_CALLED),
-    Known(r"create_timer\([^,]+, *self\.\w+\(\)", lambda _: NOT_CALLED),
-    Known(r"create_(?:subscription|service)\([^,]+,[^,]+, *self\.\w+\(\)", lambda _: NOT_CALLED),
+    Known(r"TypeError: 'NoneType' object is not callable", lambda _: NOT_CALLED, ITSELF),
+    Known(r"__init__\(\): callback should be either be callable", lambda _: NOT_CALLED, ITSELF),
+    Known(r"create_timer\([^,]+, *self\.\w+\(\)", lambda _: NOT_CALLED, ITSELF),
+    Known(
+        r"create_(?:subscription|service)\([^,]+,[^,]+, *self\.\w+\(\)",
+        lambda _: NOT_CALLED,
+        ITSELF,
+    ),
     Known(
         r"Trying to set parameter '(\w+)' to '.*' of type 'DOUBLE', expecting type 'INTEGER'",
         lambda found: (
             f"The default in declare_parameter('{found[1]}', ...) is a whole number, so"
-            " the parameter takes no other. Write the default with a point: 1.0, and not 1."
+            " the parameter takes no other."
         ),
+        "Write the default with a point: 1.0, and not 1.",
     ),
     Known(
         r"create_publisher\(\) missing 1 required positional argument: 'qos_profile'",
-        lambda _: (
-            "create_publisher wants three things: the type, the name, and a number such as"
-            " 10. So many messages may wait to be sent."
-        ),
+        lambda _: "create_publisher wants three things. How many does it get here?",
+        "The three are the type, the name, and a number such as 10: so many messages may wait.",
     ),
     Known(
         r"TypeError: Expected <class '[\w.]+\.(\w+)'>, got <class 'str'>",
-        lambda found: (
-            f"publish() wants a message, and got a text. Make one, message = {found[1]}(),"
-            " put the text into message.data, and publish the message."
-        ),
+        lambda found: f"publish() wants a message of the type {found[1]}, and got a text.",
+        "Make one, message = {0}(), put the text into message.data, and publish the message.",
     ),
 )
 
 
 def hint_for(log: Sequence[str]) -> str:
-    """What to do about the mistake that the log names; empty where it names none of these."""
-    entered = any(_is_of_the_program(line) for line in log)
-    for line in reversed(log):
-        if hint := next(filter(None, _hints(line, entered)), ""):
-            return hint
-    return ""
+    """What the mistake is that the log names; empty where it names none of these."""
+    known = next(_known(log), None)
+    return known[0].hint(known[1]) if known else ""
+
+
+def mend_for(log: Sequence[str]) -> str:
+    """What mends it; empty where it is not known, or said already."""
+    known = next(_known(log), None)
+    return known[0].mend.format(*known[1].groups()) if known else ""
 
 
 def _is_of_the_program(line: str) -> bool:
@@ -112,11 +123,14 @@ def _is_of_the_program(line: str) -> bool:
     return found is not None and "importlib" not in found[1]
 
 
-def _hints(line: str, entered: bool) -> Iterator[str]:
-    for known in KNOWN:
-        found = re.search(known.line, line)
-        if found and not (known.at_the_door and entered):
-            yield known.hint(found)
+def _known(log: Sequence[str]) -> Iterator[tuple[Known, re.Match[str]]]:
+    """The mistakes that there is something to say of, the last line's first."""
+    entered = any(_is_of_the_program(line) for line in log)
+    for line in reversed(log):
+        for known in KNOWN:
+            found = re.search(known.line, line)
+            if found and not (known.at_the_door and entered) and known.hint(found):
+                yield known, found
 
 
 SYNTAX = {

@@ -94,6 +94,14 @@ class OtherQos(Fault):
 
     @property
     def hint(self) -> str:
+        """Whom to ask, and where it is set."""
+        return (
+            f"`ros2 topic info -v {self.topic}` shows what each side offers and asks. Which QoS"
+            f" does {CALLS[self.kind]}(...) get?"
+        )
+
+    @property
+    def mend(self) -> str:
         """Which call gets which profile."""
         call = f"{CALLS[self.kind]}(...) for {self.topic}"
         if self.wanted == USUAL:

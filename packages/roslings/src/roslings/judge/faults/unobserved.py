@@ -15,7 +15,8 @@ class SpeaksOnlyWhenObserved(Fault):
     wanted_hz: float
     hz: float | None
     why = "On a robot nobody from outside listens: the nodes have only each other."
-    hint = (
+    hint = "What does your code look at before it publishes?"
+    mend = (
         "Publish in the timer's function each time. Do not look first at who else is in the graph."
     )
     expected = "{wanted_hz:g} Hz on {topic}, also while only your own nodes run"
@@ -36,7 +37,8 @@ class WritesWhatWasNotSent(Fault):
     wanted_hz: float
     hz: float | None
     why = "A line in a log is no message: a robot drives by what arrives."
-    hint = "Write a line in the callback alone, once for each message that came."
+    hint = "Which function writes this line, and when is it called?"
+    mend = "Write a line in the callback alone, once for each message that came."
     expected = "{wanted_hz:g} Hz on {topic}, also while only your own nodes run"
 
     @property

@@ -41,7 +41,13 @@ class NotLogged(Fault):
         """What to compare, or how to write a line."""
         if self.found and _are_alike(self.wanted, self.found):
             return "Compare the two lines above, letter by letter: words, numbers, signs, spaces."
-        return f"Write it with self.get_logger().info(...) {self.place}."
+        return f"Which line of your code writes to the log {self.place}?"
+
+    @property
+    def mend(self) -> str:
+        """How a line is written."""
+        alike = self.found and _are_alike(self.wanted, self.found)
+        return "" if alike else f"Write it with self.get_logger().info(...) {self.place}."
 
 
 @dataclass(eq=False)
@@ -71,7 +77,8 @@ class DoesNotRepeat(Fault):
     said: str
     wrote: str | None
     why = "A subscription only helps when its callback does something with the message."
-    hint = "Is the callback the one given to create_subscription? Does it log msg.data?"
+    hint = "Which function does create_subscription get, and what does it write?"
+    mend = "Give create_subscription your callback, and let the callback log msg.data."
 
     @property
     def expected(self) -> str:
@@ -89,7 +96,8 @@ class FixedText(DoesNotRepeat):
     """The listener writes a text of its own, whatever it receives."""
 
     why = "The listener must write what it hears. This text is always the same."
-    hint = "Put the message's own text into the line: its field is msg.data."
+    hint = "Where does the text of your line come from?"
+    mend = "Put the message's own text into the line: its field is msg.data."
 
 
 @dataclass(eq=False)

@@ -26,10 +26,11 @@ script, no address, whatever stands in it."""
 
 @dataclass(frozen=True)
 class OfClass:
-    """Whose page it is, and the address of the page that lists all of the class."""
+    """Whose page it is. It is handed on alone, so it names no page of the class."""
 
     student: str
-    everybody: str
+    counts: str = ""
+    """What counts beside the measured score; empty where that is all."""
 
 
 @dataclass(frozen=True)
@@ -109,7 +110,7 @@ def _body(
     figures = {check: seen_part.topic(each) for check, each in plots.items()}
     rest = [each for each in heard if not any(each is plot for plot in plots.values())]
     parts = joined(
-        *verdict_part.body(verdict, figures, own.site),
+        *verdict_part.body(verdict, figures, own.site, own.typed.program),
         *(section for each in capabilities() for section in each.sections_of(evidence)),
         *seen_part.topics(evidence, rest),
         *seen_part.said(evidence),
@@ -124,11 +125,6 @@ def _body(
         tag("code", f"./roslings regrade {verdict.lab} EVIDENCE"),
     )
     whose = of_class.student if of_class else ""
-    head = joined(brand(_way_back(of_class)), verdict_part.head(verdict, own.typed, whose))
+    counts = of_class.counts if of_class else ""
+    head = joined(brand(), verdict_part.head(verdict, own.typed, whose, counts))
     return tag("body", head, tag("main", parts), tag("footer", again))
-
-
-def _way_back(of_class: OfClass | None) -> Markup:
-    if of_class is None:
-        return Markup()
-    return tag("a", "The class", href=of_class.everybody)

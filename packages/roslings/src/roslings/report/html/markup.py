@@ -8,8 +8,8 @@ import re
 from roslings.report.safe_text import harmless
 
 _CODE = re.compile(r"`([^`\n]+)`")
-VOID = frozenset({"meta", "line", "rect", "ellipse", "path", "br", "img"})
-HTML_VOID = frozenset({"meta", "br", "img"})
+VOID = frozenset({"meta", "line", "rect", "ellipse", "path", "br", "img", "input"})
+HTML_VOID = frozenset({"meta", "br", "img", "input"})
 """The others are SVG's, and are closed as XML wants it."""
 
 Attribute = str | float | None

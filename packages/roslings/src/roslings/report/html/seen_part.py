@@ -20,6 +20,16 @@ WIDE, NARROW = (720.0, 270.0), (340.0, 230.0)
 CLOCKS = {"sim": "in simulated time", "wall": "in real time"}
 SECOND_END = "how a node ends was in doubt, so it was made once more, to be sure"
 MOST_LOG_LINES = 400
+JITTER = "jitter: how far the periods are from each other"
+ABOUT_JITTER = (
+    "The jitter is the standard deviation of the periods: most periods are nearer to their mean"
+    " than twice this time. A little jitter is normal, for the computer has other work, too."
+)
+ABOUT_SILENCE = (
+    "No message came on these topics in that time. That may be as it should be: where one was"
+    " missing, a check above says so."
+)
+ABOUT_AGAIN = "To be sure of what was seen, these runs were made once more. That costs no points."
 
 
 def rate_plots(verdict: Verdict, heard: Sequence[Watched]) -> dict[str, Watched]:
@@ -44,12 +54,12 @@ def topics(evidence: Evidence, heard: Sequence[Watched]) -> Iterator[Markup]:
         tag(
             "li",
             tag("code", topic),
-            f" ({kind}) in {experiment}: no message came in that time",
+            f" ({kind}) in {experiment}",
         )
         for experiment, topic, kind in unheard(evidence)
     ]
     if figures or silent:
-        rest = [tag("ul", *silent)] if silent else []
+        rest = [tag("p", ABOUT_SILENCE, class_="about"), tag("ul", *silent)] if silent else []
         yield tag("section", tag("h2", "What came on the topics"), *figures, *rest)
 
 
@@ -79,13 +89,15 @@ def set_aside(evidence: Evidence) -> Iterator[Markup]:
         for seen in evidence.attempts
     ]
     if runs:
-        yield tag("section", tag("h2", "Runs that were made again"), tag("ul", *runs))
+        words = tag("h2", "Runs that were made again"), tag("p", ABOUT_AGAIN, class_="about")
+        yield tag("section", *words, tag("ul", *runs))
 
 
 def _measures(each: Watched) -> Markup:
     rows = [tag("tr", tag("th", name, scope="row"), tag("td", value))
             for name, value in _figures(each)]  # fmt: skip
-    return tag("table", tag("tbody", *rows), class_="measures")
+    table = tag("table", tag("tbody", *rows), class_="measures")
+    return joined(table, tag("p", ABOUT_JITTER, class_="about")) if each.rate else table
 
 
 def _figures(each: Watched) -> Iterator[tuple[str, str]]:
@@ -101,7 +113,7 @@ def _figures(each: Watched) -> Iterator[tuple[str, str]]:
         low, high = each.asked.low_hz, each.asked.high_hz
         yield "asked rate", f"{each.asked.hz:g} Hz ({low:g} to {high:g} Hz)"
     yield from _periods(each, rate)
-    yield "jitter (standard deviation)", _jitter(each, rate)
+    yield JITTER, _jitter(each, rate)
     yield "lost messages", f"{rate.lost}"
     yield "times from", _clock(each, rate)
 

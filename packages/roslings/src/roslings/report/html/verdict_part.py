@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 
 from roslings.report.check_lines import LOG_LINES, points_of
@@ -24,17 +25,19 @@ WORDS: dict[CheckOutcome, str] = {
     "skip": "skipped",
     "inconclusive": "open",
 }
+LESSON = re.compile(r"(days/(\d+)[\w-]*)#([\w-]+)")
 MARKS: dict[CheckOutcome, str] = {"pass": "✓", "fail": "✗", "skip": "-", "inconclusive": "?"}
 
 
-def head(verdict: Verdict, typed: Typed, whose: str = "") -> Markup:
-    """What was checked, of whom, and what came of it."""
+def head(verdict: Verdict, typed: Typed, whose: str = "", counts: str = "") -> Markup:
+    """What was checked, of whom, what came of it, and what counts besides."""
     of_whom = [tag("b", whose), " · "] if whose else []
     return tag(
         "header",
         tag("p", *of_whom, f"Lab {verdict.lab} · package {verdict.package}", class_="over"),
         tag("h1", HEADLINES[verdict.outcome]),
         _score(verdict),
+        *([tag("p", tag("b", counts))] if counts else []),
         _counts(verdict),
         _next(verdict, typed),
         class_=verdict.outcome,
@@ -44,7 +47,9 @@ def head(verdict: Verdict, typed: Typed, whose: str = "") -> Markup:
 def _next(verdict: Verdict, typed: Typed) -> Markup:
     """One thing to do now, in the words of the terminal."""
     first = first_failed(verdict)
-    if verdict.outcome == "pass":
+    if verdict.outcome == "pass" and not typed.handed_in:
+        words, command = "Go on with the course:", typed.program
+    elif verdict.outcome == "pass":
         words, command = "Make the file to hand in:", typed.pack
     elif first:
         order = " first" if len(verdict.failed()) > 1 else ""
@@ -78,14 +83,16 @@ def _counts(verdict: Verdict) -> Markup:
     return tag("ul", *counts, class_="counts")
 
 
-def body(verdict: Verdict, plots: Mapping[str, Markup], site: str = "") -> Iterator[Markup]:
+def body(
+    verdict: Verdict, plots: Mapping[str, Markup], site: str = "", program: str = "./roslings"
+) -> Iterator[Markup]:
     """The checks: those to mend first, each whole; then the others, folded.
 
     `plots` are the figures that show what a check found wrong, by the check's id; `site` is the
-    address of the lessons' pages.
+    address of the lessons' pages, and `program` how roslings is called.
     """
     failed = [
-        _failed(check, verdict.package, plots.get(check.id, Markup()), _read(check, site))
+        _failed(check, verdict.package, plots.get(check.id, Markup()), _read(check, site, program))
         for check in verdict.failed()
     ]
     if failed:
@@ -123,12 +130,16 @@ def _rows(checks: Sequence[CheckResult]) -> Markup:
     return tag("ul", *map(_row, checks), class_="checks")
 
 
-def _read(check: CheckResult, site: str) -> Markup:
-    """Which paragraph of a lesson to read: a link, where its page is built."""
-    day, _, place = (check.lesson or "").partition("#")
-    if not site or not day.startswith("days/"):
-        return prose(check.lesson or "")
-    return tag("a", check.lesson or "", href=f"{site}/{day}/index.html#{place}")
+def _read(check: CheckResult, site: str, program: str) -> Markup:
+    """Which paragraph of a lesson to read: a link, or how the lesson is opened."""
+    lesson = check.lesson or ""
+    found = LESSON.fullmatch(lesson)
+    if not found:
+        return prose(lesson)
+    if site:
+        return tag("a", lesson, href=f"{site}/{found[1]}/index.html#{found[3]}")
+    return joined(lesson, ", in the lesson that ", tag("code", f"{program} lab {int(found[2])}"),
+                  " opens")  # fmt: skip
 
 
 def _failed(check: CheckResult, package: str, plot: Markup, read: Markup) -> Markup:
@@ -146,7 +157,7 @@ def _failed(check: CheckResult, package: str, plot: Markup, read: Markup) -> Mar
         ),
         plot,
         *_log(check, package),
-        *_hints(check.hints),
+        *_hints(check),
         id=f"check-{check.id}",
     )
 
@@ -162,11 +173,13 @@ def _log(check: CheckResult, package: str) -> Iterator[Markup]:
         yield tag("pre", "\n".join(lines), tabindex="0")
 
 
-def _hints(hints: Sequence[str]) -> Iterator[Markup]:
+def _hints(check: CheckResult) -> Iterator[Markup]:
     """Each step folded: who reads one does not see the next."""
-    for number, (step, hint) in enumerate(zip(STEPS, hints, strict=False), start=1):
+    for number, (step, hint) in enumerate(zip(STEPS, check.hints, strict=False), start=1):
         summary = tag("summary", f"Hint {number}: {step}")
         yield tag("details", summary, tag("pre", hint, tabindex="0", class_="hint"))
+    if check.mend:
+        yield tag("details", tag("summary", "What mends it"), tag("p", prose(check.mend)))
 
 
 def _row(check: CheckResult) -> Markup:

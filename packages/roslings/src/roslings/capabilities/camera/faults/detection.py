@@ -47,6 +47,10 @@ class XAndYSwapped(WrongPlace):
     """Column and row are exchanged."""
 
     hint = (
+        "Which of your two numbers is the column, and which the row? Follow both from the "
+        "mask to the message."
+    )
+    mend = (
         "numpy counts rows first: picture[row, column]. OpenCV's functions give x first: (column,"
         " row). x is the column."
     )
@@ -57,7 +61,8 @@ class XAndYSwapped(WrongPlace):
 class CornerNotCentre(WrongPlace):
     """The corner of the box around the ball."""
 
-    hint = "cv2.boundingRect gives the upper left corner. Add half of the width and the height."
+    hint = "Which point of the ball's box do you publish?"
+    mend = "cv2.boundingRect gives the upper left corner. Add half of the width and the height."
     measured = "{_place}: the corner of the box around the ball"
 
 
@@ -65,7 +70,8 @@ class CornerNotCentre(WrongPlace):
 class FromTheMiddle(WrongPlace):
     """Counted from the centre of the picture."""
 
-    hint = "Count from the upper left corner of the picture, to the right and down."
+    hint = "From where does your code count?"
+    mend = "Count from the upper left corner of the picture, to the right and down."
     measured = "{_place}: counted from the middle of the picture"
 
 
@@ -73,7 +79,8 @@ class FromTheMiddle(WrongPlace):
 class NotAFloat(WrongPlace):
     """A number that is no Python float came out as nonsense."""
 
-    hint = (
+    hint = "Of which kind is the value that goes into the point? Print its type."
+    mend = (
         "The fields of a Point are floats. A whole number, or one of numpy's own kinds, comes out"
         " as nonsense: write float(VALUE)."
     )
@@ -88,7 +95,8 @@ class NotAFloat(WrongPlace):
 class FoundTheDecoy(WrongPlace):
     """The ball of another colour."""
 
-    hint = (
+    hint = "Which of the two balls is asked for? Look at how your code compares their hues."
+    mend = (
         "There are two balls: take the one whose hue is nearest to ball_hue. Hues are 0 to 179 in"
         " OpenCV, half of the degrees that others count."
     )
@@ -99,7 +107,8 @@ class FoundTheDecoy(WrongPlace):
 class RedAndBlueExchanged(FoundTheDecoy):
     """In rgb8, a blue ball was taken for the red one."""
 
-    hint = (
+    hint = "In which order are the colours of this picture? Look at image.encoding."
+    mend = (
         "Look at image.encoding: rgb8 has red first. Turn it into bgr8 with cv2.cvtColor, before"
         " you make hues of it."
     )
@@ -110,7 +119,8 @@ class RedAndBlueExchanged(FoundTheDecoy):
 class HueIgnored(FoundTheDecoy):
     """The parameter was set, and the ball of the old colour is found."""
 
-    hint = (
+    hint = "When does your code read the parameter?"
+    mend = (
         "Read the parameter for each picture: self.get_parameter('ball_hue').value. What __init__"
         " read stays as it was then."
     )
@@ -126,7 +136,8 @@ class HueIgnored(FoundTheDecoy):
 class HueAtStartIgnored(FoundTheDecoy):
     """The node was started with another hue, and looks for that of the card."""
 
-    hint = (
+    hint = "When does your code read the parameter for the first time?"
+    mend = (
         "Read the parameter for each picture: self.get_parameter('ball_hue').value. A variable that"
         " only a change sets does not know the value of the start."
     )
@@ -158,7 +169,8 @@ class NotFoundAcrossTheEnd(NotFound):
     """The hue of the ball lies beyond the end of the wheel."""
 
     why = "Red lies at both ends of OpenCV's hues. Half of all red things have a hue above 170."
-    hint = (
+    hint = "Which hues does your code search? Look at both ends of the scale, 0 and 179."
+    mend = (
         "The wheel of hues is round: 179 and 0 are neighbours. Measure both ways round, and take"
         " the shorter one: min(away, 180 - away). Or use two ranges."
     )
@@ -180,7 +192,8 @@ class Unanswered(Fault):
 class TooSlowForPictures(Unanswered):
     """It works on one picture for seconds."""
 
-    hint = "Do not go through the pixels in a Python loop: numpy and cv2 do all of them at once."
+    hint = "How often does Python run through a loop for one picture?"
+    mend = "Do not go through the pixels in a Python loop: numpy and cv2 do all of them at once."
     measured = "the node still worked on it after many seconds"
 
 
@@ -197,7 +210,8 @@ class RowsNotCut(EndedByPicture):
     """A picture whose rows have idle bytes."""
 
     why = "Many cameras fill up their rows, for example to a multiple of 64 bytes."
-    hint = (
+    hint = "How many bytes has one row of this picture? Compare image.step with the width."
+    mend = (
         "One row has `step` bytes, which can be more than width x channels. Make rows first:"
         " reshape(height, step). Then cut: [:, :width * channels]. Then make columns."
     )
@@ -219,8 +233,10 @@ class FoundWhereNothingIs(Fault):
     why = "The robot drives to a ball that is not there."
     expected = "{picture}: nothing on {topic}"
 
+    hint = "What does your code do where the mask is empty? And what does noise leave in the mask?"
+
     @property
-    def hint(self) -> str:
+    def mend(self) -> str:
         """The place that stands for none, or what noise looks like."""
         if self.found == (0.0, 0.0):
             return "Where your search finds nothing, publish no message: 0, 0 is a place, too."
@@ -247,7 +263,8 @@ class StampNotCarried(Fault):
         "An answer comes later than its picture. Only by the stamp does anyone know where the"
         " robot was when the picture was made."
     )
-    hint = "Copy the whole header: ANSWER.header = image.header"
+    hint = "Where does the header of your answer come from?"
+    mend = "Copy the whole header: ANSWER.header = image.header"
     expected = "on {topic}, {what} of the picture: {wanted}"
 
     @property
@@ -264,7 +281,8 @@ class WrongDrawing(Fault):
     picture: str
     what: str
     why = "This picture is what a person looks at, to see what the robot thinks."
-    hint = (
+    hint = "Compare each field of the picture that you publish with the picture that you drew on."
+    mend = (
         "Draw with cv2.circle on the picture in bgr8, and publish that: its width, its height,"
         " step = width x 3, and all its bytes."
     )
@@ -284,7 +302,8 @@ class SilentAboutPicture(Fault):
     line: str
     similar: str | None
     why = "A camera with a broken driver sends such pictures. Without a word nobody finds out."
-    hint = (
+    hint = "What does your code look at before it uses the bytes of a picture?"
+    mend = (
         "Compare len(image.data) with image.step * image.height before you use the bytes, and log"
         " the line of the card."
     )
@@ -304,7 +323,8 @@ class AnsweredTwice(Fault):
     picture: str
     count: int
     why = "Who hears an answer takes it for news: one ball becomes two."
-    hint = "Call publish() once for each picture, in the function that hears it, and in no timer."
+    hint = "From how many places in your code is publish() called, and how often?"
+    mend = "Call publish() once for each picture, in the function that hears it, and in no timer."
     expected = "{picture}: one message on {topic}"
     measured = "{count} messages"
 
@@ -316,7 +336,8 @@ class AnswersBadPicture(Fault):
     picture: str
     topic: str
     why = "Who gets the answer believes it, and cannot know that the picture was broken."
-    hint = "After the line in the log, return: no place, and no drawing."
+    hint = "What does your function do after it has written the line?"
+    mend = "After the line in the log, return: no place, and no drawing."
     expected = "{picture}: nothing on {topic}"
     measured = "a message came"
 
@@ -329,6 +350,7 @@ class HasDepth(Fault):
     picture: str
     found: float
     why = "A place in a picture has a column and a row. z is free, so it stays 0."
-    hint = "Fill point.x and point.y only. The radius of the ball is no part of its place."
+    hint = "Which fields of the point does your code fill?"
+    mend = "Fill point.x and point.y only. The radius of the ball is no part of its place."
     expected = "{picture}: on {topic} z 0"
     measured = "z {found:g}"

@@ -18,7 +18,8 @@ class WrongStep(Fault):
     wanted: int
     found: int
     why = "Who reads the picture goes on by `step` bytes to find the next row."
-    hint = "step is the bytes of one row: width x channels. bgr8 has 3 channels, each one byte."
+    hint = "What does step count? Take one row of your picture."
+    mend = "step is the bytes of one row: width x channels. bgr8 has 3 channels, each one byte."
     expected = "on {topic}, step is {wanted}"
 
     @property
@@ -40,7 +41,8 @@ class NotAllBytes(Fault):
     wanted: int
     found: int
     why = "Who reads the picture believes its header, and reads beyond the end of the bytes."
-    hint = "data holds step x height bytes: all rows of the picture, one behind the other."
+    hint = "How many bytes do you publish, and how many does such a picture have?"
+    mend = "data holds step x height bytes: all rows of the picture, one behind the other."
     expected = "on {topic}, data has step x height = {wanted} bytes"
     measured = "it has {found} bytes"
 
@@ -52,10 +54,8 @@ class WrongPicture(Fault):
     topic: str
     off: float | None
     why = "Every node that looks through this camera sees only what you publish."
-    hint = (
-        "Publish what camera.read() gave: all rows, all columns, in their order."
-        f" {OPEN_THE_PAGE} there is your picture."
-    )
+    hint = f"Compare it with what camera.read() gave. {OPEN_THE_PAGE} there is your picture."
+    mend = "Publish what camera.read() gave: all rows, all columns, in their order."
     expected = "on {topic}, the pictures of the camera"
 
     @property
@@ -70,7 +70,8 @@ class WrongPicture(Fault):
 class RedAndBlueSwapped(WrongPicture):
     """Red looks blue and blue looks red."""
 
-    hint = (
+    hint = "In which order does the camera give the colours, and what does your encoding say?"
+    mend = (
         "OpenCV has blue first, and so has the camera: that is bgr8. Take cv2.cvtColor away, or"
         " let the encoding say what the bytes are."
     )
@@ -84,7 +85,8 @@ class PictureTwice(Fault):
     topic: str
     share: float
     why = "A robot that sees the past believes that the way is free."
-    hint = (
+    hint = "How often is the camera read, and how often do you publish?"
+    mend = (
         "Call camera.read() each time before you publish. Keep no old picture and no old message."
     )
     expected = "on {topic}, a new picture each time"
@@ -98,7 +100,8 @@ class PicturesLost(Fault):
     topic: str
     share: float
     why = "Each picture that is read costs time. A lost one may be the one with the ball."
-    hint = "Call camera.read() once for each message, and publish what it gave."
+    hint = "How often is the camera read, and how often do you publish?"
+    mend = "Call camera.read() once for each message, and publish what it gave."
     expected = "on {topic}, each picture that the node reads from the camera"
     measured = "{share:.0%} of the pictures that the node read were not published"
 
@@ -112,7 +115,8 @@ class ParameterNotSet(Fault):
     value: str
     reason: str
     why = "Who tunes a robot does so while it runs, and watches what happens."
-    hint = "Call self.declare_parameter(NAME, DEFAULT) in __init__, with the name of the card."
+    hint = "Which parameters does your node declare? `ros2 param list` tells, while the node runs."
+    mend = "Call self.declare_parameter(NAME, DEFAULT) in __init__, with the name of the card."
     expected = "`ros2 param set {node} {name} {value}` works"
 
     @property
@@ -131,6 +135,9 @@ class ParameterAccepted(Fault):
     span: str
     why = "A wrong value must not stop a robot that runs. Refuse it where it comes in."
     hint = (
+        "Who refuses a value that is out of the card's limits? Look at what declare_parameter gets."
+    )
+    mend = (
         "Give limits to declare_parameter: ParameterDescriptor(integer_range=[IntegerRange("
         "from_value=..., to_value=..., step=1)]). The type is that of the default."
     )
@@ -156,7 +163,8 @@ class WrongBrightness(Fault):
     wanted: float
     found: float
     why = "A program that finds things by their colour fails in a light that it does not know."
-    hint = (
+    hint = "Take one value of the picture, and go through your code with it by hand."
+    mend = (
         "For each point above the neutral value, add the levels of the card to every value of the"
         " picture. cv2.add stops at 0 and at 255."
     )
@@ -184,7 +192,8 @@ class LightAtStartIgnored(WrongBrightness):
     """The node was started with a value, and its pictures have another light."""
 
     why = "Who starts the robot chooses its settings then: nobody is there to set them later."
-    hint = (
+    hint = "When does your code read the parameter for the first time?"
+    mend = (
         "Read the parameter for each picture: self.get_parameter(NAME).value. A variable that only"
         " a change sets does not know the value of the start."
     )
@@ -207,7 +216,8 @@ class LightAtStartIgnored(WrongBrightness):
 class BrightnessIgnored(WrongBrightness):
     """Nothing happens."""
 
-    hint = (
+    hint = "When does your code read the parameter?"
+    mend = (
         "Read the parameter for each picture: self.get_parameter(NAME).value. What __init__ read"
         " stays as it was then."
     )
@@ -218,7 +228,8 @@ class BrightnessIgnored(WrongBrightness):
 class BrightnessGoesRound(WrongBrightness):
     """Values beyond 255 begin again at 0."""
 
-    hint = (
+    hint = "What becomes of 250 + 10 in a number of 8 bits?"
+    mend = (
         "A value of 8 bits goes round: 250 + 10 is 4. Use cv2.add(picture, (n, n, n, 0)), which"
         " stops at 0 and at 255. cv2.convertScaleAbs makes -20 to 20."
     )
@@ -234,7 +245,8 @@ class SilentAboutCamera(Fault):
     reason: str
     similar: str | None
     why = "Nobody can mend what a program does not tell. A robot has no screen: only its log."
-    hint = (
+    hint = "What does your code do when the camera cannot be opened or read?"
+    mend = (
         "except OSError as error: log the line of the card with str(error) in it, each time."
         " It names the device and the reason."
     )
@@ -250,7 +262,8 @@ class SilentAboutCamera(Fault):
 class EndedWithoutCamera(SilentAboutCamera):
     """The node ended."""
 
-    hint = (
+    hint = "Read the last lines below: the last one names the error, the one above it the place."
+    mend = (
         "Read the last lines below. Catch OSError where you open the camera and where you read"
         " it. Then try again from a timer."
     )
@@ -264,7 +277,8 @@ class NoPictureAfter(Fault):
     when: str
     topic: str
     why = "Plugs come loose on a robot that drives. Nobody is there to start the node again."
-    hint = (
+    hint = "What does your node do after the camera had an error? Who opens it again?"
+    mend = (
         "After an OSError, close the camera and set self.camera to None. A timer opens it again"
         " where it is None."
     )
@@ -281,6 +295,7 @@ class TriesSeldom(Fault):
     within_s: float
     took_s: float
     why = "A robot that stands for want of a picture stands in somebody's way."
-    hint = "Open the camera from a timer of its own, with a period below two seconds."
+    hint = "What opens the camera again, and how often?"
+    mend = "Open the camera from a timer of its own, with a period below two seconds."
     expected = "{when}: a new try within {within_s:g} s, so pictures on {topic}"
     measured = "the first one came after {took_s:.1f} s"

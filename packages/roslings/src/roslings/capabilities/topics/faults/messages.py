@@ -41,7 +41,8 @@ class WrongCount(Fault):
     after: int
     why = "With a number that goes up by one, a lost message is noticed."
     measured = "{after} after {before}"
-    hint = "Add 1 to your counter once for each message, right after publish()."
+    hint = "When does your counter change, and how often for one message?"
+    mend = "Add 1 to your counter once for each message, right after publish()."
 
     @property
     def expected(self) -> str:

@@ -18,7 +18,8 @@ class WrongField(Fault):
     why = "Who uses a sensor's messages knows the sensor only by these fields."
     expected = "on {topic}, the field {name} is {wanted}"
     measured = "it is {found}"
-    hint = (
+    hint = "Which line fills {name}, before you publish?"
+    mend = (
         "Fill it before you publish: MESSAGE.{name} = ... A field that nobody fills is 0 or empty."
     )
 
@@ -29,7 +30,8 @@ class NoStamp(Fault):
 
     topic: str
     why = "A distance or a picture without its time is of no use to a robot that moves."
-    hint = "Fill it in each message: MESSAGE.header.stamp = self.get_clock().now().to_msg()"
+    hint = "Which line fills the header's stamp, and of which message?"
+    mend = "Fill it in each message: MESSAGE.header.stamp = self.get_clock().now().to_msg()"
     expected = "on {topic}, header.stamp is the time at which the message is made"
     measured = "header.stamp is 0: nobody filled it"
 
@@ -39,7 +41,8 @@ class OldStamp(NoStamp):
     """The stamp is not the time of the message."""
 
     behind_s: float
-    hint = (
+    hint = "When does your code look at the clock?"
+    mend = (
         "Take the time in the function that publishes, not in __init__:"
         " self.get_clock().now().to_msg()"
     )
@@ -82,7 +85,8 @@ class NotInfinite(WrongReaction):
         "ROS has a rule for this, REP 117: too near is -infinity, too far is +infinity. A number"
         " means: it was really measured."
     )
-    hint = (
+    hint = "What does your code publish for a value that is out of range?"
+    mend = (
         "Compare with min_range and max_range before you publish, and put in -math.inf or"
         " math.inf. NaN stays NaN."
     )
@@ -101,7 +105,8 @@ class EndedWhileHearing(WrongReaction):
     """The node ended when it heard the value."""
 
     why = "Real sensors send NaN and infinities. A node that ends at one of them stops the robot."
-    hint = (
+    hint = "Read the last lines below: the last one names the error. Which value had come?"
+    mend = (
         "Read the last lines below. Python cannot make an int of NaN or of an infinity: ask"
         " math.isfinite(VALUE) first."
     )
@@ -125,6 +130,7 @@ class MoreThanAsked(Fault):
     told: int
     came: int
     why = "Who hears a message takes it for news: twice the same message is a wrong one."
-    hint = "Call publish() once, in the function that hears a message, and in no timer."
+    hint = "From how many places in your code is publish() called?"
+    mend = "Call publish() once, in the function that hears a message, and in no timer."
     expected = "one message on {topic} for each that is heard ({told} were told)"
     measured = "{came} messages came"

@@ -43,6 +43,8 @@ class WrongRate(Fault):
     why = "Other nodes rely on the rate: a slow sensor is like a robot with closed eyes."
     expected = "{wanted_hz:g} Hz on {topic} (within {within:.0%})"
 
+    hint = "Look at the number that you give create_timer(...). In which unit is it?"
+
     @property
     def measured(self) -> str:
         """The rate, how sure it is, and the period."""
@@ -52,7 +54,7 @@ class WrongRate(Fault):
         )
 
     @property
-    def hint(self) -> str:
+    def mend(self) -> str:
         """The period to aim at."""
         return (
             f"{self.wanted_hz:g} Hz means one message every {1 / self.wanted_hz:g} s."
@@ -75,7 +77,8 @@ class Bursts(WrongRate):
     """The number is right, but the messages come in groups."""
 
     why = "A robot that hears nothing for a while and then everything at once acts too late."
-    hint = "Publish one message in each call of the timer's function, not several in a loop."
+    hint = "How often does one call of the timer's function publish?"
+    mend = "Publish one message in each call of the timer's function, not several in a loop."
 
     @property
     def expected(self) -> str:  # type: ignore[override]
@@ -97,7 +100,8 @@ class SentAgain(TooFast):
     measured = (
         "{rate.hz:.1f} messages a second: each time {times} of them, one right after the other"
     )
-    hint = (
+    hint = "The period is right, and publish() runs {times} times in it. From where is it called?"
+    mend = (
         "The period is right, and publish() runs {times} times in it. Look for a second publish(),"
         " a loop around it, or a function that is called twice."
     )
@@ -122,14 +126,17 @@ class SleepsAfterWorking(TooSlow):
         )
 
     @property
-    def hint(self) -> str:
-        """Wait on a timer, work quickly."""
+    def hint(self) -> str:  # type: ignore[override]
+        """Two times that add up."""
         wanted_s = 1 / self.wanted_hz
         work_s = self.rate.median_s - wanted_s
-        return (
-            f"Do you work for {work_s:.2f} s and then sleep for {wanted_s:g} s? The two add up."
-            f" Use create_timer({wanted_s:g}, ...), and let its function return at once."
-        )
+        return f"Do you work for {work_s:.2f} s and then sleep for {wanted_s:g} s? The two add up."
+
+    @property
+    def mend(self) -> str:
+        """Wait on a timer, work quickly."""
+        wanted_s = 1 / self.wanted_hz
+        return f"Use create_timer({wanted_s:g}, ...), and let its function return at once."
 
 
 @dataclass(eq=False)
@@ -151,7 +158,8 @@ class StallsNowAndThen(TooSlow):
 class StartsLate(TooSlow):
     """The first message is alone; only after a pause the others come, at the right rate."""
 
-    hint = (
+    hint = "What waits between your first publish() and the timer?"
+    mend = (
         "Start the timer in __init__, and publish only in its function. What waits between your"
         " first publish() and the timer?"
     )
