@@ -10,6 +10,6 @@ COMMANDS = (
      "roslings.commands.graph"),
     ("", "rqt_graph", "", "roslings.rqt_graph:main"),
     ("", "", "what is next", "roslings.commands.today"),
-    ("teachers", "site", "build the website: lessons, words, quizzes", "roslings.commands.site"),
+    ("learners", "site", "the lessons, words and quizzes as a website", "roslings.commands.site"),
     ("teachers", "test", "run the tests of roslings", "roslings.commands.test"),
 )  # fmt: skip

@@ -12,7 +12,6 @@ from ros2_on_pip.typed_paths import quoted_from_here
 from roslings import course
 
 if TYPE_CHECKING:
-    from roslings.report.html import Own
     from roslings.report.typed import Typed
 
 FLAGS = ("solution", "trust", "as_stranger")
@@ -33,15 +32,8 @@ def as_typed(options: argparse.Namespace) -> Typed:
 
     path = getattr(options, "path", None)
     place = (quoted_from_here(path),) if path else ()
-    return Typed(options.lab, program(), place, tuple(_options(options)))
-
-
-def own_page(options: argparse.Namespace) -> Own:
-    """For the page of a student's own check: the same words, and the site that was built here."""
-    from roslings.report.html import Own
-
-    site = course.root() / "build" / "site" / "html"
-    return Own(as_typed(options), site.as_uri() if (site / "index.html").is_file() else "")
+    is_of_the_course = (course.root() / "labs" / options.lab).is_dir()
+    return Typed(options.lab, program(), place, tuple(_options(options)), is_of_the_course)
 
 
 def _options(options: argparse.Namespace) -> Iterator[str]:

@@ -12,6 +12,7 @@ from roslings import course
 from roslings.typed import program
 from roslings.workspace import progress
 from roslings.workspace.student import workspace_root
+from roslings_rover.remembered import has_reached_a_ball
 
 if TYPE_CHECKING:
     from roslings.course import Lab
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 
 FIRST_DAY = "01-install"
 FIRST_PAGE = "first-15-minutes.md"
+LESSON_ONE = "the lesson of day 1, in JupyterLab"
 BAR_COLUMNS = 14
 FULL, EMPTY = "#", "."
 """Of the bar; a screen reader says them, and every terminal has them."""
@@ -31,13 +33,7 @@ def next_lines(labs: list[LabStatus], next_step: Today) -> Iterator[str]:
         return
     lab = next_step.at.lab
     if not _has_begun(labs):
-        yield f"{'Now':6}The first 15 minutes: drive a robot, nine commands."
-        yield f"{'':6}Read {from_here(_first_page())}"
-        yield f"{'Then':6}{program()} lab 1    the lesson of day 1, in JupyterLab"
-        if drill_before(lab):
-            yield f"{'Then':6}{program()} watch    the first drills, and then the first lab"
-        else:
-            yield f"{'Then':6}{program()} start {lab.name}    the first lab"
+        yield from _first_lines(lab)
         return
     yield f"Day {lab.outline.day}: {lab.outline.title}  ({how_far(next_step.at)})"
     yield f"{'Read':6}{program()} lab {int(lab.outline.day[:2])}    the lesson"
@@ -46,6 +42,21 @@ def next_lines(labs: list[LabStatus], next_step: Today) -> Iterator[str]:
     verb = "start" if next_step.step is progress.Step.START else "check"
     yield f"{'Then' if drill else 'Next':6}{program()} {verb} {lab.name}"
     yield f"{'Task':6}{from_here(lab.task)}"
+
+
+def _first_lines(lab: Lab) -> Iterator[str]:
+    """Before the first drill and the first lab."""
+    if has_reached_a_ball():
+        yield f"{'Done':6}The first 15 minutes: the rover has touched the ball."
+        yield f"{'Next':6}{program()} lab 1    {LESSON_ONE}"
+    else:
+        yield f"{'Now':6}The first 15 minutes: drive a robot, find a mistake."
+        yield f"{'':6}Read {from_here(_first_page())}"
+        yield f"{'Then':6}{program()} lab 1    {LESSON_ONE}"
+    if drill_before(lab):
+        yield f"{'Then':6}{program()} watch    the first drills, and then the first lab"
+    else:
+        yield f"{'Then':6}{program()} start {lab.name}    the first lab"
 
 
 def _first_page() -> Path:
@@ -76,9 +87,21 @@ def _one_bar(name: str, done: int, of: int) -> str:
 
 def _drills_done(day: str = "") -> tuple[int, int]:
     """How many are mended, and how many there are: of one day, or of all."""
-    kept = progress.read_progress(workspace_root()).drills
-    names = [name for of, name in drills_there() if day in ("", of)]
-    return sum(name in kept and kept[name].passed_at is not None for name in names), len(names)
+    left, there = drills_left(), drills_there()
+    of = sum(day in ("", each) for each, _ in there)
+    return of - sum(day in ("", each) for each, _ in left), of
+
+
+def drills_of(day: str) -> str:
+    """How many drills of a day are mended: `3/10`; `-` where it has none."""
+    done, of = _drills_done(day)
+    return f"{done}/{of}" if of else "-"
+
+
+def best_quiz_of(day: str) -> str:
+    """The best score in the quiz of a day: `9/12`; `-` where it was never answered."""
+    kept = progress.read_progress(workspace_root()).quizzes.get(day)
+    return f"{kept.best}/{kept.of}" if kept else "-"
 
 
 def drills_there() -> list[tuple[str, str]]:
@@ -87,25 +110,26 @@ def drills_there() -> list[tuple[str, str]]:
     return [(folder.parents[1].name, folder.name[3:]) for folder in folders if folder.is_dir()]
 
 
+def drills_left() -> list[tuple[str, str]]:
+    """Day and name of each drill that is not done, in the order of the path."""
+    done = progress.read_progress(workspace_root()).drills
+    return [
+        (day, name) for day, name in drills_there() if not (name in done and done[name].passed_at)
+    ]
+
+
 def drill_before(lab: Lab) -> str | None:
     """The next drill up to this lab's day; None where all of them are done."""
-    done = progress.read_progress(workspace_root()).drills
-    return next(
-        (
-            name for day, name in drills_there()
-            if day <= lab.outline.day
-            and not (name in done and done[name].passed_at)
-        ),
-        None,
-    )  # fmt: skip
+    return next((name for day, name in drills_left() if day <= lab.outline.day), None)
 
 
 def how_far_is_the_first_day(labs: list[LabStatus]) -> str:
     """It has no lab; who has had a package checked has an installation that works."""
-    done, of = _drills_done(FIRST_DAY)
     if any(each.progress.checks for each in labs):
-        return f"your installation works; {done} of {of} drills"
-    return f"{done} of {of} drills; first: {FIRST_PAGE}"
+        return "your installation works"
+    if has_reached_a_ball():
+        return "the first page is done"
+    return f"first: {FIRST_PAGE}"
 
 
 def how_far(each: LabStatus) -> str:

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
+import time
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -20,14 +23,17 @@ from roslings.commands.options import (
 )
 from roslings.commands.showing import is_stdout, kept, read, replace_kept, show
 from roslings.course import NoSolution
-from roslings.typed import own_page
+from roslings.typed import as_typed
 from roslings.workspace.student import workspace_root
 
 if TYPE_CHECKING:
     from roslings.course import Lab
+    from roslings.report.html import Own
     from roslings.saving import Graded
 
 __all__ = ["add_options", "leave", "run"]
+
+READY = "ROSLINGS_READY_S"
 
 
 def add_options(word: argparse.ArgumentParser) -> None:
@@ -104,7 +110,6 @@ def _check_package(lab: Lab, package: Path, options: argparse.Namespace) -> int:
     from roslings.experiment import Choices, insist_on_wall
     from roslings.platforms import for_others
     from roslings.saving import place_for_bags
-    from roslings.timeline import process_began_ns
 
     quiet = is_stdout(options.json)
     others = for_others(options)
@@ -121,13 +126,28 @@ def _check_package(lab: Lab, package: Path, options: argparse.Namespace) -> int:
             for_others=others, soak_s=_soak_s(lab, options, others),
         )  # fmt: skip
         with ready(lab, choices) as begun:
-            graded = begun.grade(package, process_began_ns(), quiet)
+            graded = begun.grade(package, began_ns(os.environ), quiet)
         before = None if options.solution else replace_kept(lab, graded.verdict)
         code = show(graded.verdict, options, before)
         if options.timings:
             _show_timings(graded, options)
         _save(graded, options, bags)
     return code
+
+
+def began_ns(environment: Mapping[str, str]) -> int:
+    """When the check began, on the monotonic clock: with its process, or when all was installed.
+
+    `./roslings` tells in seconds since the computer's start when it had installed what was missing.
+    """
+    from roslings.timeline import NS_PER_S, process_began_ns
+
+    try:
+        age_s = time.clock_gettime(time.CLOCK_BOOTTIME) - float(environment.get(READY, ""))
+        ready_ns = time.monotonic_ns() - round(age_s * NS_PER_S)
+    except (ValueError, OverflowError):  # nobody has installed anything, or says so in no number
+        return process_began_ns()
+    return max(process_began_ns(), ready_ns)
 
 
 def _show_timings(graded: Graded, options: argparse.Namespace) -> None:
@@ -170,9 +190,18 @@ def _save(graded: Graded, options: argparse.Namespace, bags: Path | None) -> Non
     from roslings.saving import save
 
     if options.html:
-        graded.write_page(options.html, own_page(options))
+        graded.write_page(options.html, _own_page(options))
     if options.evidence:
         save(graded, options.evidence, bags)
         say = f"\nThe evidence is in {from_here(options.evidence)}. Look at it in a browser:"
         page = from_here(options.evidence / "report.html")
         print(f"{say}\n{page}", file=sys.stderr if is_stdout(options.json) else sys.stdout)
+
+
+def _own_page(options: argparse.Namespace) -> Own:
+    """For the page of a student's own check: the same words, and the site that lies here."""
+    from roslings.built_site import site_here
+    from roslings.report.html import Own
+
+    site = site_here()
+    return Own(as_typed(options), site.as_uri() if site else "")

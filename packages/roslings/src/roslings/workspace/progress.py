@@ -20,6 +20,7 @@ from roslings.workspace.progress_file import (
     DrillProgress,
     LabProgress,
     Progress,
+    QuizProgress,
     as_json,
     progress_in,
 )
@@ -115,6 +116,23 @@ def record_drill(name: str, passed: bool, workspace: Path | None = None) -> Dril
         progress.drills[name] = DrillProgress(before.tries + 1, now, passed_at)
         _write(_file(root), progress)
         return progress.drills[name]
+
+
+def record_quiz(day: str, right: int, of: int, workspace: Path | None = None) -> QuizProgress:
+    """Keep how many questions of a day's quiz were right. Raises DiskFull and CannotWrite.
+
+    The best round is the one with the largest part of its questions right: a quiz may grow.
+    """
+    root = workspace or workspace_root()
+    now = datetime.now(timezone.utc).replace(microsecond=0)
+    with writing(_file(root)), _locked(root):
+        progress = read_progress(root).with_day(datetime.now().astimezone().date())
+        before = progress.quizzes.get(day, QuizProgress())
+        better = not before.of or right * before.of >= before.best * of
+        best, best_of = (right, of) if better else (before.best, before.of)
+        progress.quizzes[day] = QuizProgress(best, best_of, right, before.rounds + 1, now)
+        _write(_file(root), progress)
+        return progress.quizzes[day]
 
 
 def read_progress(workspace: Path) -> Progress:

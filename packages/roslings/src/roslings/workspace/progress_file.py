@@ -51,6 +51,19 @@ class DrillProgress:
 
 
 @dataclass(frozen=True)
+class QuizProgress:
+    """How far one day's quiz is."""
+
+    best: int = 0
+    """Questions that were right at the first try, in the best round."""
+    of: int = 0
+    """Questions of that round."""
+    last: int = 0
+    rounds: int = 0
+    last_at: datetime | None = None
+
+
+@dataclass(frozen=True)
 class Progress:
     """The whole file."""
 
@@ -58,6 +71,8 @@ class Progress:
     """The lab's name to how far it is."""
     drills: dict[str, DrillProgress] = field(default_factory=dict)
     """The same of drills."""
+    quizzes: dict[str, QuizProgress] = field(default_factory=dict)
+    """The day's folder to how far its quiz is."""
     days: list[date] = field(default_factory=list)
     """On which something was checked, in order; the newest `DAYS_KEPT`."""
 
@@ -82,7 +97,10 @@ def progress_in(content: bytes) -> Progress:
             raise Damaged
         labs = {name: _lab_in(entry) for name, entry in tree.get("labs", {}).items()}
         drills = {name: _drill_in(entry) for name, entry in tree.get("drills", {}).items()}
-        return Progress(labs, drills, [date.fromisoformat(day) for day in tree.get("days", [])])
+        quizzes = {day: _quiz_in(entry) for day, entry in tree.get("quizzes", {}).items()}
+        return Progress(
+            labs, drills, quizzes, [date.fromisoformat(day) for day in tree.get("days", [])]
+        )
     except (AttributeError, RecursionError, TypeError, ValueError) as error:
         raise Damaged from error
 
@@ -116,6 +134,18 @@ def _drill_in(entry: dict[str, Any]) -> DrillProgress:
         tries=int(_between(entry.get("tries", 0), float("inf"))),
         last_at=_time_in(entry.get("last_at")),
         passed_at=_time_in(entry.get("passed_at")),
+    )
+
+
+def _quiz_in(entry: dict[str, Any]) -> QuizProgress:
+    """Raises ValueError, TypeError or AttributeError where it is none."""
+    of = int(_between(entry.get("of", 0), float("inf")))
+    return QuizProgress(
+        best=int(_between(entry.get("best", 0), of)),
+        of=of,
+        last=int(_between(entry.get("last", 0), float("inf"))),
+        rounds=int(_between(entry.get("rounds", 0), float("inf"))),
+        last_at=_time_in(entry.get("last_at")),
     )
 
 

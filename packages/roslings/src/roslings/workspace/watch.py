@@ -16,11 +16,25 @@ from roslings.workspace.sources import BUILT, MADE
 SETTLED_MS = 400
 """An editor saves a file in several steps; they are told as one change."""
 STEP_MS = 100
-LOOK_AGAIN_MS = 250
+LOOK_AGAIN_MS = 100
+"""How long a key waits at most."""
+_ENDINGS = "py|xml|cfg|yaml|yml|txt|md|sh|json|msg|srv|action|launch"
 _EDITORS = re.compile(
-    r"^\.|~$|^#.*#$|\.py[co]$|\.tmp$|\.swp$|^4913$|___jb_(tmp|old)___$|\.kate-swp$|\.bak$"
-)
-"""Files that an editor makes for itself; 4913 is Vim's test of whether it may write."""
+    "|".join((
+        r"^\.",  # hidden: Vim's swap files, gedit's and nano's new ones, Emacs's locks
+        r"~$", r"^#.*#$", r"\.py[co]$",
+        r"\.(tmp|temp|swp|swo|swx|bak|bck|old|orig|rej|part|lock)$",
+        r"\.(tmp|temp)[.\d-]",
+        r"^4913$",  # Vim's test of whether it may write
+        r"___jb_(tmp|old)___$",  # PyCharm
+        r"\.kate-swp$", rf"\.({_ENDINGS})\.[A-Za-z0-9]{{6}}$",  # Kate, and all that Qt saves
+        r"\.sb-[0-9a-f]+-\w+$",  # macOS
+        r"^(flycheck|flymake)_|_(flycheck|flymake)\.\w+$",  # Emacs
+        r"^sed[A-Za-z0-9]{6}$",  # sed -i
+        r"\.yours\d*$",  # ours: what a drill was before it was begun again
+    ))
+)  # fmt: skip
+"""Files that an editor makes for itself."""
 
 
 class Saves(BaseFilter):
