@@ -250,18 +250,19 @@ def test_what_runs_beside_comes_along_and_is_told(one: Drill, tmp_path: Path) ->
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("domain", "outcome"),
-    [("88", "pass"), ("0", "pass"), ("101", "pass"), ("eight", "fail")],
-)
-def test_each_cure_that_the_lesson_names_mends_seven(
-    domain: str, outcome: str, tmp_path: Path
+    ("line", "outcome"),
+    [("export ROBOT=rover", "pass"), ("ROBOT=rover; export ROBOT", "pass"), ("ROBOT=rover", "fail"),
+     ("export ROBOT=tower", "fail")],
+)  # fmt: skip
+def test_each_way_to_hand_on_a_variable_mends_the_drill(
+    line: str, outcome: str, tmp_path: Path
 ) -> None:
-    """A number is one, and no line at all is the other; a word is none."""
+    """The right value in the shell alone is not enough, and a wrong one is not, either."""
     from fresh import in_fresh_process
 
     from roslings_learn.drills.running import check
 
-    file = tmp_path / "seven.sh"
-    starter = drill("seven").starter.read_text("utf-8")
-    file.write_text(starter.replace("=seven", f"={domain}"), "utf-8")
-    assert in_fresh_process(check, drill("seven"), file).outcome == outcome
+    file = tmp_path / "it.sh"
+    one = drill("handed_on")
+    file.write_text(one.starter.read_text("utf-8").replace("ROBOT=rover", line), "utf-8")
+    assert in_fresh_process(check, one, file).outcome == outcome

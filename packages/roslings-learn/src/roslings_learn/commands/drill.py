@@ -50,7 +50,9 @@ def _day_of_drills(text: str) -> str:
     from roslings_learn.drills import NoSuchDrill, all_drills
     from roslings_learn.drills.course import of_day
 
-    found = of_day(all_drills(), text)
+    every = all_drills()
+    found = of_day(every, text)
     if not found:
-        raise NoSuchDrill(f"There is no drill of the day {text!r}. Give a day from 1 to 7.")
+        last = max(int(each.day[:2]) for each in every)
+        raise NoSuchDrill(f"There is no drill of the day {text!r}. Give a day from 1 to {last}.")
     return found[0].day

@@ -76,6 +76,11 @@ class Drill:
         return path
 
     @property
+    def has_solution(self) -> bool:
+        """Whether this edition has it."""
+        return (self.folder / f"{SOLUTION}{self.suffix}").is_file()
+
+    @property
     def check(self) -> Path | None:
         """Experiments and checks of its own; None where the card says all."""
         path = self.folder / CHECK

@@ -53,7 +53,8 @@ class NeverSpins(Fault):
     node: str
     expected = "a node that runs its callbacks: timers, subscriptions, services"
     why = "ROS puts what comes into a queue. Only spinning takes it out and calls your function."
-    hint = "What keeps main() busy? It must be rclpy.spin(node), and no callback may wait or loop."
+    hint = "What keeps main() busy, and does a callback wait or loop?"
+    mend = "What keeps main() busy? It must be rclpy.spin(node), and no callback may wait or loop."
     measured = "{node} is there, but it runs no callback"
 
 
@@ -109,7 +110,8 @@ class RunsOn(Fault):
     after_s: float
     expected = "the program does its task and ends"
     why = "Who starts it waits until it ends."
-    hint = "What does it wait for? Does it spin for ever, where it should spin until it is done?"
+    hint = "What does it wait for, after its task is done?"
+    mend = "What does it wait for? Does it spin for ever, where it should spin until it is done?"
     measured = "it was still running after {after_s:.1f} s"
 
 
@@ -159,7 +161,8 @@ class CancelUnheard(Fault):
     expected = "a request to cancel is heard while the goal is under way"
     measured = "nobody heard the request to cancel: the goal was over before"
     why = "A robot that hears Stop only when it has arrived does not stop."
-    hint = "Who hears it while the execute callback works? It needs a thread of its own."
+    hint = "Who hears a request to cancel, while the execute callback works?"
+    mend = "Who hears it while the execute callback works? It needs a thread of its own."
 
 
 @dataclass(eq=False)

@@ -11,6 +11,7 @@ from roslings.judge.faults import NothingToJudge
 from roslings.judge.floods import flood_in
 from roslings.judge.outcome import words_for
 from roslings.verdict import CheckResult
+from roslings_learn.drills.faults import NoAnswerYet
 from roslings_learn.drills.steps import Step
 
 
@@ -31,6 +32,11 @@ class DrillVerdict:
     notes: tuple[str, ...] = field(default=())
 
     @property
+    def awaits_answer(self) -> bool:
+        """A question that nobody has answered: nothing is wrong yet."""
+        return self.first is not None and self.first.fault == NoAnswerYet.__name__
+
+    @property
     def headline(self) -> str:
         """The cause, in one line: Python's own last word where the program ended with one."""
         if self.first is None:
@@ -41,6 +47,18 @@ class DrillVerdict:
         if lines and "exit code" in (said := self.first.measured or "") and "code 0" not in said:
             return next((line for line in lines if not line.startswith("[INFO]")), lines[-1])
         return self.first.measured or self.first.why or self.first.title
+
+    def without(self, folder: str) -> DrillVerdict:
+        """The same, with files of this folder by their names alone: the student has another."""
+        if self.first is None:
+            return self
+        said = {
+            name: text.replace(folder, "")
+            for name in ("measured", "expected", "why", "hint")
+            if (text := getattr(self.first, name))
+        }
+        log = tuple(line.replace(folder, "") for line in self.first.log)
+        return replace(self, first=self.first.model_copy(update={**said, "log": log}))
 
     def taking(self, seconds: float) -> DrillVerdict:
         """The same, with its seconds."""

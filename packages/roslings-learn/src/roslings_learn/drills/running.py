@@ -205,7 +205,8 @@ def _live(
         return
     installed = _installed(drill, name, source, assignment)
     said = readable(drill, name, source) if drill.card.answer else None
-    answer.send(_verdict(drill, said, Stage(installed, assignment, ENDS_WITHIN_S)))
+    verdict = _verdict(drill, said, Stage(installed, assignment, ENDS_WITHIN_S))
+    answer.send(verdict.without(f"{installed.folder}{os.sep}"))
     os._exit(0)  # the interpreter's own end takes 0.2 s, and leaves nothing that we need
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -58,6 +59,34 @@ def start(drill: Drill, workspace: Path | None = None) -> tuple[Path, bool]:
         file.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(drill.starter, file)
     return file, True
+
+
+def is_changed(drill: Drill, workspace: Path | None = None) -> bool:
+    """Whether the student's file is another than the starter, or is not there."""
+    try:
+        return file_of(drill, workspace).read_bytes() != drill.starter.read_bytes()
+    except OSError:  # what stands there is no file, or cannot be read
+        return True
+
+
+def begin_again(drill: Drill, workspace: Path | None = None) -> Path:
+    """Put the starter back in place of the student's file; where that is kept.
+
+    Raises DiskFull, CannotWrite.
+    """
+    file = file_of(drill, workspace)
+    kept = _free_name(file)
+    with writing(file):
+        if os.path.lexists(file):
+            file.rename(kept)
+    start(drill, workspace)
+    return kept
+
+
+def _free_name(file: Path) -> Path:
+    """Of files with another ending, so that no drill and no editor takes it for the program."""
+    names = (file.with_name(f"{file.name}.yours{number}") for number in ("", *range(2, 1000)))
+    return next(name for name in names if not os.path.lexists(name))
 
 
 def _put_companion(drill: Drill, folder: Path) -> None:

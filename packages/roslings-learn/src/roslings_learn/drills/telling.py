@@ -12,11 +12,13 @@ from ros2_on_pip.typed_paths import shown
 from roslings.report.log_lines import helpful
 from roslings.report.page import Page
 from roslings.report.typed import Typed
+from roslings_learn.drills.beside import beside
 from roslings_learn.drills.card import KINDS
 from roslings_learn.drills.course import Drill
 from roslings_learn.drills.judging import DrillVerdict
-from roslings_learn.drills.student import DrillStatus
+from roslings_learn.drills.student import DrillStatus, program_in
 
+COLOURS = {"-": "red", "+": "green"}
 LOG_LINES = 6
 BAR = 24
 STEPS = ("where to look", "which idea", "the same idea in other code")
@@ -55,12 +57,15 @@ def put_task(to: Page, drill: Drill, file: Path, place: tuple[int, int], way: Wa
     if card.answer:
         to.labelled("Question", card.answer.question)
     to.command("File", "", shown(file))
-    to.labelled("Read", card.lesson)
+    to.lesson("Read", card.lesson)
     way.put_next(to, "Open the file, mend it", drill)
 
 
 def put_verdict(to: Page, drill: Drill, verdict: DrillVerdict, file: Path, way: Way) -> None:
     """The first thing that is wrong, and its next step; or that all is well."""
+    if verdict.awaits_answer:
+        _put_question(to, drill, verdict, file, way)
+        return
     mark = {"pass": "pass", "fail": "fail", "inconclusive": "inconclusive"}[verdict.outcome]
     style = {"pass": "green", "fail": "bold red", "inconclusive": "bold magenta"}[mark]
     head = f"{to.marks[mark]} {drill.name}  "
@@ -71,10 +76,23 @@ def put_verdict(to: Page, drill: Drill, verdict: DrillVerdict, file: Path, way: 
             to.labelled("Because", verdict.because)
         return
     _put_details(to, verdict, file)
-    to.labelled("read", drill.card.lesson, indent=2)
+    to.lesson("read", drill.card.lesson, indent=2)
     way.put_next(to, f"Mend {shown(file)}", drill)
     if verdict.outcome == "fail":
         way.put_help(to, drill)
+
+
+def _put_question(to: Page, drill: Drill, verdict: DrillVerdict, file: Path, way: Way) -> None:
+    """Of a program to predict: nothing is wrong, an answer is awaited."""
+    assert drill.card.answer and verdict.first
+    head = f"{to.marks['inconclusive']} {drill.name}  "
+    to.headed(head, verdict.headline, style="bold cyan", text_style="bold")
+    if not way.watched:
+        to.labelled("question", drill.card.answer.question, indent=2)
+    to.labelled("how", verdict.first.hint or "", indent=2)
+    to.lesson("read", drill.card.lesson, indent=2)
+    way.put_next(to, f"Write your answer into {shown(file)}", drill)
+    way.put_help(to, drill)
 
 
 def _put_details(to: Page, verdict: DrillVerdict, file: Path) -> None:
@@ -97,12 +115,14 @@ def _of_one_file(text: str, file: Path) -> str:
     return by_hand.replace("`ros2 run`", f"`{runner} {file.name}`")
 
 
-def put_hint(to: Page, drill: Drill, step: int, program: str) -> None:
+def put_hint(to: Page, drill: Drill, step: int, program: str, watched: bool = False) -> None:
     """Step 1 to 3 of the hint."""
     to.line(f"Hint {step} of {len(STEPS)} for {drill.name}: {STEPS[step - 1]}", "bold")
     to.text(drill.card.hints[step - 1], indent=2)
-    to.labelled("Read", drill.card.lesson)
-    if step < len(STEPS):
+    to.lesson("Read", drill.card.lesson)
+    if step < len(STEPS) and watched:
+        to.labelled("More", "Press h once more.")
+    elif step < len(STEPS):
         again = f"{program} drill {drill.name} --hint {step + 1}"
         to.command("More", "The next hint:", again)
 
@@ -118,6 +138,33 @@ def put_list(to: Page, every: Sequence[DrillStatus]) -> None:
             to.line(f"Day {int(day[:2])}", "bold")
         mark = to.marks["pass"] if each.done else " "
         to.line(f"  {mark} {each.drill.name:<24} {each.drill.card.title}")
+
+
+def put_day(to: Page, every: Sequence[DrillStatus], at: Drill, program: str) -> None:
+    """The drills of the day of `at`, and of each other day how many are done."""
+    for day in dict.fromkeys(each.drill.day for each in every):
+        those = [each for each in every if each.drill.day == day]
+        done = sum(each.done for each in those)
+        to.line(f"Day {int(day[:2]):<2}  {done} of {len(those)} drills done", "bold")
+        for each in those if day == at.day else ():
+            here = ">" if each.drill == at else " "
+            mark = to.marks["pass"] if each.done else " "
+            to.line(f"{here} {mark} {each.drill.name:<24} {each.drill.card.title}")
+    to.command("Another", "To work on another one, quit, and name it:", f"{program} watch NAME")
+
+
+def put_beside(to: Page, drill: Drill, file: Path) -> None:
+    """The student's program and the reference solution."""
+    to.line(f"Yours and ours of {drill.name}: both do all that is asked.", "bold")
+    yours, ours = (
+        program_in(file, drill).decode("utf-8", "replace"),
+        drill.solution.read_text("utf-8"),
+    )
+    if yours == ours:
+        to.line("They are the same, letter by letter.")
+        return
+    for line in beside(yours, ours, to.width):
+        to.line(line, COLOURS.get(line[:1], ""))
 
 
 def bar(done: int, of: int, width: int = BAR) -> str:

@@ -37,6 +37,6 @@ def quiz(day: str) -> None:
 
         show(found)
     else:
-        from roslings_learn.notebook.quiz_text import as_text
+        from roslings_learn.lessons.quiz_text import as_text
 
         print(as_text(found))

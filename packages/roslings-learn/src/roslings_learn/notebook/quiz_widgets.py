@@ -12,7 +12,8 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from roslings_learn.lessons import One, Order, Prints, Question, Quiz, Several
-from roslings_learn.notebook.quiz_text import as_text, explained, without_links
+from roslings_learn.lessons.answering import explained
+from roslings_learn.lessons.quiz_text import as_text, without_links
 
 WIDE = {"width": "auto", "max_width": "46em"}
 APART = {"margin": "0 0 1.4em 0"}

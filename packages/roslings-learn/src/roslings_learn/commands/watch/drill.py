@@ -6,13 +6,14 @@ import time
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from ros2_on_pip.typed_paths import shown
 from roslings.typed import program
 from roslings_learn.commands.watch.keyboard import Keyboard
-from roslings_learn.commands.watch.session import Session, tell
+from roslings_learn.commands.watch.session import Offer, Ours, Session, tell
 from roslings_learn.drills import Drill, all_drills, drill, telling
 from roslings_learn.drills.command import checked
 from roslings_learn.drills.judging import DrillVerdict
-from roslings_learn.drills.student import start
+from roslings_learn.drills.student import begin_again, is_changed, start, statuses
 
 
 def begun(name: str, keys: Keyboard) -> DrillSession:
@@ -29,23 +30,28 @@ class DrillSession(Session):
     drill: Drill
     file: Path
     verdict: DrillVerdict | None = field(default=None, init=False)
+    _resets: bool = field(default=False, init=False)
+    """Whether one more press puts the starter back."""
 
     def run(self) -> bool:
         """The task and the first thing that is wrong; then a verdict at each save of this file."""
         from roslings_learn.drills.running import load
 
-        load(self.drill)
-        for number, saved in enumerate(self.turns()):
+        for number, _ in enumerate(self.turns()):
             if number == 0:
                 self._show_task()
-            if saved and not saved & {self.file.resolve(), self.folder.resolve()}:
-                self.say_that_it_waits()
-                continue
+                load(self.drill)  # while the task is read
+            self._resets = False
             self._check()
             if self.is_done():
+                self._tell_of_ours()
                 return True
             self.say_that_it_waits()
         return self.goes_on
+
+    def counts(self, saved: frozenset[Path]) -> bool:
+        """Other drills lie in the same folder."""
+        return bool(saved & {self.file.resolve(), self.folder.resolve()})
 
     def _show_task(self) -> None:
         names = [each.name for each in all_drills()]
@@ -58,7 +64,8 @@ class DrillSession(Session):
     def _check(self) -> None:
         page = telling.page()
         try:
-            self.verdict = checked(self.drill, self.file, time.monotonic())
+            with self.checking():
+                self.verdict = checked(self.drill, self.file, time.monotonic())
             way = telling.Way(program(), watched=True)
             telling.put_verdict(page, self.drill, self.verdict, self.file, way)
             page.print()
@@ -66,19 +73,63 @@ class DrillSession(Session):
             self.verdict = None
             tell(error)
 
+    def _tell_of_ours(self) -> None:
+        """The students' edition has no solutions: then there is nothing to compare with."""
+        self.solved = None
+        if self.drill.has_solution:
+            self.solved = Ours(self.drill.name, self._show_ours)
+            if self.keys.keys:
+                print(f"\nc shows our {self.drill.name} beside yours.", flush=True)
+
+    def _show_ours(self) -> None:
+        page = telling.page()
+        page.blank()
+        telling.put_beside(page, self.drill, self.file)
+        page.print()
+
     def show_hint(self, step: int) -> None:
         """The card's."""
         page = telling.page()
-        telling.put_hint(page, self.drill, step, program())
+        page.blank()
+        telling.put_hint(page, self.drill, step, program(), watched=bool(self.keys.keys))
         page.print()
 
-    def show_graph(self) -> None:
-        """A drill's run is over at once: who wants to look, lets it run."""
-        print(f"\nRun it in another terminal, and look: {program()} graph", flush=True)
+    def show_all(self) -> None:
+        """The drills of this day, and how many of the others are done."""
+        page = telling.page()
+        page.blank()
+        telling.put_day(page, statuses(), self.drill, program())
+        page.print()
+
+    def offers(self) -> list[Offer]:
+        """A drill can be passed over, and begun again."""
+        changed = is_changed(self.drill)
+        return [
+            Offer("s", "skip", self._skip, not self.is_done()),
+            Offer("x", "reset", self._reset, changed, "Your file is the starter, as it was."),
+        ]
+
+    def _skip(self) -> None:
+        print(f"\n{self.drill.name} is left out. It comes again at the next {program()} watch.")
+        self.go_on()
+
+    def _reset(self) -> None:
+        """The first press tells what the second does; what is put back is a save."""
+        if not self._resets:
+            self._resets = True
+            print("\nx: press x once more, and the starter comes back. Your file is kept.")
+            return
+        self._resets = False
+        print(f"\nThe starter is back. Yours is kept: {shown(begin_again(self.drill))}", flush=True)
 
     def is_done(self) -> bool:
         """It is mended."""
         return self.verdict is not None and self.verdict.outcome == "pass"
+
+    @property
+    def lesson(self) -> str:
+        """The card's paragraph."""
+        return self.drill.card.lesson
 
     @property
     def code(self) -> Path:

@@ -14,6 +14,11 @@ from pathlib import Path
 from ros2_on_pip.typed_paths import shown
 
 TO_DO = re.compile(r"#\s*TODO\b")
+OF_A_TERMINAL = ("micro", "nano", "vim", "nvim", "vi", "emacs", "joe", "mcedit")
+"""Editors that need no window, the easiest first: they are offered where none is set."""
+TAKE_A_LINE = (*OF_A_TERMINAL, "kate", "gedit", "kwrite")
+"""They go to a line that stands before the file as `+N`."""
+WITHOUT_A_WINDOW = {"emacs": "-nw"}
 
 
 @dataclass(frozen=True)
@@ -45,15 +50,33 @@ def first_to_do(package: Path) -> Place:
     return Place(files[0]) if files else Place(package)
 
 
+def is_there() -> bool:
+    """Whether some editor can be opened here."""
+    return editor_for(Place(Path("file")), Path()) is not None
+
+
 def editor_for(place: Place, package: Path) -> list[str] | None:
-    """VS Code where this is its terminal, or where nothing else is set; else $VISUAL or $EDITOR."""
+    """VS Code where this is its terminal, or where nothing else is set; else $VISUAL or $EDITOR.
+
+    Where neither is there, the first editor of a terminal that is installed.
+    """
     set_one = os.environ.get("VISUAL") or os.environ.get("EDITOR")
     code = shutil.which("code")
     if code and (os.environ.get("TERM_PROGRAM") == "vscode" or not set_one):
         return [code, str(package), "--goto", f"{place.file}:{place.line}"]
     if set_one and (words := shlex.split(set_one)) and shutil.which(words[0]):
-        return [*words, str(place.file)]
-    return None
+        return _at_the_line(words, place)
+    there = next((name for name in OF_A_TERMINAL if shutil.which(name)), None)
+    return _at_the_line([there], place) if there else None
+
+
+def _at_the_line(words: list[str], place: Place) -> list[str]:
+    """What opens the file there; which word leads another editor to a line, nobody knows."""
+    name = Path(words[0]).name
+    if len(words) == 1 and name in WITHOUT_A_WINDOW:
+        words = [*words, WITHOUT_A_WINDOW[name]]
+    line = [f"+{place.line}"] if name in TAKE_A_LINE else []
+    return [*words, *line, str(place.file)]
 
 
 def _code_of(package: Path) -> Iterator[Path]:

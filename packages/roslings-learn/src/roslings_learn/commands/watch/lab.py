@@ -17,10 +17,11 @@ from roslings.workspace import progress
 from roslings.workspace.errors import NotThere
 from roslings.workspace.student import package_of, start
 from roslings_learn.commands.watch.keyboard import Keyboard
-from roslings_learn.commands.watch.session import Session, tell
+from roslings_learn.commands.watch.session import Offer, Ours, Session, tell
 
 if TYPE_CHECKING:
     from roslings.checking import Ready
+    from roslings.evidence import GraphSeen
     from roslings.saving import Graded
 
 
@@ -54,6 +55,7 @@ class LabSession(Session):
                 self._check(ready)
                 ready = next(each_ready)  # only the save is waited for
                 if self.is_done() and self.keys.keys:
+                    self._tell_of_ours()
                     print(f"\nDone. To hand it in: {program()} pack {self.lab.name}")
                 self.say_that_it_waits()
         return self.goes_on
@@ -63,7 +65,8 @@ class LabSession(Session):
         try:
             self._insist_on_folder()
             package = package_of(self.lab, self.options.path)
-            self.graded = ready.grade(package, time.monotonic_ns())
+            with self.checking():
+                self.graded = ready.grade(package, time.monotonic_ns())
             verdict = self.graded.verdict
             show(verdict, self.options, replace_kept(self.lab, verdict))
         except Exception as error:
@@ -82,15 +85,49 @@ class LabSession(Session):
         else:
             show(self.graded.verdict, argparse.Namespace(**{**vars(self.options), "hint": step}))
 
-    def show_graph(self) -> None:
-        """As the last check saw it, when most nodes of the lab ran at once."""
+    def offers(self) -> list[Offer]:
+        """What the last check saw."""
+        return [Offer("g", "graph", self._show_graph, bool(self._graph), "No node has run yet.")]
+
+    def _show_graph(self) -> None:
         from roslings.report import graph_text
 
+        if self._graph:
+            print(f"\n{graph_text(self._graph)}", flush=True)
+
+    @property
+    def _graph(self) -> GraphSeen | None:
+        """As the last check saw it, when most nodes of the lab ran at once."""
         experiments = self.graded.evidence.experiments.values() if self.graded else ()
         names = {node.node for node in self.lab.card.nodes}
         graphs = (seen.graph for seen in experiments if seen.graph.nodes)
-        fullest = max(graphs, key=lambda graph: len(names & {*graph.nodes}), default=None)
-        print(f"\n{graph_text(fullest)}" if fullest else "\nNo node has run yet.", flush=True)
+        return max(graphs, key=lambda graph: len(names & {*graph.nodes}), default=None)
+
+    def show_all(self) -> None:
+        """All labs, and how far each is."""
+        from roslings.commands.status import lines
+
+        print("", *lines(), sep="\n", flush=True)
+
+    def _tell_of_ours(self) -> None:
+        """The students' edition has no solutions: then there is nothing to compare with."""
+        if self.lab.solution.is_dir():
+            self.solved = Ours(self.lab.name, self._show_ours)
+
+    def _show_ours(self) -> None:
+        """File by file."""
+        from roslings_learn.drills.beside import package_lines
+
+        for line in package_lines(package_of(self.lab, self.options.path), self.lab.solution):
+            print(line)
+        print(flush=True)
+
+    @property
+    def lesson(self) -> str:
+        """Where the lesson tells of the first check that failed."""
+        checks = self.graded.verdict.checks if self.graded else ()
+        told = (each.lesson for each in checks if each.outcome == "fail" and each.lesson)
+        return next(told, f"days/{self.day}")
 
     def is_done(self) -> bool:
         """The last check passed."""

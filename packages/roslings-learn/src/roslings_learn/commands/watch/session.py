@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -12,12 +13,14 @@ from roslings.way import bar
 from roslings.workspace import progress
 from roslings.workspace.errors import CannotRead, ChangedMeanwhile
 from roslings_launcher.cli import explain
-from roslings_learn.commands.watch.editing import edit
-from roslings_learn.commands.watch.keyboard import Keyboard
+from roslings_learn.commands.watch import editing
+from roslings_learn.commands.watch.keyboard import QUIT, Keyboard
 
-KEYS = "h hint   e edit   r run again   l lesson   g graph   n next   q quit"
+EDIT, RUN = "e", "r"
 MOST_HINTS = 3
 CLEAR = "\x1b[2J\x1b[H"
+COLUMNS = 80
+BETWEEN = "   "
 
 
 def tell(error: Exception) -> None:
@@ -27,6 +30,31 @@ def tell(error: Exception) -> None:
     if isinstance(error, PermissionError) and error.filename:
         error = CannotRead(Path(error.filename))
     explain(error)
+
+
+def _nothing() -> None:
+    """A run is begun by who waits for it."""
+
+
+@dataclass(frozen=True)
+class Offer:
+    """A key, what it is called in the line of keys, and what it does."""
+
+    key: str
+    word: str
+    does: Callable[[], None]
+    now: bool = True
+    """Whether it can do that now; one that cannot is not offered."""
+    why_not: str = "There is nothing for it now."
+    """Told to who presses it all the same."""
+
+
+@dataclass(frozen=True)
+class Ours:
+    """A reference solution that may be looked at, since the student's own passes."""
+
+    name: str
+    show: Callable[[], None]
 
 
 @dataclass
@@ -42,6 +70,10 @@ class Session(ABC):
     over: bool = field(default=False, init=False)
     goes_on: bool = field(default=False, init=False)
     """Whether the next one of the way comes after it."""
+    solved: Ours | None = field(default=None, init=False)
+    """Of what was done just before."""
+    _known: frozenset[Path] = field(default_factory=frozenset, init=False)
+    """The files that were there at the last look."""
 
     @abstractmethod
     def run(self) -> bool:
@@ -52,12 +84,17 @@ class Session(ABC):
         """Step 1 to 3 of the hint for what the last check found."""
 
     @abstractmethod
-    def show_graph(self) -> None:
-        """What the last check saw."""
+    def show_all(self) -> None:
+        """What there is besides this one, and what of it is done."""
 
     @abstractmethod
     def is_done(self) -> bool:
         """All passes."""
+
+    @property
+    def lesson(self) -> str:
+        """Where the lesson tells of it: `days/DAY#heading`, or `days/DAY`."""
+        return f"days/{self.day}"
 
     @property
     def title(self) -> str:
@@ -69,20 +106,51 @@ class Session(ABC):
         """What an editor opens."""
         return self.folder
 
+    def counts(self, saved: frozenset[Path]) -> bool:
+        """Whether a save of these files is one of what is checked."""
+        return True
+
+    # --- when a check is due --------------------------------------------------------------
+
     def turns(self) -> Iterator[frozenset[Path]]:
         """What was saved, each time that a check is due: at once, at a save, and at the key r."""
         from roslings.workspace.watch import changes
 
         # Begun first: a save during a check is not missed.
         saves = changes(self.folder, lambda: self.over, begin=True, wake=self.keys.is_pressed)
-        for number, saved in enumerate(saves):
+        for number, found in enumerate(saves):
             key = self.keys.take()
-            if number and not saved and key != "r":
+            saved = self._that_stay(found)
+            if number and not saved and key != RUN:
                 self.follow(key)
                 continue
             self.hints = 0
             self._head(saved, number > 0)
             yield saved
+
+    def _that_stay(self, found: frozenset[Path]) -> frozenset[Path]:
+        """Without what an editor made and took away again, and what is not checked."""
+        before, self._known = self._known, frozenset(self._files())
+        kept = frozenset(path for path in found if path.exists() or path in before)
+        kept |= found & {self.folder.resolve()}
+        return kept if kept and self.counts(kept) else frozenset()
+
+    def _files(self) -> Iterable[Path]:
+        folder = self.folder.resolve()
+        return folder.rglob("*") if folder.is_dir() else ()
+
+    def checking(self) -> AbstractContextManager[None]:
+        """Around a check: keys are heard meanwhile, and `q` ends it."""
+        return self.keys.heard_meanwhile(self._meaning)
+
+    def _meaning(self, key: str) -> str:
+        """What is said of a key while a check runs."""
+        if key == QUIT:
+            return "q: quit. The check is ended."
+        if key == RUN:
+            return "r: one more run, as soon as this check is over."
+        word = next((each.word for each in self._all_offers() if each.key == key), "")
+        return f"{key}: {word}, as soon as this check is over." if word else self._no_meaning(key)
 
     def _head(self, saved: frozenset[Path], again: bool) -> None:
         """On a terminal each verdict stands on a screen of its own; the last one stays at first."""
@@ -102,23 +170,56 @@ class Session(ABC):
     def say_that_it_waits(self) -> None:
         """What can be done now."""
         if self.keys.keys:
-            print(f"\nSave a file to check again.\n{KEYS}", flush=True)
+            print(f"\nSave a file to check again.\n{self._line_of_keys()}", flush=True)
         else:
             print("\nWatching. Save a file to check again; Ctrl-C ends it.", flush=True)
 
     # --- the keys -------------------------------------------------------------------------
 
-    def follow(self, key: str) -> None:
-        """What a key asks for; one without a meaning is told."""
-        asked = {
-            "h": self._hint, "e": self._edit, "l": self._lesson, "g": self.show_graph,
-            "n": self._next, "q": self._quit,
-        }  # fmt: skip
-        if key:
-            asked.get(key, self._help)()
+    def offers(self) -> list[Offer]:
+        """What else a key does here, in the order in which it is shown."""
+        return []
 
-    def _help(self) -> None:
-        print(f"\n{KEYS}", flush=True)
+    def _all_offers(self) -> list[Offer]:
+        is_done = self.is_done()
+        return [
+            Offer("h", "hint", self._hint, not is_done, "All passes: there is nothing to hint at."),
+            Offer(EDIT, "edit", self._edit, editing.is_there(), "There is no editor that I know."),
+            Offer(RUN, "run", _nothing),
+            Offer("l", "lesson", self._lesson),
+            *self.offers(),
+            Offer("c", "compare", self._compare, self.solved is not None,
+                  "Our solution is shown beside yours when yours passes."),
+            Offer("a", "all", self.show_all),
+            Offer("n", "next", self.go_on, is_done, "This one is not done yet. To leave it: q"),
+            Offer(QUIT, "quit", self._quit),
+        ]  # fmt: skip
+
+    def _line_of_keys(self) -> str:
+        """The keys that do something now, in lines of 80 columns."""
+        lines = [""]
+        for each in (f"{one.key} {one.word}" for one in self._all_offers() if one.now):
+            longer = BETWEEN.join(filter(None, [lines[-1], each]))
+            lines = [*lines[:-1], longer] if len(longer) <= COLUMNS else [*lines, each]
+        return "\n".join(lines)
+
+    def follow(self, key: str) -> None:
+        """What a key asks for; one that can do nothing is answered, too."""
+        if not key:
+            return
+        asked = next((each for each in self._all_offers() if each.key == key), None)
+        if asked is None:
+            print(f"\n{self._no_meaning(key)}\n{self._line_of_keys()}", flush=True)
+        elif asked.now:
+            asked.does()
+            if not self.over and key not in (RUN, EDIT):
+                print(f"\n{self._line_of_keys()}", flush=True)
+        else:
+            print(f"\n{key}: {asked.why_not}", flush=True)
+
+    @staticmethod
+    def _no_meaning(key: str) -> str:
+        return f"{key if key.isprintable() else 'This key'}: there is no such key here."
 
     def _hint(self) -> None:
         """Each press tells a little more."""
@@ -128,18 +229,16 @@ class Session(ABC):
     def _edit(self) -> None:
         if self.keys.keys:
             with self.keys.keys.lent():
-                edit(self.code)
+                editing.edit(self.code)
 
     def _lesson(self) -> None:
-        number = int(self.day[:2])
-        print(f"\nIn another terminal: {program()} lab {number}    (days/{self.day})", flush=True)
+        from roslings_learn.commands.watch.reading import show
 
-    def _next(self) -> None:
-        """Only who is done goes on; the others are told how to leave."""
-        if self.is_done():
-            self.go_on()
-        else:
-            print("\nThis one is not done yet. To leave it: q", flush=True)
+        show(self.lesson, program())
+
+    def _compare(self) -> None:
+        if self.solved:
+            self.solved.show()
 
     def go_on(self) -> None:
         """The next one of the way."""
