@@ -11,7 +11,7 @@ import pytest
 from roslings import course
 from roslings_class.course_files import CannotCollect, course_files
 from roslings_class.export import export
-from roslings_class.release import release
+from roslings_class.release import NO_SITE, release
 from roslings_launcher.cli import main
 from roslings_prove.new_lab import new_lab
 
@@ -60,11 +60,11 @@ def test_release_and_export_see_the_same_labs(
 
 
 def test_what_is_committed_needs_no_word(clone: Path, tmp_path: Path) -> None:
-    """Nothing is told of a lab that git keeps, nor of a clean folder."""
+    """Nothing is told of a lab that git keeps, nor of a clean folder but that no site is built."""
     assert not [line for line in export("gradescope", course.lab("old"), tmp_path / "e")
                 if "Not committed yet" in line]  # fmt: skip
     git(clone, "add", ".")
-    assert release(tmp_path / "r").remarks == []
+    assert release(tmp_path / "r").remarks == [NO_SITE]
 
 
 @pytest.mark.parametrize("kept", [True, False], ids=["a clone", "no clone"])

@@ -144,6 +144,28 @@ def test_each_group_is_an_extra_with_its_pins(wheel: Path) -> None:
     }
 
 
+def test_its_page_says_who_made_it_and_leads_nowhere(wheel: Path) -> None:
+    """Nobody told where students read it: no link, no address; the licences are in it."""
+    said = told(wheel)
+    assert said["Author"] == "The roslings authors"
+    assert "Intended Audience :: Education" in (said.get_all("Classifier") or [])
+    assert said.get_all("Project-URL") is None
+    page = str(said.get_payload())
+    assert "roslings new" in page
+    assert "](" not in page
+    assert set(said.get_all("License-File") or []) == {"LICENSE", "LICENSE-lessons.md"}
+
+
+def test_it_fits_every_computer(wheel: Path) -> None:
+    """Beside a ROS from apt it works on ARM: no platform stands in its tag."""
+    with zipfile.ZipFile(wheel) as packed:
+        tags = packed.read(f"roslings-{__version__}.dist-info/WHEEL").decode()
+        assert [line for line in tags.splitlines() if line.startswith("Tag:")] == [
+            "Tag: py3-none-any"
+        ]
+        assert [name for name in packed.namelist() if name.endswith((".so", ".pyd"))] == []
+
+
 def test_there_is_no_sdist(tmp_path: Path) -> None:
     """It would be the clone, solutions and all."""
     with pytest.raises(NotImplementedError, match="solutions"):
@@ -159,6 +181,9 @@ def test_in_an_empty_folder_it_says_how_to_begin(command: Path, empty: Path) -> 
     alone = run([str(command)], empty)
     assert (alone.returncode, alone.stderr) == (0, "")
     assert "Next: roslings new" in alone.stdout
+    looked = run([str(command), "doctor", "--only", "system", "python"], empty)
+    assert looked.returncode == 0, looked.stdout + looked.stderr
+    assert "computer alone" in looked.stderr
     refused = run([str(command), "check", "topics"], empty)
     assert (refused.returncode, refused.stdout) == (2, "")
     assert "Next: Make one: roslings new" in refused.stderr
@@ -172,12 +197,30 @@ def test_new_makes_a_course_that_works_as_a_clone_does(command: Path, empty: Pat
     made = run([str(command), "new"], empty)
     assert made.returncode == 0, made.stderr
     assert "cd roslings-course" in made.stdout
+    assert re.search(r"This machine:\n  has    Linux on ", made.stdout)
     folder = empty / "roslings-course"
     assert not [path for path in empty.iterdir() if path != folder]
     for inside in (empty, folder, folder / "labs" / "topics"):
         listed = run([str(command), "doctor", "--list"], inside, ROSLINGS_PYTHON="")
         assert listed.stdout == run([str(folder / "roslings"), "doctor", "--list"], empty).stdout
     assert run([str(command), "no-such-word"], folder).returncode == 2
+
+
+def test_a_class_gets_it_as_the_page_says(wheel: Path, empty: Path) -> None:
+    """One file, no pip, no environment: what students type, up to their first grading."""
+    page = (course.root() / "site/pages/teachers/handing-out.md").read_text("utf-8")
+    typed = page.partition("python3 -m zipfile")[1:]
+    *lines, grading = "".join(typed).partition("\n```")[0].splitlines()
+    assert grading == "./roslings check example --solution"
+    shutil.copy(wheel, empty)
+    doctor = "PYTHONPATH=../wheel python3 -m roslings doctor --only python"
+    python = f"{Path(sys.executable).parent}:/usr/bin:/bin"
+    done = run(
+        ["bash", "-ec", "\n".join([*lines, "./roslings --version", doctor])], empty, PATH=python
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "This machine:\n  has    Linux on" in done.stdout
+    assert f"roslings {__version__}" in done.stdout
 
 
 def test_new_overwrites_nothing(command: Path, empty: Path) -> None:
