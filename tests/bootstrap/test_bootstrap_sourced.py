@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import os
 import shutil
+import subprocess
 import sys
 from importlib.metadata import Distribution, distributions
 from pathlib import Path
@@ -16,6 +17,7 @@ import pytest
 from compiled import uncompiled
 from course_copy import REAL, CourseCopy, Outcome, plain_environment
 from pythons_here import BASE
+from tiny_wheels import make_wheel
 
 from ros2_on_pip.errors import INCONCLUSIVE
 from roslings_launcher.interfaces import packages_of
@@ -27,6 +29,8 @@ from until_told import until_told
 pytestmark = pytest.mark.slow
 
 NEEDED_BY_ROS = ("numpy", "pyyaml", "lark-parser")
+APTS = "0.0.1"
+"""The version of those: apt's are others than ours."""
 
 
 @pytest.fixture(scope="module")
@@ -40,6 +44,8 @@ def jazzy(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
         name = str(package.metadata["Name"]).lower()
         if name.startswith("ros-") or name in NEEDED_BY_ROS:
             _link(package, site)
+        if name in NEEDED_BY_ROS:
+            _call(site, package, APTS)
     _link_prefix(prefix)
     libraries = [prefix / "lib", *site.glob("ros_*.libs")]
     return {
@@ -68,6 +74,15 @@ def _link(package: Distribution, site: Path) -> None:
         real = Path(str(package.locate_file(name)))
         if real.exists() and not (site / name).exists() and real.suffix != ".pth":
             _same(real, site / name)
+
+
+def _call(site: Path, package: Distribution, version: str) -> None:
+    """The package in `site` says that it is of this version; the linked original stays."""
+    metadata = site / next(str(path) for path in package.files or () if path.name == "METADATA")
+    text = metadata.read_text(encoding="utf-8")
+    metadata.unlink()
+    told = text.replace(f"Version: {package.version}", f"Version: {version}", 1)
+    metadata.write_text(told, encoding="utf-8")
 
 
 def _same(real: Path, new: Path) -> None:
@@ -116,6 +131,51 @@ def test_colcon_of_the_system_is_used(
     path = f"{tmp_path}/bin:{course.environment['PATH']}"
     assert course.run("check", **jazzy, PATH=path).code == 0
     assert "col-x" not in installed(Virtual(course.root / ".venv-apt").site)
+
+
+@pytest.fixture
+def with_num(course: CourseCopy, tmp_path: Path) -> CourseCopy:
+    """A terminal whose ROS was built with num-x 1.0; the course pins 2.0, and more of its own."""
+    (tmp_path / "apt/rclpy").mkdir(parents=True)
+    (tmp_path / "apt/rclpy/__init__.py").touch()
+    told = tmp_path / "apt/num_x-1.0.egg-info"  # the form of Debian's packages
+    told.write_text("Metadata-Version: 2.1\nName: Num_X\nVersion: 1.0\n")
+    (tmp_path / "apt/num_x.py").write_text("VERSION = '1.0'\n")
+    for name in ("num-x", "lark-x"):
+        make_wheel(course.wheels, name, "2.0")
+    with (course.root / "constraints.txt").open("a") as pins:
+        pins.write("num-x==2.0  # ros check graph\nlark-x==2.0  # ros check\n")
+    course.environment |= {"ROS_DISTRO": "jazzy", "PYTHONPATH": str(tmp_path / "apt")}
+    return course
+
+
+def test_nothing_is_laid_over_what_ros_was_built_with(with_num: CourseCopy) -> None:
+    """What the ROS lacks comes as it is pinned; nothing is installed twice."""
+    assert with_num.run("check").code == 0
+    have = installed(Virtual(with_num.root / ".venv-apt").site)
+    assert "num-x" not in have
+    assert (have["lark-x"], have["check-x"]) == ("2.0", "1.0")
+    assert with_num.run("graph").code == 0
+    assert "num-x" not in installed(Virtual(with_num.root / ".venv-apt").site)
+
+
+def test_without_a_sourced_ros_the_pins_hold(with_num: CourseCopy) -> None:
+    """A folder on PYTHONPATH that is no ROS changes nothing."""
+    assert with_num.run("check", ROS_DISTRO=None).code == 0
+    assert installed(Virtual(with_num.venv).site)["num-x"] == "2.0"
+
+
+def test_what_was_laid_over_it_is_taken_away(with_num: CourseCopy) -> None:
+    """An older launcher did so. The packages that ROS does not bring stay."""
+    assert with_num.run("check").code == 0
+    virtual = Virtual(with_num.root / ".venv-apt")
+    make = [str(virtual.python), "-m", "pip", "install", "--no-deps", "--no-index"]
+    make += ["--ignore-installed", f"--find-links={with_num.wheels}", "num-x==2.0"]
+    subprocess.run(make, check=True, capture_output=True, env=with_num.environment)
+    assert installed(virtual.site)["num-x"] == "2.0"
+    assert with_num.run("graph").code == 0
+    assert "num-x" not in installed(virtual.site)
+    assert "lark-x" in installed(virtual.site)
 
 
 @pytest.mark.parametrize("distribution", ["humble", "kilted", "rolling", "lyrical"])
@@ -169,7 +229,8 @@ def test_a_lab_is_graded_on_the_sourced_jazzy(beside: CourseCopy) -> None:
     assert "100 of 100" in graded.out, graded.out + graded.err
     environment = Virtual(beside.root / ".venv-apt")
     assert not beside.venv.exists()
-    assert not [name for name in installed(environment.site) if name.startswith("ros-")]
+    own = installed(environment.site)
+    assert not [name for name in own if name.startswith("ros-") or name in NEEDED_BY_ROS]
     seen = json.loads(beside.run("doctor", "--json", "--only", "ros-found", "colcon").out)
     told = {result["id"]: result["status"] for result in seen["checks"]}
     assert told == {"ros-found": "ok", "colcon": "advice"}

@@ -16,8 +16,10 @@ import pytest
 from ros2_on_pip.domain_lease import leased_domain
 from roslings import course
 from roslings.typed import as_typed, program
+from roslings.workspace.student import workspace_root
 from roslings_launcher.cli import parser
 from roslings_learn.drills import all_drills
+from roslings_rover.remembered import remember_the_ball
 
 TALKER = "from ros2_on_pip.demo_nodes_py.talker import main; main()"
 
@@ -38,6 +40,12 @@ def test_what_decides_what_is_checked_is_repeated(words: list[str], again: str) 
     """Not where the verdict is written to."""
     typed = as_typed(parser().parse_args(["check", *words]))
     assert typed.check() == f"{program()} {again}"
+
+
+def test_only_labs_of_the_course_are_handed_in() -> None:
+    """The first page checks the example, and throws it away."""
+    asked = {lab: as_typed(parser().parse_args(["check", lab])) for lab in ("topics", "example")}
+    assert asked["topics"].handed_in and not asked["example"].handed_in
 
 
 def test_how_roslings_is_called_from_here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -66,7 +74,10 @@ def test_status_has_straight_columns(tmp_path: Path) -> None:
     lines = roslings(tmp_path, "status").stdout.splitlines()
     labs = [line for line in lines if line.endswith("not begun")]
     assert len(labs) == len(course.all_labs())
-    assert re.match(r"01-install +0 of 10 drills; first: first-15-minutes\.md$", lines[0])
+    assert re.match(r"01-install +0/10 +- +first: first-15-minutes\.md$", lines[1])
+    for day in {one.day for one in all_drills()}:
+        count = sum(one.day == day for one in all_drills())
+        assert any(re.match(rf"{day} +0/{count} ", line) for line in lines)
     assert max(map(len, lines)) <= 80
     assert f" 0 of {len(labs)} " in lines[-1] and lines[-1].endswith(f" 0 of {len(all_drills())}")
     assert len({line.index("not begun") for line in labs}) == 1
@@ -83,6 +94,19 @@ def test_a_fresh_clone_names_the_first_steps(tmp_path: Path) -> None:
     assert roslings(tmp_path, "start", first).returncode == 0
     begun = roslings(tmp_path).stdout
     assert f"./roslings check {first}" in begun and "15 minutes" not in begun
+
+
+def test_who_has_touched_the_ball_goes_on_to_day_one(tmp_path: Path) -> None:
+    """The rover wrote it down where the workspace is, and the first page is not offered again."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("ROSLINGS_WS", str(tmp_path / "roslings_ws"))
+        remember_the_ball()
+        assert any(workspace_root().rglob("*ball*"))
+    told = roslings(tmp_path).stdout
+    assert "15 minutes: the rover has touched the ball" in told and "Read" not in told
+    assert re.search(r"^Next +\./roslings lab 1 ", told, re.M) and "./roslings watch" in told
+    _, first, *_ = roslings(tmp_path, "status").stdout.splitlines()
+    assert first.endswith("the first page is done") and len(first) <= 80
 
 
 @contextmanager

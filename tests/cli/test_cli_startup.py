@@ -14,7 +14,8 @@ from ros2_on_pip.problem import Problem
 from roslings import course
 from roslings.verdict import CheckResult, Environment, Timings, Verdict
 from roslings.workspace.errors import CannotRead, NoWorkspace
-from roslings_launcher.cli import exit_code_of, main
+from roslings_launcher.cli import MEANT, exit_code_of, main
+from roslings_launcher.cli.table import commands
 
 ENGINE = (
     "roslings.arena", "roslings_class", "roslings.evidence", "roslings.experiment",
@@ -142,6 +143,12 @@ def test_the_narrower_error_decides() -> None:
 
 @pytest.mark.parametrize(("typed", "told"), [
     ("chek", "there is no command 'chek'. Did you mean check?"),
+    ("Check", "Did you mean check?"),
+    ("qiuz", "Did you mean quiz?"),
+    ("drils", "Did you mean drill?"),
+    ("hint", "Did you mean check LAB --hint, or drill NAME --hint?"),
+    ("submit", "Did you mean pack?"),
+    ("reset", "Did you mean watch, and then the key x?"),
     ("xyz", "there is no command 'xyz'. All commands: ./roslings --help"),
 ])  # fmt: skip
 def test_a_word_that_is_no_command(
@@ -150,6 +157,13 @@ def test_a_word_that_is_no_command(
     """The nearest one is named, or where they are listed."""
     assert main([typed]) == 2
     assert told in capsys.readouterr().err
+
+
+def test_each_word_that_is_meant_leads_to_a_command() -> None:
+    """None of them is a command itself."""
+    for word, meant in MEANT.items():
+        assert word not in commands()
+        assert meant.split(",")[0].split()[0] in {*commands(), "./roslings"}, meant
 
 
 def test_the_help_has_two_lists(capsys: pytest.CaptureFixture[str]) -> None:

@@ -123,7 +123,7 @@ def press_and_leave(watch: Watched) -> None:
     """Keys are heard also while the folder is gone."""
     watch.shows(GONE)
     watch.press("l")
-    watch.shows("In another terminal")
+    watch.shows("in another terminal")
     watch.press("r")
     watch.shows(GONE)
     watch.press("q")

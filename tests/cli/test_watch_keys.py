@@ -11,7 +11,7 @@ import pytest
 from watch_terminal import watching
 
 from roslings.course import all_labs, lab, root
-from roslings_learn.commands.watch.editing import Place, editor_for, first_to_do
+from roslings_learn.commands.watch.editing import Place, editor_for, first_to_do, is_there
 from roslings_learn.drills import all_drills
 
 EDITOR = """#!/bin/sh
@@ -87,7 +87,7 @@ def test_a_labs_starter_is_put_there(tmp_path: Path) -> None:
         watch.press("h")
         watch.shows("Hint 2 of 3")
         watch.press("l")
-        watch.shows(r"\./roslings lab 2 ")
+        watch.shows(r"\./roslings lab 2\n")
         watch.press("g")
         watch.shows("No node has run yet")
         watch.press("n")
@@ -143,8 +143,39 @@ def test_an_editor_that_is_set_wins_but_in_vs_code(
     code = [str(tmp_path / "code"), str(tmp_path), "--goto", f"{place.file}:7"]
     assert editor_for(place, tmp_path) == code
     monkeypatch.setenv("EDITOR", "nano -w")
-    assert editor_for(place, tmp_path) == ["nano", "-w", str(place.file)]
+    assert editor_for(place, tmp_path) == ["nano", "-w", "+7", str(place.file)]
     monkeypatch.setenv("TERM_PROGRAM", "vscode")
     assert editor_for(place, tmp_path) == code
     monkeypatch.setenv("PATH", "")
     assert editor_for(place, tmp_path) is None
+
+
+@pytest.mark.parametrize(("there", "opens"), [
+    (("vim", "nano"), ["nano", "+7"]), (("vi",), ["vi", "+7"]),
+    (("emacs",), ["emacs", "-nw", "+7"]), (("gedit",), None),
+])  # fmt: skip
+def test_an_editor_that_is_there_is_offered(
+    there: tuple[str, ...], opens: list[str] | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where none is set: the easiest that needs no window, at the line."""
+    for word in ("VISUAL", "EDITOR", "TERM_PROGRAM"):
+        monkeypatch.delenv(word, raising=False)
+    for name in there:
+        (tmp_path / name).write_text("#!/bin/sh\n")
+        (tmp_path / name).chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path))
+    place = Place(tmp_path / "talker.py", 7)
+    assert editor_for(place, tmp_path) == (opens and [*opens, str(place.file)])
+    assert is_there() is bool(opens)
+
+
+def test_an_editor_of_a_window_gets_no_line(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Nobody knows which word leads it there."""
+    (tmp_path / "thonny").write_text("#!/bin/sh\n")
+    (tmp_path / "thonny").chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.setenv("VISUAL", "thonny")
+    monkeypatch.delenv("TERM_PROGRAM", raising=False)
+    assert editor_for(Place(tmp_path / "a.py", 7), tmp_path) == ["thonny", str(tmp_path / "a.py")]

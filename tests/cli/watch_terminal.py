@@ -18,7 +18,7 @@ from roslings.course import root
 
 PATIENCE_S = 120.0
 """Only a test that fails waits so long."""
-ESCAPES = re.compile(r"\x1b(\[[0-9;?]*[a-zA-Z]|[=>]|\][^\x07]*\x07)")
+ESCAPES = re.compile(r"\x1b(\[[0-9;?]*[a-zA-Z]|[=>]|\][^\x07\x1b]*(\x07|\x1b\\))")
 
 
 @dataclass

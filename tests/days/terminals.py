@@ -53,6 +53,10 @@ class Terminal:
         """What came since the last line was typed, without colours and cursor movements."""
         return ESCAPES.sub("", self._said[self._mark :].decode("utf-8", "replace"))
 
+    def said_before(self) -> str:
+        """All that it ever showed, what came before the last line that was typed too."""
+        return ESCAPES.sub("", self._said.decode("utf-8", "replace"))
+
     def read_on(self, ending: threading.Event) -> None:
         """Take what comes, for a thread of its own: a terminal that nobody reads blocks."""
         while not ending.is_set():

@@ -14,8 +14,8 @@ from tiny_course import DAY, write_course
 from roslings.course import root
 from roslings_learn.lessons import One, Order, Quiz, Several, read_lessons
 from roslings_learn.lessons.quiz import mixed
+from roslings_learn.lessons.quiz_text import as_text, without_links
 from roslings_learn.notebook import quiz as ask
-from roslings_learn.notebook.quiz_text import as_text, without_links
 from roslings_learn.notebook.quiz_widgets import drawn
 
 

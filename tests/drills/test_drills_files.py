@@ -56,6 +56,12 @@ def test_nothing_is_wrong_in_a_drill(one: Drill) -> None:
     assert [str(each) for each in problems(one)] == []
 
 
+@pytest.mark.parametrize("one", all_drills(), ids=lambda one: one.name)
+def test_the_last_hint_has_code(one: Drill) -> None:
+    """It promises "the same idea in other code"."""
+    assert any(line.startswith("    ") for line in one.card.hints[2].splitlines())
+
+
 @pytest.mark.parametrize("day", sorted({one.day for one in all_drills()}))
 def test_a_day_has_the_usual_kinds(day: str) -> None:
     """Of ten: four to mend, three that nobody hears, two to foretell, one to write."""

@@ -2,18 +2,26 @@
 
 from __future__ import annotations
 
+import io
 import pkgutil
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, fields
 from importlib import import_module
 from string import Formatter
 
 import pytest
+from rich.console import Console
 
 import roslings.capabilities
 import roslings.judge.faults
 import roslings_learn.drills
 from roslings.judge.faults.base import SENTENCES, Fault, Sentence
+from roslings.judge.outcome import words_for
+from roslings.report.hint_page import put_hint
+from roslings.report.page import Page
+from roslings.report.typed import Typed
+from roslings.verdict import CheckResult, Environment, Timings, Verdict
 
 ROOMS = (roslings.capabilities, roslings_learn.drills, roslings.judge.faults)
 
@@ -82,3 +90,76 @@ def test_a_name_that_is_not_there_is_an_error() -> None:
 
     with pytest.raises(AttributeError, match="lat_s"):
         _ = Wrong("arm", 1.0).measured
+
+
+MENDS = re.compile(
+    r"^(Act|Add|Begin|Call|Catch|Copy|Count from|Create|Declare|Divide|Do not|Draw|End|Fill|Give"
+    r"|Keep|Leave|Let (?!it drive)|Make|Never|Note|Publish|Put|Raise|Remember|Repeat|Send|Set|Start"
+    r"|Take (?!one|this one)|Use|Write)\b"
+    r"|[a-z_]\(timeout|\w+ = \w+|\w=[A-Z]\w|\breturn (response|result)\b"
+)
+"""What a sentence begins with, or has in it, that says what to type."""
+FORMS = {
+    "NoAnswerYet", "NoExecutable", "MissingFile", "NotAnAmentPackage", "OtherRover", "BadPicture",
+    "InvalidPackageXml",
+}  # fmt: skip
+"""No puzzle is in these: a file, a name or a command is asked for, and that is told."""
+
+
+def test_the_first_word_is_no_mend() -> None:
+    """`try` says where to look; what to type stands in `mend`, which comes with the last hint."""
+    told = {kind.__name__: text for kind, name, text in _templates() if name == "hint"}
+    assert len(told) > 150
+    handed_over = {name: text for name, text in told.items() if MENDS.search(text)}
+    assert {name for name in handed_over if name not in FORMS} == set(), handed_over
+
+
+def test_a_mend_belongs_to_its_own_hint() -> None:
+    """Who inherits a fault and has another hint does not inherit the mend."""
+
+    class Mended(Late):
+        hint = "Where is it?"
+        mend = "Add 1 to {name}."
+
+    class Other(Mended):
+        hint = "And where is this?"
+
+    assert Mended("arm", 1.0).mend == "Add 1 to arm."
+    assert Other("arm", 1.0).mend == "" and Late("arm", 1.0).mend == ""
+
+
+@dataclass(eq=False)
+class Inconsistent(Fault):
+    """A fault of the tests."""
+
+    expected = "one"
+    measured = "two"
+    hint = "Which of both?"
+    mend = "Take one."
+
+
+def test_the_mend_comes_with_the_last_hint() -> None:
+    """Of a check of a lab, it is in the verdict, and on the page of the third hint alone."""
+    words = words_for(Inconsistent(), "It is one.")
+    assert (words["hint"], words["mend"]) == ("Which of both?", "Take one.")
+    hints = ("Here.", "This idea.", "Other code.")
+    check = CheckResult(id="one", title="It is one.", points=0, max_points=1, hints=hints, **words)
+    pages = [hint_page(check, step) for step in (1, 2, 3)]
+    assert ["Take one." in page for page in pages] == [False, False, True]
+    assert "Take one." in hint_page(check.model_copy(update={"hints": ()}), 1)
+
+
+def hint_page(check: CheckResult, step: int) -> str:
+    """What `--hint STEP` shows."""
+    verdict = Verdict(
+        lab="topics", package="chatter", outcome="fail", score=0, checks=(check,),
+        seconds=Timings(), environment=Environment(
+            roslings="", ros_distro="", rmw="", python="", platform="", isolation="", clock="",
+            seed=0,
+        ),
+    )  # fmt: skip
+    console = Console(width=80, file=io.StringIO(), record=True)
+    page = Page(console, Typed("topics"))
+    put_hint(page, verdict, check, step)
+    page.print()
+    return console.export_text()

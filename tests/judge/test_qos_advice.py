@@ -123,16 +123,16 @@ def test_who_follows_passes(asked: Matched, exact: bool, kind: EndpointKind, see
         assert fault_of(look, view(kind, better)) is None
     if fault.shorter:
         assert policies_of(run(fault.shorter)) == asked
-        assert fault.shorter in fault.hint
-    assert fault.profile in fault.hint
+        assert fault.shorter in fault.mend
+    assert fault.profile in fault.mend
     assert_it_is_of_this_card(fault, kind)
 
 
 def assert_it_is_of_this_card(fault: Fault, kind: EndpointKind) -> None:
     """Topic, kind and what is asked stand in the words; no other topic, no thing of another lab."""
-    said = " ".join((fault.expected, fault.measured, fault.why, fault.hint))
+    said = " ".join((fault.expected, fault.measured, fault.why, fault.hint, fault.mend))
     assert TOPIC in fault.expected
-    assert f"{CALLS[kind]}(...) for {TOPIC}" in fault.hint
+    assert f"{CALLS[kind]}(...) for {TOPIC}" in fault.mend
     assert not any(call in said for other, call in CALLS.items() if other != kind)
     assert OTHER not in said
     assert not any(word in said.lower() for word in ("picture", "camera", "e_stop"))
@@ -155,13 +155,13 @@ def test_a_stop_button_is_not_advised_to_lose_presses() -> None:
         "QoSProfile(depth=1, reliability=ReliabilityPolicy.RELIABLE,"
         " durability=DurabilityPolicy.TRANSIENT_LOCAL)"
     )
-    assert "sensor_data" not in fault.hint
+    assert "sensor_data" not in fault.mend
     commands = judged(Matched("best_effort", "volatile"), False, "subscription")
     kept = fault_of(
         commands, view("subscription", Qos(reliability="best_effort", durability="transient_local"))
     )
     assert isinstance(kept, OtherQos)
-    assert "TRANSIENT_LOCAL" not in kept.hint
+    assert "TRANSIENT_LOCAL" not in kept.mend
     assert kept.advised["durability"] == "volatile"
 
 
@@ -221,7 +221,7 @@ def test_who_follows_each_word_passes(
         if fault is None:
             return
         assert isinstance(fault, of_times.OtherPromise)
-        assert fault.advice in fault.hint
+        assert fault.advice in fault.mend
         assert_it_is_of_this_card(fault, kind)
         qos = followed(fault.advice, qos)
     assert fault_of(demand, view(kind, qos)) is None
@@ -261,5 +261,5 @@ def test_who_keeps_as_many_as_advised_passes(keeps: int, heard: int, said: int) 
     assert policies_of(profile).durability == "transient_local"
     kept = min(profile.depth, said)
     assert fault_of(demand, view("publisher", Qos(), joined(kept, said))) is None
-    assert fault.profile in fault.hint
+    assert fault.profile in fault.mend
     assert_it_is_of_this_card(fault, "publisher")

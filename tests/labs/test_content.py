@@ -198,6 +198,13 @@ def test_it_builds_with_colcon(each: Lab, kind: str, tmp_path: Path) -> None:
 
 
 @every_lab
+def test_the_last_hint_has_code(each: Lab) -> None:
+    """It promises "the same idea in other code"."""
+    for name, hint in each.hints.items():
+        assert any(line.startswith("    ") for line in hint.steps[2].splitlines()), name
+
+
+@every_lab
 def test_each_check_has_a_hint(each: Lab) -> None:
     """And no hint is for a check that is not there; each fits a screen."""
     assert list(each.hints) == list(each.card.points)

@@ -87,6 +87,19 @@ def test_the_engine_stands_on_all_below_it() -> None:
     assert stands_on("roslings") == {"roslings", *(each for layer in below for each in layer)}
 
 
+@pytest.mark.parametrize("file", PACKAGES, ids=lambda file: file.parent.name)
+def test_a_package_says_who_made_it_and_for_what(file: Path) -> None:
+    """As an index shows it; its Pythons are those that it lets in."""
+    said = tomllib.loads(file.read_text("utf-8"))["project"]
+    assert said["authors"] == [{"name": "The roslings authors"}]
+    assert said["keywords"]
+    words = said["classifiers"]
+    pythons = re.findall(r":: 3\.(\d+)", "\n".join(words))
+    first, after = re.fullmatch(r">=3\.(\d+),<3\.(\d+)", said["requires-python"]).groups()  # type: ignore[union-attr]
+    assert pythons == [str(minor) for minor in range(int(first), int(after))]
+    assert [word for word in words if word.startswith("License ::")] == []  # `license` says it
+
+
 def ours_in(module: Path) -> set[str]:
     """Packages of ours that a module imports, wherever in it, or names to be imported."""
     names = {name for layer in layers() for name in layer}

@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+import io
 import json
 import re
+import sys
+from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 from site_rules import HEAVIEST_BYTES, weight_bytes
-from two_days_site import build
+from two_days_site import BUILDER, build
+
+from roslings.built_site import is_up_to_date
+from roslings_launcher import progress
 
 PAGE = "days/01-install/lesson.ipynb"
 
@@ -97,3 +104,63 @@ def test_a_page_with_a_notebook_weighs_at_most_200_kb(site: Path) -> None:
     """Without pictures; all that the page loads, before compression."""
     page = site / "days/01-install/index.html"
     assert len(page.read_bytes()) < weight_bytes(page) <= HEAVIEST_BYTES
+
+
+def test_the_site_knows_what_it_was_made_of(site: Path) -> None:
+    """So `./roslings site` can tell that the course has changed since."""
+    course = site.parents[1]
+    assert is_up_to_date(site, course)
+
+
+# --- how far it is ------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def builder() -> ModuleType:
+    """The program site/build.py."""
+    spec = spec_from_file_location("site_builder", BUILDER)
+    assert spec and spec.loader
+    module = module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.mark.parametrize(("line", "place"), [
+    ("reading sources... [  3%] days/01-install/index\n",
+     "Running the lessons: 3% (days/01-install/index)"),
+    ("reading sources... [100%] labs/topics", "Running the lessons: 100% (labs/topics)"),
+    ("writing output... [ 50%] glossary", "Writing the pages: 50% (glossary)"),
+    ("copying images... [ 50%] glossary", ""),
+    ("looking for now-outdated files... none found", ""),
+    ("", ""),
+])  # fmt: skip
+def test_how_far_the_build_is(builder: ModuleType, line: str, place: str) -> None:
+    """As Sphinx says it."""
+    assert builder.place_in(line) == place
+
+
+def test_a_long_build_says_again_and_again_how_far_it_is(
+    builder: ModuleType, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """And hands on its exit code and what it complained of."""
+    seen = tmp_path / "seen"
+
+    class Screen(io.StringIO):
+        """Says to the program when somebody has read how far it is."""
+
+        def write(self, text: str) -> int:
+            if "Running the lessons: 7% (days/x)" in text:
+                seen.touch()
+            return super().write(text)
+
+    program = (
+        "import os, sys, time\n"
+        "print('reading sources... [  7%] days/x', flush=True)\n"
+        "for _ in range(6000):\n"
+        f"    if os.path.exists({str(seen)!r}): break\n"
+        "    time.sleep(0.01)\n"
+        "sys.exit(print('WARNING: no such word', file=sys.stderr) or 3)\n"
+    )
+    monkeypatch.setattr(progress, "_PLAIN_EVERY_S", 0.01)
+    monkeypatch.setattr(sys, "stderr", Screen())
+    assert builder.watched([sys.executable, "-c", program]) == (3, "WARNING: no such word\n")

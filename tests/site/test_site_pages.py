@@ -30,7 +30,8 @@ COVERS_THE_FIRST_LINE = """button => {
 MUST_BE_THERE = {
     "index", "glossary", "review", "search", "labs/index", "labs/topics", "reference/commands",
     "reference/doctor", "reference/messages", "reference/lifecycle", "reference/tf-and-scan",
-    "reference/micro-ros", "reference/distributions", "reference/ros1", "reference/faq",
+    "reference/whole-robot", "reference/micro-ros", "reference/distributions", "reference/ros1",
+    "reference/faq",
     "teachers/index", "teachers/hand-ins", "teachers/exports", "teachers/api",
     "days/01-install/index", "days/01-install/quiz",
     "days/01-install/answers", "days/03-topics/index", "days/03-topics/quiz",

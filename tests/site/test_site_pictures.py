@@ -1,13 +1,19 @@
-"""The pictures of the first 15 minutes are what the course's own programs draw."""
+"""Pictures are what the course's own programs draw, and say what their page says."""
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
+import xml.etree.ElementTree as Xml
 from pathlib import Path
 
-from roslings.course import root
+import pytest
 
+from roslings.course import all_labs, root
+from roslings_learn.lessons.rules.alternatives import own_words, untold
+
+REFERENCE = root() / "site" / "pages" / "reference"
 PICTURES = root() / "days" / "01-install" / "pictures"
 DRAW = root() / "site" / "pictures"
 TITLE = "A verdict: one letter is missing in the name of a topic"
@@ -30,3 +36,90 @@ def test_the_verdict_is_what_the_terminal_shows(tmp_path: Path) -> None:
     told = (tmp_path / "one-letter.svg").read_text("utf-8")
     assert told == (PICTURES / "one-letter.svg").read_text("utf-8")
     assert "/alve" in told
+
+
+# --- the whole robot, and its wires --------------------------------------------------------------
+
+ROBOT = ("whole-robot.svg", "distance-sensor.svg", "motor-driver.svg")
+SKETCH = root() / "labs/serial-bridge/firmware/rover_mega/rover_mega.ino"
+SHOWN = re.compile(r"!\[([^\]]*)\]\(pictures/([^)]+)\)")
+
+
+def page() -> str:
+    """The page that shows them."""
+    return (REFERENCE / "whole-robot.md").read_text("utf-8")
+
+
+def test_the_robot_is_drawn_by_its_program(tmp_path: Path) -> None:
+    """Nobody edits the drawings by hand."""
+    drawn("draw_robot.py", tmp_path)
+    assert sorted(each.name for each in tmp_path.iterdir()) == sorted(ROBOT)
+    for name in ROBOT:
+        own = (tmp_path / name).read_text("utf-8")
+        assert own == (REFERENCE / "pictures" / name).read_text("utf-8")
+
+
+@pytest.mark.parametrize("name", ROBOT)
+def test_a_drawing_of_the_robot_can_be_read(name: str) -> None:
+    """As wide as those of lessons, letters of 11 px or more on a phone, all of it on the card."""
+    drawing = Xml.parse(REFERENCE / "pictures" / name).getroot()
+    left, top, width, height = map(float, drawing.attrib["viewBox"].split())
+    assert (left, top, width) == (0, 0, 720)
+    texts = [each for each in drawing.iter() if each.tag.endswith("}text")]
+    on_a_phone = 34 * 16 / width  # min-width of course.css
+    assert min(float(each.attrib["font-size"]) for each in texts) * on_a_phone >= 11
+    for each in texts:
+        assert 0 < float(each.attrib["x"]) < width and 0 < float(each.attrib["y"]) < height
+
+
+def test_the_page_tells_the_drawings_that_it_shows() -> None:
+    """Each in words that stand in the drawing."""
+    shown = {name: alternative for alternative, name in SHOWN.findall(page())}
+    assert set(shown) == set(ROBOT)
+    for name, alternative in shown.items():
+        assert untold(alternative, REFERENCE / "pictures" / name) == []
+
+
+def test_the_whole_robot_has_the_names_of_the_labs() -> None:
+    """Each node and topic that is drawn stands on a card."""
+    cards = "\n".join((lab.folder / "card.yaml").read_text("utf-8") for lab in all_labs())
+    told = own_words(REFERENCE / "pictures" / "whole-robot.svg")
+    names = set(re.findall(r"(?<![\w/])/\w+(?:/\w+)*", told))
+    assert {"/guard", "/cmd_vel", "/camera/image_raw", "/drive_to"} <= names
+    assert [name for name in names if not re.search(rf"{name}(?![\w/])", cards)] == []
+
+
+def test_the_motor_driver_is_wired_as_the_sketch_wants_it() -> None:
+    """PWM and direction of each motor; and what the page adds finds its place once."""
+    sketch = SKETCH.read_text("utf-8")
+    told = own_words(REFERENCE / "pictures" / "motor-driver.svg")
+    for side, partner in (("left", 24), ("right", 25)):
+        pins = re.search(rf"Wheel {side} = {{(\d+), (\d+),", sketch)
+        assert pins is not None
+        pwm, direction = map(int, pins.groups())
+        assert f"{pwm}, {direction}, {partner}" in told and direction + 2 == partner
+    for place in (
+        "pinMode(wheel.directionPin, OUTPUT)",
+        "digitalWrite(wheel.directionPin, pwm < 0)",
+    ):
+        assert sketch.count(place) == 1 and place in page()
+    used = {int(pin) for pin in re.findall(r"\b\d+\b", "".join(re.findall(r"= {(.*)};", sketch)))}
+    assert not {24, 25} & used
+
+
+def test_the_divider_makes_what_the_pi_bears() -> None:
+    """5 V over 1 and 2 kilo-ohms."""
+    assert "1 kΩ" in page() and "2 kΩ" in page()
+    assert 3.0 < 5 * 2 / (1 + 2) < 3.4
+
+
+def test_programs_of_the_page_print_what_it_says(tmp_path: Path) -> None:
+    """The way of the sound, and one wrong bit in each kind of line."""
+    blocks = re.findall(r"```(python|text)\n(.*?)```", page(), re.DOTALL)
+    programs = [text for language, text in blocks if language == "python"]
+    outputs = [text for language, text in blocks if language == "text"]
+    assert len(programs) == len(outputs) == 2
+    for program, output in zip(programs, outputs, strict=True):
+        (tmp_path / "lines.py").write_text(program, "utf-8")
+        ran = [sys.executable, str(tmp_path / "lines.py")]
+        assert subprocess.run(ran, capture_output=True, text=True, check=True).stdout == output

@@ -12,7 +12,7 @@ from two_days_site import Visit
 
 from roslings_learn.lessons import read_lessons
 from roslings_learn.lessons.quiz import Chosen
-from roslings_learn.notebook.quiz_text import as_text, without_links
+from roslings_learn.lessons.quiz_text import as_text, without_links
 from roslings_learn.notebook.quiz_widgets import drawn
 
 pytestmark = pytest.mark.slow
