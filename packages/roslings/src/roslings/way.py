@@ -106,8 +106,9 @@ def best_quiz_of(day: str) -> str:
 
 def drills_there() -> list[tuple[str, str]]:
     """Day and name of each drill, by their folders alone: a card is read by who needs it."""
-    folders = sorted((course.root() / "days").glob("*/drills/[0-9][0-9]_*/"))
-    return [(folder.parents[1].name, folder.name[3:]) for folder in folders if folder.is_dir()]
+    cards = (course.root() / "days").glob("*/drills/[0-9][0-9]_*/drill.yaml")
+    folders = sorted(card.parent for card in cards)
+    return [(folder.parents[1].name, folder.name[3:]) for folder in folders]
 
 
 def drills_left() -> list[tuple[str, str]]:
