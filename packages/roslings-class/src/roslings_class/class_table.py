@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from pathlib import Path
 from urllib.parse import quote
 
 from roslings.report.flow import one_line
 from roslings.report.html.markup import Markup, joined, tag
-from roslings_class.folders import PAGE, STUDENTS, folder_name
+from roslings_class.folders import PAGE, folder_of
 from roslings_class.grades import UNCLEAR, Grade
 from roslings_class.sorted_table import Column, sorted_table
 
@@ -45,7 +46,7 @@ def _who(grade: Grade) -> Markup:
 
 def page_link(submission: str, text: str = "") -> Markup:
     """The way to a student's own page."""
-    address = quote(f"{STUDENTS}/{folder_name(submission)}/{PAGE}")
+    address = quote((folder_of(Path(), submission) / PAGE).as_posix())
     return tag("a", text or submission, href=address)
 
 

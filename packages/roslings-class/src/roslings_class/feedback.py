@@ -49,7 +49,7 @@ from roslings.report.safe_text import harmless
 from roslings.report.shown_checks import shown_checks
 from roslings.report.whole_file import write_whole
 from roslings.verdict import CheckResult
-from roslings_class.folders import PAGE, folder_name
+from roslings_class.folders import PAGE, folder_name, folder_of
 from roslings_class.grades import UNCLEAR, Class, Grade
 from roslings_class.platform_names import CANVAS, FILE, MOODLE, PlatformName, told_by_platform
 
@@ -103,7 +103,7 @@ class Feedback:
         return f"roslings-{self.lab.name}.html"
 
     def _page(self, grade: Grade) -> bytes:
-        return (self.folder / "students" / folder_name(grade.submission) / PAGE).read_bytes()
+        return (folder_of(self.folder, grade.submission) / PAGE).read_bytes()
 
     def _zip(self, name: str, entries: Entries, button: str) -> Iterator[str]:
         if entries:

@@ -16,6 +16,11 @@ becomes `_`."""
 _OF_BEFORE = re.compile(r"[^\w-]+", re.ASCII)
 
 
+def folder_of(out: Path, submission: str) -> Path:
+    """Where the page and the files of a submission lie; `out` is the gradebook's folder."""
+    return out / STUDENTS / folder_name(submission)
+
+
 def folder_name(submission: str) -> str:
     """The folder of a submission; one of its own, whatever the submission is called."""
     safe = _UNSAFE.sub("_", unicodedata.normalize("NFC", submission))

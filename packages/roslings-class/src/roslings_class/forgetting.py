@@ -11,7 +11,7 @@ from roslings import course
 from roslings_class.alone import alone_in
 from roslings_class.command import AlreadyGrading
 from roslings_class.errors import BadGradebook, BatchError
-from roslings_class.folders import folder_name
+from roslings_class.folders import folder_of
 from roslings_class.gradebook import Gradebook, gradebook, lab_of
 from roslings_class.handing_out import hand_out, keep, settings_of
 
@@ -31,7 +31,7 @@ def forget(folder: Path, submission: str) -> list[str]:
         book.forget(submission)
         keep(book, settings.without(submission))
         book.shrink()
-        shutil.rmtree(folder / "students" / folder_name(submission), ignore_errors=True)
+        shutil.rmtree(folder_of(folder, submission), ignore_errors=True)
         told = hand_out(book, course.lab(name, settings.hidden), folder)
     return [
         f"Nothing of {submission} is left in {from_here(folder)}.",

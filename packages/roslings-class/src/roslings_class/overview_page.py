@@ -13,7 +13,7 @@ from urllib.parse import quote
 from ros2_on_pip.typed_paths import from_here
 from roslings.report.html.markup import Markup, joined, tag
 from roslings_class.csv_files import Line, write_lines
-from roslings_class.folders import PAGE, STUDENTS, folder_name
+from roslings_class.folders import PAGE, folder_of
 from roslings_class.messages import few
 from roslings_class.overview import (
     HANDED_IN,
@@ -98,7 +98,7 @@ def _score(book: LabGrades, folder: Path, each: Standing) -> str:
     grade = each.grades.get(book.lab)
     if grade is None or not grade.submission:
         return score_in(grade)
-    page = book.folder / STUDENTS / folder_name(grade.submission) / PAGE
+    page = folder_of(book.folder, grade.submission) / PAGE
     return _link(page, score_in(grade), folder)
 
 
