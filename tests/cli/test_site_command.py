@@ -22,7 +22,8 @@ BROWSER = '#!/bin/sh\necho "$1" >> "$0.log"\n'
 @pytest.fixture
 def course(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A course with one text and its site, as the students' edition has both."""
-    (tmp_path / "course/days/01-install/drills/01_letter").mkdir(parents=True)
+    (drill := tmp_path / "course/days/01-install/drills/01_letter").mkdir(parents=True)
+    (drill / "drill.yaml").touch()
     (tmp_path / "course/days/01-install/page.md").write_text("# A page\n")
     lay_site(tmp_path / "course", BROUGHT)
     monkeypatch.setenv("ROSLINGS_COURSE", str(tmp_path / "course"))
