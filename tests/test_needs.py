@@ -43,8 +43,17 @@ if "walled" in sys.argv:
     run("/usr/bin/env", "bwrap", "--ro-bind", "/", "/", "--bind", "walled", "/mnt", "--unshare-all",
         "--clearenv", "/bin/cat", "/mnt/seen.txt")
 '''
+PROJECT = """
+[dependency-groups]
+test = ["one", "two", {include-group = "site"}]
+site = []
+[tool.pytest.ini_options]
+addopts = "-n 4"
+[tool.ruff]
+line-length = 100
+"""
 FILES = {
-    "pyproject.toml": "", "constraints.txt": "", IT: TEST,
+    "pyproject.toml": PROJECT, "constraints.txt": "one==1  # test\ntwo==2  # test\n", IT: TEST,
     "script.sh": "cat by_bash.txt\n", "by_bash.txt": "by a shell\n",
     "alone.py": f"import sys\nsys.path.insert(0, {'lib'!r})\nimport told\nprint(told.WORD)\n",
     "lib/told.py": '"""What it says."""\n\nWORD = open("by_python.txt").read()  # a word\n',
@@ -101,7 +110,6 @@ def test_what_any_process_opens_is_seen(clone: Path) -> None:
     read_by_name = (IT, "script.sh", "by_bash.txt", "alone.py", "by_python.txt")
     assert [name for name in read_by_name if paths.get(name) != BYTES] == []
     assert (paths["lib/told.py"], paths["listed"]) == (MEANING, NAMES)
-    assert paths["pyproject.toml"] == paths["constraints.txt"] == BYTES
     assert not paths.keys() & {"unread.txt", "lib/unread.txt", "lib/beside.py", "walled/seen.txt"}
 
 
@@ -170,6 +178,47 @@ def test_a_new_module_counts_where_somebody_opened_all_that_were_there(clone: Pa
     all_of_it = frozenset({"lib/told.py", "lib/beside.py", "lib/new.py"})
     opened = Opened(all_of_it, frozenset(), frozenset({"lib"}), frozenset())
     assert Need("lib", NAMES) in set(tree.needs(IT, opened))
+
+
+ONE_MORE = {
+    "constraints.txt": ("one==1", "more==3  # desk\none==1"),
+    "pyproject.toml": ("site = []", "site = ['more']\ndesk = ['more']"),
+}
+OTHERS = {
+    "constraints.txt one==1": ("constraints.txt", "one==1", "one==2"),
+    "constraints.txt two==2": ("constraints.txt", "two==2  # test", ""),
+    "pyproject.toml dependency-groups.test has 'two'": ("pyproject.toml", ', "two"', ""),
+    "pyproject.toml tool.pytest.ini_options.addopts = '-n 4'": ("pyproject.toml", "-n 4", "-n 2"),
+    "pyproject.toml dependency-groups.test.include-group = 'site'": (
+        "pyproject.toml", "include-group", "not-a-group",
+    ),
+}  # fmt: skip
+
+
+def change(file: Path, old: str, new: str) -> None:
+    """A part of a text that stands there."""
+    text = file.read_text("utf-8")
+    assert old in text
+    file.write_text(text.replace(old, new, 1), "utf-8")
+
+
+def test_a_package_more_changes_nothing(clone: Path) -> None:
+    """Nor do the groups behind a pin, or what only tools of authors read."""
+    record = recorded(clone)
+    for name, (old, new) in ONE_MORE.items():
+        change(clone / name, old, new)
+    change(clone / "constraints.txt", "# test", "# site test")
+    change(clone / "pyproject.toml", "line-length = 100", "line-length = 90")
+    assert others_named(clone, record) == set()
+
+
+@pytest.mark.parametrize("entry", OTHERS)
+def test_another_package_changes_all(entry: str, clone: Path) -> None:
+    """Another version, or none; another member of a group; another option of pytest."""
+    record = recorded(clone)
+    name, old, new = OTHERS[entry]
+    change(clone / name, old, new)
+    assert others_named(clone, record) == {entry}
 
 
 def test_what_is_gone_is_another(clone: Path) -> None:

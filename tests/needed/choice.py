@@ -1,7 +1,8 @@
 """Which slow tests run at a landing, and why. The rules stand here, and only here.
 
 - A test file without a record runs. So does one of which something that it needs is another now:
-  another digest than when it was recorded, or gone. Its own text is such a need.
+  another digest than when it was recorded, or gone. Its own text is such a need, and each package
+  that is installed; a package that is new is none.
 - One that was recorded where a machine lacked something runs where it is there, and one that was
   recorded with another Python, or with ROS from elsewhere, runs.
 - Where all is as it was, a sixth runs all the same; the commit draws it.

@@ -4,7 +4,8 @@ What was opened by its own name counts by its bytes: somebody may have read its 
 of which only the bytecode was read counts by what it means: a comment or a blank line changes
 nothing there. Its docstrings count, since students read those of graders and commands. A folder
 counts by the names in it that git would keep. Where only some of its modules were opened, Python
-has looked there for one that it knew by name: a new module beside them changes nothing.
+has looked there for one that it knew by name: a new module beside them changes nothing. What is
+installed counts entry by entry: `needed/entries.py`.
 """
 
 from __future__ import annotations
@@ -13,11 +14,12 @@ import ast
 import subprocess
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path, PurePosixPath
 from typing import Final, Literal
 
+from needed.entries import pins, settings
 from needed.opened import Opened
 from roslings.workspace.normal import digest_of, normal, tree_of
 
@@ -25,15 +27,18 @@ BYTES: Final = "b"
 MEANING: Final = "m"
 NAMES: Final = "n"
 NAMES_BUT_MODULES: Final = "o"
-Kind = Literal["b", "m", "n", "o"]
-"""Letters, since records hold many: bytes, meaning, names, other names than those of modules."""
+ENTRY: Final = "e"
+Kind = Literal["b", "m", "n", "o", "e"]
+"""Letters, since records hold many: bytes, meaning, names, other names than those of modules, and
+an entry."""
 RECORDS = "tests/proofs/needs"
 """What is recorded is no need: else each record would make the others stale."""
-OF_ALL = ("pyproject.toml", "constraints.txt")
-"""What is installed is another where these are, and no test opens all of that here."""
+OF_ALL = {"pyproject.toml": settings, "constraints.txt": pins}
+"""Files that say what is installed, to their entries. Every test needs each entry: what is installed
+is another where one is, and no test opens all of that here."""
 DIGITS = 12
 """Chance alone makes two of them equal once in 10^14 times."""
-GONE = "-"
+THERE, GONE = "+", "-"
 
 
 class NoGit(Exception):
@@ -45,7 +50,7 @@ class Need:
     """A file or a folder of the clone, and what of it counts."""
 
     path: str
-    """From the clone's root, which itself is the empty one."""
+    """From the clone's root, which itself is the empty one; of an entry its file, and what it is."""
     kind: Kind
 
 
@@ -54,6 +59,7 @@ class Tree:
     """The files in a clone that git keeps or would keep."""
 
     root: Path
+    _entries: dict[str, frozenset[str]] = field(default_factory=dict)
 
     @cached_property
     def names(self) -> frozenset[str]:
@@ -85,8 +91,9 @@ class Tree:
 
     def needs(self, test: str, opened: Opened) -> Iterator[Need]:
         """What a test file needs, where it has opened this. Its own text always counts."""
-        own = {test, *OF_ALL} & self.names
-        by_bytes = opened.files & self.names | own
+        for file in OF_ALL.keys() & self.names:
+            yield from (Need(f"{file} {entry}", ENTRY) for entry in self.entries(file))
+        by_bytes = (opened.files & self.names | {test}) - OF_ALL.keys()
         yield from (Need(name, BYTES) for name in by_bytes)
         yield from (Need(name, MEANING) for name in opened.modules & self.names - by_bytes)
         for folder in opened.folders & self.folders.keys():
@@ -96,8 +103,18 @@ class Tree:
         modules = (_joined(folder, name) for name in self.folders[folder] if _is_module(name))
         return NAMES if opened.issuperset(modules) else NAMES_BUT_MODULES
 
+    def entries(self, file: str) -> frozenset[str]:
+        """Of a file of what is installed; none where it is not there."""
+        if file not in self._entries:
+            text = self._content(file).decode() if file in self.names else ""
+            self._entries[file] = frozenset(OF_ALL[file](text))
+        return self._entries[file]
+
     def digest(self, need: Need) -> str:
         """What it is now; `GONE` where it is not there."""
+        if need.kind == ENTRY:
+            file, _, entry = need.path.partition(" ")
+            return THERE if entry in self.entries(file) else GONE
         if need.kind in (NAMES, NAMES_BUT_MODULES):
             return self._digest_of_names(need)
         if need.path not in self.names:
