@@ -87,20 +87,6 @@ def test_a_sourced_jazzy_needs_no_wheels(tmp_path: Path) -> None:
     assert "has ROS 2 Humble" in " ".join(lines(FITS, tmp_path, ROS_DISTRO="humble").split())
 
 
-def test_the_doctor_looks_where_no_course_is_yet(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    """At the computer alone."""
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("sys.argv", ["roslings", "doctor", "--list"])
-    with pytest.raises(SystemExit) as ended:
-        installed.main()
-    said = capsys.readouterr()
-    assert ended.value.code == 0
-    assert "disk-space" in said.out
-    assert "computer alone" in said.err
-
-
 def test_windows_itself_is_not_handed_a_shell_script(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
