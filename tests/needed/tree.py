@@ -34,8 +34,8 @@ an entry."""
 RECORDS = "tests/proofs/needs"
 """What is recorded is no need: else each record would make the others stale."""
 OF_ALL = {"pyproject.toml": settings, "constraints.txt": pins}
-"""Files that say what is installed, to their entries. Every test needs each entry: what is installed
-is another where one is, and no test opens all of that here."""
+"""Files that say what is installed, to their entries. Every test needs each of them: where one is
+another, so is what is installed, and no test opens all of that here."""
 DIGITS = 12
 """Chance alone makes two of them equal once in 10^14 times."""
 THERE, GONE = "+", "-"
@@ -50,7 +50,7 @@ class Need:
     """A file or a folder of the clone, and what of it counts."""
 
     path: str
-    """From the clone's root, which itself is the empty one; of an entry its file, and what it is."""
+    """From the clone's root, which is the empty one itself; of an entry its file, and the entry."""
     kind: Kind
 
 
