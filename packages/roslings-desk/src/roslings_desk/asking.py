@@ -1,8 +1,9 @@
-"""Ask a service, while the page goes on: the request is made in the node's thread."""
+"""Ask another node for something, while the page goes on: it is asked in the node's thread."""
 
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Callable
 from concurrent.futures import Future
 from typing import Any
 
@@ -13,7 +14,7 @@ LOOK_EVERY_S = 0.02
 
 
 async def ask(hub: Hub, service: str, cls: Any, request: Any) -> Any:
-    """The answer. Raises NoAnswer, CallFailed."""
+    """The answer of a service. Raises NoAnswer, CallFailed."""
     node = hub.eye.node
     client = await asyncio.wrap_future(hub.do(lambda: node.create_client(cls, service)))
     try:
@@ -25,15 +26,21 @@ async def ask(hub: Hub, service: str, cls: Any, request: Any) -> Any:
 
 
 async def _answer(hub: Hub, client: Any, request: Any) -> Any:
-    while not client.service_is_ready():
+    await is_true(client.service_is_ready)
+    return await answer_of(hub, client.srv_name, lambda: client.call_async(request))
+
+
+async def is_true(condition: Callable[[], bool]) -> None:
+    """Ask now and again, until it is."""
+    while not condition():
         await asyncio.sleep(LOOK_EVERY_S)
+
+
+async def answer_of(hub: Hub, service: str, request: Callable[[], Any]) -> Any:
+    """What comes of a request, which is made in the node's thread. Raises CallFailed."""
     answered: Future[Any] = Future()
-
-    def call() -> None:
-        client.call_async(request).add_done_callback(answered.set_result)
-
-    hub.do(call)
+    await asyncio.wrap_future(hub.do(lambda: request().add_done_callback(answered.set_result)))
     done = await asyncio.shield(asyncio.wrap_future(answered))
     if fault := done.exception():
-        raise CallFailed(client.srv_name, fault)
+        raise CallFailed(service, fault)
     return done.result()

@@ -32,6 +32,7 @@ BUILT_IN = {
     "topics": "roslings_desk.tabs.topics:TopicsTab",
     "plot": "roslings_desk.tabs.plot:PlotTab",
     "services": "roslings_desk.tabs.services:ServicesTab",
+    "actions": "roslings_desk.tabs.actions:ActionsTab",
     "parameters": "roslings_desk.tabs.parameters:ParametersTab",
     "image": "roslings_desk.tabs.image:ImageTab",
     "log": "roslings_desk.tabs.log:LogTab",
