@@ -6,6 +6,7 @@ from fastapi import FastAPI
 from nicegui import Client, ui
 from nicegui.client import ClientConnectionTimeout
 
+from roslings_desk.bag_player import BagPlayer
 from roslings_desk.hub import Hub
 from roslings_desk.page import build
 from roslings_desk.tab import tabs
@@ -17,12 +18,12 @@ KEPT_MESSAGES = 100
 """For a page that was away for a moment; one that missed more loads anew. Each may be a picture."""
 
 
-def application(hub: Hub) -> FastAPI:
+def application(hub: Hub, bag: BagPlayer | None = None) -> FastAPI:
     """A page for each tab; the first one has the bare address, too."""
     app = FastAPI(title=TITLE, docs_url=None, redoc_url=None, openapi_url=None)
     for name in (there := tabs()):
-        _add_page(hub, name, f"/{name}")
-    _add_page(hub, next(iter(there)), "/")
+        _add_page(hub, bag, name, f"/{name}")
+    _add_page(hub, bag, next(iter(there)), "/")
     ui.run_with(
         app, title=TITLE, dark=None, language="en-US", tailwind=False, gzip_middleware_factory=None,
         reconnect_timeout=RECONNECTS_WITHIN_S, message_history_length=KEPT_MESSAGES,
@@ -31,11 +32,11 @@ def application(hub: Hub) -> FastAPI:
     return app
 
 
-def _add_page(hub: Hub, name: str, path: str) -> None:
+def _add_page(hub: Hub, bag: BagPlayer | None, name: str, path: str) -> None:
     @ui.page(path)
     async def page(client: Client) -> None:
         try:
             await client.connected(timeout=CONNECTS_WITHIN_S)
         except ClientConnectionTimeout:
             return  # it was fetched, and no browser shows it
-        build(hub, name, tabs(), hub.eye.domain)
+        build(hub, name, tabs(), bag)

@@ -8,6 +8,8 @@ from pathlib import Path
 from nicegui import ui
 
 from ros2_on_pip.problem import Problem
+from roslings_desk.bag_bar import BagBar
+from roslings_desk.bag_player import BagPlayer
 from roslings_desk.controls import Notice, Text, part
 from roslings_desk.hub import Hub
 from roslings_desk.tab import OpenTab, Tab
@@ -15,15 +17,23 @@ from roslings_desk.tab import OpenTab, Tab
 STYLE = Path(__file__).with_name("style.css")
 
 
-def build(hub: Hub, name: str, tabs: dict[str, Callable[[], Tab]], domain: int) -> None:
-    """The page of the tab `name`. What the tab opened ends when the browser is gone."""
+def build(
+    hub: Hub, name: str, tabs: dict[str, Callable[[], Tab]], bag: BagPlayer | None = None
+) -> None:
+    """The page of the tab `name`. What the tab opened ends when the browser is gone.
+
+    With a `bag` its line stands above each tab.
+    """
     tab = tabs[name]()
     ui.page_title(f"{tab.title} - roslings desk")
     ui.add_css(STYLE.read_text("utf-8"))
     with part("header"):
         Text("h1", "roslings desk")
         _ways(name, tabs)
-        Text("p", f"ROS domain {domain}", "domain")
+        where = f"bag {bag.path.name}" if bag else f"ROS domain {hub.eye.domain}"
+        Text("p", where, "domain")
+    if bag:
+        BagBar(bag)
     with part("div", "tab"):
         Text("h2", tab.title)
         _open(hub, tab)

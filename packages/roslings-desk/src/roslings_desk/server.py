@@ -9,11 +9,12 @@ import sys
 import tempfile
 import webbrowser
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
 from ros2_on_pip.problem import Problem
+from roslings_desk.bag_player import BagPlayer, playing
 from roslings_desk.door import door
 from roslings_desk.guard import ENTRANCE, Guard
 from roslings_desk.hub import Hub
@@ -49,16 +50,20 @@ class Wish:
     browser: bool = True
     allowed: Sequence[str] = ()
     """Hosts by which a proxy or a container reaches it, as a browser names them: `host:port`."""
+    bag: Path | None = None
+    """It is played for the pages, in place of what runs on this computer."""
 
 
 def run(wish: Wish) -> None:
-    """Serve until Ctrl-C. Raises PortTaken, NoSuchTab, and what Eye raises."""
+    """Serve until Ctrl-C. Raises PortTaken, NoSuchTab, and what Eye and BagPlayer raise."""
     from roslings_desk.tab import tabs
 
     if wish.tab not in (there := tabs()):
         raise NoSuchTab(wish.tab, list(there))
-    with _own_storage(), _listening(wish.port) as listener, Hub() as hub:
-        _serve(wish, listener, hub)
+    bag: AbstractContextManager[BagPlayer | None]
+    bag = playing(wish.bag) if wish.bag else nullcontext()
+    with _own_storage(), _listening(wish.port) as listener, bag as player, Hub() as hub:
+        _serve(wish, listener, hub, player)
 
 
 @contextmanager
@@ -81,13 +86,13 @@ def _listening(port: int) -> Iterator[socket.socket]:
         yield listener
 
 
-def _serve(wish: Wish, listener: socket.socket, hub: Hub) -> None:
+def _serve(wish: Wish, listener: socket.socket, hub: Hub, bag: BagPlayer | None) -> None:
     import uvicorn
 
     from roslings_desk.application import application
 
     port = listener.getsockname()[1]
-    guard = Guard(application(hub), port, wish.allowed)
+    guard = Guard(application(hub, bag), port, wish.allowed)
     config = uvicorn.Config(
         guard, log_level="warning", access_log=False, server_header=False,
         timeout_graceful_shutdown=LEAVES_WITHIN_S,

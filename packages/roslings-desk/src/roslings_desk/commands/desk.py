@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
 
 from ros2_on_pip.errors import OK
 
@@ -11,6 +12,8 @@ def add_options(word: argparse.ArgumentParser) -> None:
     """What it takes."""
     word.add_argument("tab", metavar="TAB", nargs="?", default="rover",
                       help="the tab that opens: rover, topics, ... (default: rover)")  # fmt: skip
+    word.add_argument("--bag", metavar="BAG", type=Path,
+                      help="show what a bag holds, with Pause and any place in it")  # fmt: skip
     word.add_argument("--port", metavar="N", type=int, default=0, help="default: any free one")
     word.add_argument("--no-browser", action="store_true", help="open no browser by itself")
     word.add_argument(
@@ -25,5 +28,6 @@ def run(options: argparse.Namespace) -> int:
     from roslings_desk.server import Wish, run
 
     prepare()
-    run(Wish(options.tab, options.port, not options.no_browser, tuple(options.allow_host)))
+    hosts = tuple(options.allow_host)
+    run(Wish(options.tab, options.port, not options.no_browser, hosts, options.bag))
     return OK
