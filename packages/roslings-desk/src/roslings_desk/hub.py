@@ -23,7 +23,7 @@ from ros2_on_pip.listening import SeveralTypes
 from ros2_on_pip.names import is_hidden
 from roslings_desk.looking import Look, heard_from_all
 
-KEPT_MESSAGES, KEPT_BYTES = 500, 8_000_000
+KEPT_MESSAGES, KEPT_BYTES = 2_000, 8_000_000
 RATE_OVER_S = 3.0
 LOOK_EVERY_S = 0.5
 LOOKING_SHARE = 0.1
@@ -266,7 +266,7 @@ class Hub:
             self._subscribe(heard)
 
     @property
-    def subscribed(self) -> list[str]:
-        """The topics that are listened to now."""
+    def heard(self) -> list[Heard]:
+        """What is listened to now, by topic."""
         with self._lock:
-            return sorted(topic for topic, _ in self._heard)
+            return sorted(self._heard.values(), key=lambda each: each.topic)

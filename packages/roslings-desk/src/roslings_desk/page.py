@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Callable
 from pathlib import Path
 
@@ -10,8 +11,9 @@ from nicegui import ui
 from ros2_on_pip.problem import Problem
 from roslings_desk.bag_bar import BagBar
 from roslings_desk.bag_player import BagPlayer
-from roslings_desk.controls import Notice, Text, part
+from roslings_desk.controls import Notice, Spoken, Text, button, part, told
 from roslings_desk.hub import Hub
+from roslings_desk.saving import HERE, LAST_S, save
 from roslings_desk.tab import OpenTab, Tab
 
 STYLE = Path(__file__).with_name("style.css")
@@ -32,6 +34,7 @@ def build(
         _ways(name, tabs)
         where = f"bag {bag.path.name}" if bag else f"ROS domain {hub.eye.domain}"
         Text("p", where, "domain")
+        _show_saving(hub)
     if bag:
         BagBar(bag)
     with part("div", "tab"):
@@ -44,6 +47,18 @@ def _ways(here: str, tabs: dict[str, Callable[[], Tab]]) -> None:
         for name in tabs:
             current = "page" if name == here else None
             Text("a", name.capitalize(), href=f"./{name}", aria_current=current)
+
+
+def _show_saving(hub: Hub) -> None:
+    """A button that saves what open tabs have heard, in the folder where the desk was started."""
+
+    async def save_heard() -> None:
+        said.say("")
+        said.say((await asyncio.to_thread(save, hub.heard, HERE)).words)
+
+    trouble = Notice()
+    button(f"Save the last {LAST_S:g} s", told(trouble, save_heard))
+    said = Spoken()
 
 
 def _open(hub: Hub, tab: Tab) -> None:

@@ -1,0 +1,99 @@
+"""What the desk has heard is saved as a bag, by a button of each page."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from desk_program import Desk, Nodes, desk, until
+
+from ros2_on_pip.domain_lease import leased_domain
+from ros2_on_pip.rosbag2.reading import opened as opened_bag
+from skips import imported
+
+expect = imported("playwright.sync_api").expect
+expect.set_options(timeout=120_000)
+pytestmark = pytest.mark.slow
+
+BUTTON = "Save the last 20 s"
+
+
+@pytest.fixture(scope="module")
+def home(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Where the desk was started."""
+    return tmp_path_factory.mktemp("home")
+
+
+@pytest.fixture(scope="module")
+def opened(home: Path) -> Iterator[Desk]:
+    """A desk, started there."""
+    with leased_domain() as domain, desk(domain, home) as found:
+        yield found
+
+
+def bags(home: Path) -> list[Path]:
+    """Those that were saved."""
+    return sorted(home.glob("desk_*"))
+
+
+def test_what_open_tabs_heard_is_in_a_new_bag(
+    context: Any, opened: Desk, nodes: Nodes, home: Path
+) -> None:
+    """The messages as they came, on the pages that show the topic; a second one has its own."""
+    from rclpy.serialization import deserialize_message
+    from std_msgs.msg import Int32
+
+    publisher = nodes.node.create_publisher(Int32, "/count", 10)
+    said = iter(range(10**6))
+    nodes.node.create_timer(0.02, lambda: publisher.publish(Int32(data=next(said))))
+    page = context.new_page()
+    page.goto(f"{opened.base}/topics")
+    page.get_by_role("button", name="/count").click()
+    expect(page.get_by_text(re.compile(r"^\d{2,} came"))).to_be_visible()
+    for number in (1, 2):
+        page.get_by_role("button", name=BUTTON).press("Enter")
+        expect(page.get_by_role("status").filter(has_text="/count:")).to_be_visible()
+        folder = page.get_by_text("Saved in").text_content().split()[2].rstrip(".")
+        assert len(bags(home)) == number and Path(folder) in bags(home)
+        with opened_bag(Path(folder)) as bag:
+            there = list(bag.messages())
+        counts = [deserialize_message(raw, Int32).data for topic, _, raw in there]
+        assert counts == list(range(counts[0], counts[0] + len(counts))) and len(counts) > 10
+        times_ns = [time_ns for _, time_ns, _ in there]
+        assert times_ns == sorted(times_ns) and times_ns[-1] - times_ns[0] < 20e9
+    page.close()
+    until(lambda: not nodes.listeners("/count"), "the end of the subscription")
+
+
+def test_nothing_heard_is_told_and_nothing_written(
+    context: Any, opened: Desk, home: Path
+) -> None:
+    """With the next step."""
+    before = bags(home)
+    page = context.new_page()
+    page.goto(f"{opened.base}/services")
+    page.get_by_role("button", name=BUTTON).click()
+    expect(page.get_by_role("alert").filter(has_text="Open a tab that shows it")).to_be_visible()
+    assert bags(home) == before
+
+
+def test_a_folder_that_takes_no_file_is_told(browser: Any, tmp_path: Path) -> None:
+    """The page goes on."""
+    home = tmp_path / "gone"
+    home.mkdir()
+    with leased_domain() as domain, desk(domain, home) as own, Nodes(domain) as nodes:
+        from nav_msgs.msg import Odometry
+
+        publisher = nodes.node.create_publisher(Odometry, "/odom", 10)
+        nodes.node.create_timer(0.05, lambda: publisher.publish(Odometry()))
+        home.rmdir()
+        home.touch()
+        page = browser.new_page()
+        page.goto(own.file.as_uri())
+        expect(page.get_by_text("x 0.00 m")).to_be_visible()
+        page.get_by_role("button", name=BUTTON).click()
+        expect(page.get_by_role("alert").filter(has_text="cannot be written")).to_be_visible()
+        page.close()
