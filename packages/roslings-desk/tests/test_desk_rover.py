@@ -11,6 +11,8 @@ from typing import Any
 import pytest
 from desk_program import Desk, Nodes, program, until
 
+from roslings_rover.models.world import default_world
+from roslings_rover.rover.moving_map import place_under
 from skips import imported
 
 expect = imported("playwright.sync_api").expect
@@ -195,3 +197,47 @@ def test_numbers_that_are_not_finite_are_told(page: Any, nodes: Nodes) -> None:
     nodes.node.destroy_timer(timer)
     nodes.node.create_timer(0.1, lambda: publisher.publish(right))
     expect(page.get_by_text("x 1.50 m, y 0.00 m, heading 0 degrees")).to_be_visible()
+
+
+def goals(nodes: Nodes) -> list[Any]:
+    """What is said on /goal_pose; the page knows that somebody hears it."""
+    from geometry_msgs.msg import PoseStamped
+
+    heard = nodes.hear(PoseStamped, "/goal_pose")
+    until(lambda: nodes.node.count_publishers("/goal_pose"), "the page's publisher")
+    return heard
+
+
+def test_a_click_on_the_map_is_a_goal(rover: Any, page: Any, nodes: Nodes) -> None:
+    """Where the rover stands, a click says just that place; its frame is that of /odom."""
+    heard = goals(nodes)
+    here = place(page)
+    box = page.locator("img.map").bounding_box()
+    right, down = in_picture(*here[:2])
+    page.mouse.click(box["x"] + right * box["width"], box["y"] + down * box["height"])
+    until(lambda: heard, "a goal")
+    position = heard[0].pose.position
+    assert math.dist((position.x, position.y), here[:2]) < 0.05
+    assert heard[0].header.frame_id == "odom" and heard[0].header.stamp.sec > 0
+    expect(page.get_by_role("status")).to_contain_text("is published on /goal_pose")
+
+
+def in_picture(x_m: float, y_m: float) -> tuple[float, float]:
+    """Parts of the map's width and height, found without the desk: both grow evenly."""
+    west, north = place_under(default_world(), 0, 0)
+    east, south = place_under(default_world(), 1, 1)
+    return (x_m - west) / (east - west), (north - y_m) / (north - south)
+
+
+def test_a_goal_is_typed_and_a_wrong_one_is_told(page: Any, nodes: Nodes) -> None:
+    """By keys alone; who hears it is said."""
+    heard = goals(nodes)
+    page.get_by_label("Goal x, m").fill("far")
+    page.get_by_role("button", name="Send the goal").press("Enter")
+    expect(page.get_by_role("alert").filter(has_text="'far' is no place")).to_be_visible()
+    page.get_by_label("Goal x, m").fill("1.5")
+    page.get_by_label("Goal y, m").fill("-0.5")
+    page.get_by_role("button", name="Send the goal").press("Enter")
+    until(lambda: heard, "a goal")
+    assert (heard[0].pose.position.x, heard[0].pose.position.y) == (1.5, -0.5)
+    expect(page.get_by_role("status")).to_contain_text("1 subscriptions hear it")

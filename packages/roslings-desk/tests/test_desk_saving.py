@@ -55,7 +55,7 @@ def test_what_open_tabs_heard_is_in_a_new_bag(
     expect(page.get_by_text(re.compile(r"^\d{2,} came"))).to_be_visible()
     for number in (1, 2):
         page.get_by_role("button", name=BUTTON).press("Enter")
-        expect(page.get_by_role("status").filter(has_text="/count:")).to_be_visible()
+        expect(page.get_by_text("/count:")).to_be_visible()
         folder = page.get_by_text("Saved in").text_content().split()[2].rstrip(".")
         assert len(bags(home)) == number and Path(folder) in bags(home)
         with opened_bag(Path(folder)) as bag:

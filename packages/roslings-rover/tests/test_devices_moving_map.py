@@ -11,7 +11,13 @@ import pytest
 
 from roslings_rover.models.differential_drive import Body, Motion, Pose
 from roslings_rover.models.world import default_world
-from roslings_rover.rover.moving_map import LONGEST_S, MOST_FRAMES, moving_map, shown_s
+from roslings_rover.rover.moving_map import (
+    LONGEST_S,
+    MOST_FRAMES,
+    moving_map,
+    place_under,
+    shown_s,
+)
 from roslings_rover.rover.rover import Moment, Rover
 
 RADIUS_M = Body().radius_m
@@ -109,3 +115,20 @@ def test_without_motion_it_stands_at_the_end() -> None:
     moving, still = svg_of(trail), svg_of(trail, moves=False)
     assert "animation:" not in still.replace("animation:none", "") and "@keyframes" not in still
     assert moving.partition("</style>")[2] == still.partition("</style>")[2]
+
+
+def test_a_point_of_the_picture_is_a_place_in_the_room() -> None:
+    """Where the way ends, the rover is."""
+    trail = driven((0.4, 0.5, 3.0))
+    svg = svg_of(trail, moves=False)
+    wide, high = map(float, re.search(r'viewBox="0 0 (\S+) (\S+)"', svg).groups())
+    right, down = map(float, re.findall(r"([\d.]+)[, ]([\d.]+)", way_of(svg))[-1])
+    x_m, y_m = place_under(default_world(), right / wide, down / high)
+    assert math.dist((x_m, y_m), (trail[-1].pose.x_m, trail[-1].pose.y_m)) < 0.01
+
+
+def way_of(svg: str) -> str:
+    """The points of the line that was driven."""
+    drawn = ElementTree.fromstring(svg)
+    (line,) = (each for each in drawn.iter() if each.tag.endswith("polyline"))
+    return line.get("points") or ""

@@ -11,7 +11,7 @@ from nicegui import ui
 from ros2_on_pip.problem import Problem
 from roslings_desk.bag_bar import BagBar
 from roslings_desk.bag_player import BagPlayer
-from roslings_desk.controls import Notice, Spoken, Text, button, part, told
+from roslings_desk.controls import Notice, Text, button, part, told
 from roslings_desk.hub import Hub
 from roslings_desk.saving import HERE, LAST_S, save
 from roslings_desk.tab import OpenTab, Tab
@@ -58,7 +58,7 @@ def _show_saving(hub: Hub) -> None:
 
     trouble = Notice()
     button(f"Save the last {LAST_S:g} s", told(trouble, save_heard))
-    said = Spoken()
+    said = Text("p", "", "spoken", aria_live="polite")
 
 
 def _open(hub: Hub, tab: Tab) -> None:

@@ -46,6 +46,10 @@ class Publisher:
     ) -> None:
         self._hub.do(self._close)
 
+    def announce(self) -> None:
+        """Be there before the first message, so that nobody who listens misses it."""
+        self._hub.do(self._open)
+
     def publish(self, message: Any, stamps: list[Stamp]) -> None:
         """Send it once."""
         self.count += 1
@@ -62,10 +66,14 @@ class Publisher:
 
     # --- in the thread that spins ----------------------------------------------------------
 
-    def _send(self, message: Any, stamps: list[Stamp]) -> None:
-        node = self._hub.eye.node
+    def _open(self) -> None:
         if self._publisher is None:
+            node = self._hub.eye.node
             self._publisher = node.create_publisher(self._cls, self._topic, 10)
+
+    def _send(self, message: Any, stamps: list[Stamp]) -> None:
+        self._open()
+        node = self._hub.eye.node
         now = node.get_clock().now().to_msg() if stamps else None
         for stamp in stamps:
             stamp(now)

@@ -11,16 +11,35 @@ from typing import Any
 
 from nicegui import ui
 
-from roslings_desk.controls import Check, Choice, Spoken, Text, button, part
+from ros2_on_pip.problem import Problem
+from roslings_desk.controls import (
+    Check,
+    Choice,
+    Notice,
+    Spoken,
+    Text,
+    TextField,
+    button,
+    part,
+    told,
+)
 from roslings_desk.driver import Driver
 from roslings_desk.hub import Heard
+from roslings_desk.publisher import Publisher
 from roslings_desk.tab import OpenTab
 from roslings_rover.models.differential_drive import Body, Pose
 from roslings_rover.models.world import default_world
-from roslings_rover.rover.moving_map import moving_map
+from roslings_rover.rover.moving_map import moving_map, place_under
 from roslings_rover.rover.rover import PATH_STEP_M, TURN_STEP_RAD, Moment
 
-ODOM, CMD_VEL = "/odom", "/cmd_vel"
+ODOM, CMD_VEL, GOAL_POSE = "/odom", "/cmd_vel", "/goal_pose"
+"""The last one is where rviz2 publishes a goal that was clicked."""
+POSE_STAMPED = "geometry_msgs/msg/PoseStamped"
+CLICKED = (
+    "(event) => emit([event.offsetX / event.target.clientWidth,"
+    " event.offsetY / event.target.clientHeight])"
+)
+"""Parts of the map's width and height."""
 KEYS = Path(__file__).with_name("drive.js")
 SPEEDS_M_S, TURNS_RAD_S = ("0.1", "0.3", "0.5"), ("0.5", "1.0", "1.5")
 A_PRESS_S = 0.5
@@ -29,6 +48,13 @@ SPOKEN_EVERY_S = 3.0
 LONGEST_TRAIL = 1_000
 PRESSES = (("Left", 0, 1), ("Ahead", 1, 0), ("Back", -1, 0), ("Right", 0, -1))
 """Words, and what they are of the chosen speeds: ahead, and to the left."""
+
+
+class NoPlace(Problem):
+    """What was typed is no place."""
+
+    def __init__(self, typed: str) -> None:
+        super().__init__(f"'{typed}' is no place. Type metres as a number, for example 1.5")
 
 
 class RoverTab:
@@ -46,10 +72,13 @@ class RoverTab:
         self._hub = open_tab.hub
         self._odom: Heard = open_tab.hear(ODOM, "nav_msgs/msg/Odometry")
         self._driver = open_tab.ends.enter_context(Driver(self._hub, CMD_VEL))
+        self._goals = open_tab.ends.enter_context(Publisher(self._hub, GOAL_POSE, POSE_STAMPED))
+        self._goals.announce()
         with part("div", "sides"):
             self._map = part(
                 "img", "map drawing", alt="Map: nothing is known yet", src=_picture([])
             )
+            self._map.on("click", lambda event: self._click(*event.args), js_handler=CLICKED)
             with part("div", "column"):
                 self._place = Text("p", "", "value")
                 self._state = Text("p", "Looking for nodes ...", "hint", id="state")
@@ -71,10 +100,45 @@ class RoverTab:
         with part("div", "row", role="group", aria_label=f"Drive for {A_PRESS_S:g} s"):
             for word, ahead, left in PRESSES:
                 button(word, partial(self._drive, ahead, left, A_PRESS_S))
+        self._show_goal()
         with part("div", "row"):
             button("Say where it is", self._say)
             self._says = Check("Say it every 3 s")
         self._spoken = Spoken()
+
+    def _show_goal(self) -> None:
+        Text("p", f"A goal is published on {GOAL_POSE}: click on the map, or type it.", "hint")
+        trouble = Notice()
+        with part("div", "row"):
+            self._goal_x = TextField("Goal x, m", "0.0", inputmode="decimal")
+            self._goal_y = TextField("Goal y, m", "0.0", inputmode="decimal")
+            button("Send the goal", told(trouble, self._send_typed))
+
+    # --- goals -----------------------------------------------------------------------------
+
+    def _click(self, right: float, down: float) -> None:
+        x_m, y_m = place_under(default_world(), right, down)
+        self._goal_x.put(f"{x_m:.2f}")
+        self._goal_y.put(f"{y_m:.2f}")
+        self._send_goal(x_m, y_m)
+
+    def _send_typed(self) -> None:
+        """Raises NoPlace."""
+        self._send_goal(_metres(self._goal_x.value), _metres(self._goal_y.value))
+
+    def _send_goal(self, x_m: float, y_m: float) -> None:
+        from geometry_msgs.msg import PoseStamped
+
+        newest = self._odom.newest()
+        goal = PoseStamped()
+        goal.header.frame_id = newest.header.frame_id if newest else "odom"
+        goal.pose.position.x, goal.pose.position.y = x_m, y_m
+        goal.pose.orientation.w = 1.0
+        self._goals.publish(goal, [partial(setattr, goal.header, "stamp")])
+        there = {seen.name: seen.subscriptions for seen in self._hub.topics()}
+        listening = there.get(GOAL_POSE, 0)
+        who = f"{listening} subscriptions hear it" if listening else "no node listens there"
+        self._spoken.say(f"Goal x {x_m:.2f} m, y {y_m:.2f} m is published on {GOAL_POSE}; {who}.")
 
     # --- driving ---------------------------------------------------------------------------
 
@@ -138,6 +202,17 @@ class RoverTab:
         self._spoken_s = time.monotonic()
         pose = self._trail[-1].pose if self._trail else None
         self._spoken.say(position(pose) if pose else "Nothing is known yet.")
+
+
+def _metres(typed: str) -> float:
+    """Raises NoPlace."""
+    try:
+        metres = float(typed)
+    except ValueError:
+        raise NoPlace(typed) from None
+    if not math.isfinite(metres):
+        raise NoPlace(typed)
+    return metres
 
 
 def pose_in(odometry: Any) -> Pose | None:

@@ -53,6 +53,26 @@ class _Sheet:
             round(TOP_PX + (self.room.north_m + MARGIN_M - y_m) * PX_PER_M, 1),
         )
 
+    def under(self, right: float, down: float) -> tuple[float, float]:
+        """The other way round, of parts of the picture: 0 is its left or upper edge, 1 the other.
+
+        Metres east and north in the room.
+        """
+        wide, high = self.size_px
+        return (
+            self.room.west_m - MARGIN_M + (right * wide - LEFT_PX) / PX_PER_M,
+            self.room.north_m + MARGIN_M - (down * high - TOP_PX) / PX_PER_M,
+        )
+
+
+def place_under(world: World, right: float, down: float) -> tuple[float, float]:
+    """Where in the room a point of the map lies, in metres (x, y).
+
+    `right` and `down` are parts of the picture's width and height, from 0 to 1, so they hold at
+    each size that it is shown in.
+    """
+    return _Sheet(world.room).under(right, down)
+
 
 def moving_map(
     world: World,
