@@ -199,6 +199,53 @@ def test_numbers_that_are_not_finite_are_told(page: Any, nodes: Nodes) -> None:
     expect(page.get_by_text("x 1.50 m, y 0.00 m, heading 0 degrees")).to_be_visible()
 
 
+GAMEPAD = """
+let stick = [0, 0];
+window.pressed = false;
+Object.defineProperty(window, "stick", {set: (axes) => { stick = axes; window.polled = 0; }});
+navigator.getGamepads = () => {
+  window.polled += 1;
+  return [null, {connected: true, axes: stick, buttons: [{pressed: window.pressed}]}];
+};
+"""
+"""A browser without one has an empty list; where one is plugged in, this is its form."""
+
+
+def test_a_gamepad_drives_while_the_pad_has_the_focus(
+    context: Any, opened: Desk, nodes: Nodes
+) -> None:
+    """Half the stick is half the speed. It stops where the stick is let go, and by Escape or its
+    button, and then drives no more before the stick was let go."""
+    heard = twists(nodes)
+    page = context.new_page()
+    page.add_init_script(GAMEPAD)
+    page.goto(f"{opened.base}/rover")
+    pad = page.get_by_role("application", name="Drive by arrow keys")
+    page.evaluate("window.stick = [0, -0.5]")
+    expect(page.get_by_text("A gamepad drives")).to_be_visible()
+    pad.focus()
+    until(lambda: any(twist.linear.x == pytest.approx(0.15) for twist in heard), "half the speed")
+    page.evaluate("window.stick = [0.1, 0.05]")
+    stops(heard)
+    page.evaluate("window.stick = [-1, 0]")
+    until(lambda: heard[-1].angular.z == pytest.approx(1.0), "a turn to the left")
+    page.keyboard.press("Escape")
+    stops(heard)
+    for stick in ([0, 0], [-1, 0]):
+        page.evaluate(f"window.stick = {stick}")
+        page.wait_for_function("window.polled > 2")
+    until(lambda: not is_zero(heard[-1]), "a turn again, after the stick was let go")
+    page.evaluate("window.pressed = true")
+    until(lambda: is_zero(heard[-1]), "the button's stop")
+    page.evaluate("window.pressed = false; window.stick = [0, 0]")
+    page.wait_for_function("window.polled > 2")
+    page.evaluate("window.stick = [0, -1]")
+    until(lambda: not is_zero(heard[-1]), "a drive ahead")
+    page.get_by_label("Speed, m/s").focus()
+    until(lambda: is_zero(heard[-1]), "the stop of a field that lost the focus")
+    page.close()
+
+
 def goals(nodes: Nodes) -> list[Any]:
     """What is said on /goal_pose; the page knows that somebody hears it."""
     from geometry_msgs.msg import PoseStamped

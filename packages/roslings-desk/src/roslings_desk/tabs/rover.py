@@ -92,6 +92,7 @@ class RoverTab:
         with part("div", "pad", id="drive-pad", tabindex=0, role="application",
                   aria_label="Drive by arrow keys"):  # fmt: skip
             Text("p", "Drive: click here, then hold an arrow key. Space stops.")
+            Text("p", "A gamepad drives while this field has the focus: its left stick.", "hint")
         Text("p", "Escape stops it, too, wherever you are on this page.", "hint")
         with part("div", "row"):
             self._speed = Choice("Speed, m/s", SPEEDS_M_S, "0.3")
@@ -146,7 +147,7 @@ class RoverTab:
         ahead, left = ways
         self._drive(ahead, left)
 
-    def _drive(self, ahead: int, left: int, for_s: float | None = None) -> None:
+    def _drive(self, ahead: float, left: float, for_s: float | None = None) -> None:
         forward_m_s = ahead * float(self._speed.value)
         turn_rad_s = left * float(self._turn.value)
         if for_s is None:
