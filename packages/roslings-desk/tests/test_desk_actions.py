@@ -104,9 +104,7 @@ def state(page: Any) -> Any:
     return page.get_by_role("status")
 
 
-def test_a_goal_is_sent_and_followed_by_what_a_screen_reader_has(
-    page: Any, server: Server
-) -> None:
+def test_a_goal_is_sent_and_followed_by_what_a_screen_reader_has(page: Any, server: Server) -> None:
     """The node gets what was typed; its feedback and its result are shown."""
     server.ends = False
     send(page, 4)

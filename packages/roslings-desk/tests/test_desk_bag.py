@@ -110,9 +110,7 @@ def test_at_its_end_it_stands_and_begins_anew(page: Any) -> None:
     expect(page.get_by_text("x 0.0")).to_be_visible()
 
 
-def test_other_tabs_hear_it_and_nobody_else_does(
-    page: Any, opened: Desk, tmp_path: Path
-) -> None:
+def test_other_tabs_hear_it_and_nobody_else_does(page: Any, opened: Desk, tmp_path: Path) -> None:
     """It is played in a domain of its own: a robot of this computer does not drive by it."""
     page.get_by_role("link", name="Topics").click()
     page.get_by_role("button", name="/odom").click()

@@ -68,9 +68,7 @@ def test_what_open_tabs_heard_is_in_a_new_bag(
     until(lambda: not nodes.listeners("/count"), "the end of the subscription")
 
 
-def test_nothing_heard_is_told_and_nothing_written(
-    context: Any, opened: Desk, home: Path
-) -> None:
+def test_nothing_heard_is_told_and_nothing_written(context: Any, opened: Desk, home: Path) -> None:
     """With the next step."""
     before = bags(home)
     page = context.new_page()

@@ -42,7 +42,7 @@ class NotCanceled(Problem):
 
 
 class SentGoal:
-    """One goal, and the client that sends it. `follow` runs it; `cancel` may be called meanwhile."""
+    """One goal, and the client that sends it. `cancel` may be called while `follow` runs."""
 
     def __init__(self, hub: Hub, action: str, cls: Any) -> None:
         self._hub, self.action, self._cls = hub, action, cls
