@@ -19,10 +19,10 @@ from roslings.course.files import read_tree
 from roslings.course.kinds import kind_of
 from roslings.course.labs import example_root
 from roslings.verdict import CheckOutcome, CheckResult, Environment, Timings, Verdict, outcome_of
+from roslings_changes.card_words import Word, words_of
 from roslings_class.result import Result
 from roslings_prove.contract.changes import Change, changes_of
 from roslings_prove.contract.coverage import Reworded, _proof
-from roslings_prove.contract.words import Word, words_of
 from roslings_prove.prove import Proof
 
 EXAMPLE = lab("example")

@@ -16,6 +16,9 @@ from roslings.course import Lab, lab
 from roslings.course.files import BadCourseFile
 from roslings.course.labs import example_root
 from roslings.verdict import CheckOutcome, CheckResult, Environment, Timings, Verdict, outcome_of
+from roslings_changes.candidates import modules_of
+from roslings_changes.operators import OPERATORS
+from roslings_changes.source import read_source
 from roslings_class import grading
 from roslings_class.alone import alone_in
 from roslings_class.gradebook import gradebook
@@ -28,10 +31,8 @@ from roslings_prove.generated import run as running
 from roslings_prove.generated.choice import Generated, chosen, generated
 from roslings_prove.generated.explained import FILE, explained
 from roslings_prove.generated.kills import kill_of
-from roslings_prove.generated.operators import OPERATORS
 from roslings_prove.generated.packages import Fate, Wrong, fate_of, judged_by
 from roslings_prove.generated.run import AlreadyProving, Keeping, prove_generated
-from roslings_prove.generated.source import read_source
 from roslings_prove.generated.table import HEAD, Outcome, told
 from roslings_prove.proofs.digests import measuring
 from roslings_prove.proofs.kept import Folder, name_in
@@ -278,9 +279,9 @@ def test_what_the_starter_has_word_for_word_is_not_changed(tmp_path: Path) -> No
     """It is given; the student does not write it."""
     own = replace(EXAMPLE, folder=tmp_path / "example")
     shutil.copytree(EXAMPLE.folder, own.folder)
-    assert list(choice.modules_of(own)) == ["beacon/beacon.py"]
+    assert list(modules_of(own, own.solution)) == ["beacon/beacon.py"]
     shutil.copy(own.solution / "beacon" / "beacon.py", own.starter / "beacon" / "beacon.py")
-    assert list(choice.modules_of(own)) == []
+    assert list(modules_of(own, own.solution)) == []
 
 
 def test_a_package_is_the_solution_with_one_change(

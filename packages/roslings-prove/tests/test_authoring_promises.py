@@ -13,10 +13,10 @@ from roslings.course.files import BadCourseFile
 from roslings.course.labs import example_root
 from roslings.course.promises import NAME, promises_in
 from roslings.course.sentences import passages_of
+from roslings_changes.card_words import words_of
 from roslings_prove.contract.changes import changes_of
 from roslings_prove.contract.coverage import mutants_by_word
 from roslings_prove.contract.promises import Account, prove_promises
-from roslings_prove.contract.words import words_of
 from roslings_prove.prove import Proof
 from roslings_prove.telling import WIDTH, told
 

@@ -26,8 +26,8 @@ LEARNERS, TEACHERS = "learners", "teachers"
 TABLE = "command_names"
 GROUP = "roslings.command"
 ORDER = (
-    "doctor", "lab", "site", "drill", "quiz", "start", "check", "watch", "status", "diff", "pack",
-    "rover", "desk", "board", "camera", "graph", "break", "ros2", "ready",
+    "doctor", "lab", "site", "drill", "quiz", "start", "check", "watch", "explain", "status",
+    "diff", "pack", "rover", "desk", "board", "camera", "graph", "break", "ros2", "ready",
     "grade", "regrade", "override", "forget", "overview", "export", "cluster", "new-lab", "prove",
     "release", "serve", "test", "wheels",
 )  # fmt: skip

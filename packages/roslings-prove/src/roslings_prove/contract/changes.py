@@ -14,7 +14,7 @@ from typing import Any
 
 from roslings.course.files import Location
 from roslings.course.kinds import Kind
-from roslings_prove.contract.words import Word
+from roslings_changes.card_words import Word
 
 OTHER_TYPES = {
     "msg": ("std_msgs/msg/String", "std_msgs/msg/Int32"),

@@ -17,13 +17,13 @@ from roslings.course import Lab
 from roslings.course.files import read_tree
 from roslings.experiment.run_folder import run_folder
 from roslings.grader import Clock
+from roslings_changes.card_words import Word, words_of
 from roslings_class.gradebook import gradebook
 from roslings_class.result import Result
 from roslings_class.scheduler import Watcher
 from roslings_prove.contract.changes import Change, changes_of
 from roslings_prove.contract.promises import Account, not_judged_words, prove_promises
 from roslings_prove.contract.reworded import LIFE, NOTE, Wanted
-from roslings_prove.contract.words import Word, words_of
 from roslings_prove.prove import Proof, Solution, graded, proof_of
 
 SEEN = "seen"

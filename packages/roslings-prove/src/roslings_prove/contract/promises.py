@@ -17,7 +17,7 @@ from roslings.course import Lab, Mutant
 from roslings.course.files import line_in
 from roslings.course.promises import NAME, Promise, Promises, promises_in
 from roslings.course.sentences import Passage, Sentence, passages_of
-from roslings_prove.contract.words import Word, texts_of, words_of
+from roslings_changes.card_words import Word, texts_of, words_of
 from roslings_prove.prove import Proof
 
 JOINING = {"and", "or", "but", "so", "then"}

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import libcst as cst
 
-from roslings_prove.generated.source import New, Source
+from roslings_changes.source import New, Source
 
 UNIT = re.compile(r"\b(m|mm|cm|s|ms|seconds?|metres?|rad|degrees?|Hz|m/s|rad/s|points?)\b")
 ANGLE = re.compile(r"\brad\b")

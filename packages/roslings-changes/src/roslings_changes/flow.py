@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import libcst as cst
 
-from roslings_prove.generated.source import New, Source, is_documentation
+from roslings_changes.source import New, Source, is_documentation
 
 LATE_S, FOR_EVER_S = 1.0, 1000.0
 BREAKS_IN_CALL = (1, 2, 3, 5, 7, 10)

@@ -14,8 +14,8 @@ from collections.abc import Callable, Iterator, Mapping
 
 import libcst as cst
 
-from roslings_prove.generated import flow, values
-from roslings_prove.generated.source import New, Source
+from roslings_changes import flow, values
+from roslings_changes.source import New, Source
 
 Operator = Callable[[cst.CSTNode, Source], Iterator[New]]
 """Gives all that may stand in the place of a node; nothing for most nodes."""

@@ -1,0 +1,1 @@
+"""Small changes that make a package wrong, and questions about them."""
