@@ -51,6 +51,10 @@ class Change:
         return self.file, self.line
 
 
+LARGEST_BYTES = 100_000
+"""A larger module is no student's, and LibCST would take long."""
+
+
 def candidates(lab: Lab, package: Path) -> list[Change]:
     """All that the operators make of a package of this lab, each program once.
 
@@ -71,6 +75,8 @@ def modules_of(lab: Lab, package: Path) -> Iterator[str]:
     name = lab.outline.package
     for path in sorted((package / name).glob("*.py")):
         given = lab.starter / name / path.name
+        if path.is_symlink() or path.stat().st_size > LARGEST_BYTES:
+            continue
         content = path.read_bytes()
         if content.strip() and not (given.is_file() and given.read_bytes() == content):
             yield path.relative_to(package).as_posix()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -22,6 +23,7 @@ from roslings_class.clock_times import zone_named
 from roslings_class.dask_pool import DaskPool, dask_pool
 from roslings_class.downloads import submissions_at
 from roslings_class.errors import BatchError
+from roslings_class.explaining import explain
 from roslings_class.feedback import Given
 from roslings_class.gradebook import Gradebook, gradebook
 from roslings_class.handed_in import told_at, told_by_itself
@@ -35,6 +37,7 @@ from roslings_class.messages import (
     summary_lines,
 )
 from roslings_class.moodle_worksheet import read_worksheet
+from roslings_class.result import Result
 from roslings_class.roster import insist_on_owners, read_roster
 from roslings_class.scheduler import GradingRequest, Scheduler, Standing
 from roslings_class.signed_gradebook import take_key
@@ -90,6 +93,8 @@ class Choices:
     """What Canvas calls the lab."""
     points: float | None = None
     """What the whole is worth on the platform; None: as the class list says, or 100."""
+    explain: bool = False
+    """Whether questions are made about each hand-in that passes."""
 
 
 @dataclass(frozen=True)
@@ -133,9 +138,19 @@ def _graded(choices: Choices, lab: Lab, submissions: list[Submission]) -> Report
         unclear = sum(latest[name].word == "inconclusive" for name in names)
         lines = [
             *lines, *told, *summary_lines(book, names), soak_line(latest.values()),
-            *hand_out(book, lab, choices.out),
+            *hand_out(book, lab, choices.out), *_explain(choices, submissions, latest),
         ]  # fmt: skip
         return Report(lines, unclear)
+
+
+def _explain(
+    choices: Choices, submissions: list[Submission], latest: Mapping[str, Result]
+) -> list[str]:
+    """Questions about what passes, where they were asked for."""
+    if not choices.explain:
+        return []
+    with Progress() as progress:
+        return explain(choices.lab, submissions, latest, choices.out, choices.trust, progress.step)
 
 
 def _anew(names: set[str]) -> list[str]:
