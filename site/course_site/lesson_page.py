@@ -2,7 +2,8 @@
 
 In JupyterLab a lesson is cells. Here nothing runs, so the page shows what it is about first (goal,
 level, time and need as a card, then the drawing that `days/path.yaml` names), folds the imports,
-and marks what to guess ("Before you run") and what to change ("Your turn").
+and marks what to guess ("Before you run") and what to change ("Your turn"). What a cell printed is
+folded where the reader guesses first.
 """
 
 from __future__ import annotations
@@ -86,8 +87,21 @@ def _mark_cell(cell: nodes.container) -> None:
         _between(cell, _folded("The imports of this page"), "</details>")
     elif "tag_change" in tags:
         _between(cell, YOUR_TURN, END)
-        for output in cell.children[1:]:
-            _between(output, _folded("What it says before you change it"), "</details>")
+        _fold_outputs(cell, "What it says before you change it")
+    elif _follows_a_guess(cell):
+        _fold_outputs(cell, "What it prints: guess first")
+
+
+def _follows_a_guess(cell: nodes.container) -> bool:
+    """What stands before it asks what it will do."""
+    place = cell.parent.index(cell)
+    before = cell.parent.children[place - 1] if place else None
+    return isinstance(before, nodes.paragraph) and "guess" in before["classes"]
+
+
+def _fold_outputs(cell: nodes.container, summary: str) -> None:
+    for output in cell.children[1:]:
+        _between(output, _folded(summary), "</details>")
 
 
 def _folded(summary: str) -> str:

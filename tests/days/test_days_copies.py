@@ -63,13 +63,15 @@ def test_a_student_sees_no_output_before_running_a_cell(copies: Copies) -> None:
 
 
 def test_the_first_time_all_is_copied(copies: Copies) -> None:
-    """Lesson, pictures, pages, and a list of them and of the days, those to come too."""
+    """Lesson, pictures, pages, what it starts, and a list of the days, those to come too."""
     (copies.course / "days" / DAY / "first-look.md").write_text("# The first look\n\nLook.\n")
+    (copies.course / "days" / DAY / "two.launch.xml").write_text("<launch/>\n")
     assert copies.copy_all(days_of(copies)) == []
     own = copies.folder / DAY / "lesson.ipynb"
     theirs = copies.course / "days" / DAY / "lesson.ipynb"
     assert own.read_bytes() == as_opened(theirs, copies)
     assert (copies.folder / DAY / "pictures" / "lamp.svg").is_file()
+    assert (copies.folder / DAY / "two.launch.xml").read_text("utf-8") == "<launch/>\n"
     listed = (copies.folder / "Days.md").read_text("utf-8")
     assert "[Day 1: A lamp](01-lamp/lesson.ipynb)" in listed
     assert "Day 2: A motor (to come)" in listed

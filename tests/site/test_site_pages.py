@@ -168,6 +168,17 @@ def test_what_the_reader_does_stands_in_a_box(visit: Visit) -> None:
     assert "Still 3" in output.inner_text()
 
 
+def test_what_a_cell_prints_waits_where_the_reader_guesses_first(visit: Visit) -> None:
+    """It is there for who reads without ROS, after a click."""
+    page = visit.go("days/03-topics/index.html")
+    summary = page.get_by_text("What it prints: guess first")
+    folded = page.locator("details.folded", has=summary).first
+    output = folded.locator(".cell_output")
+    assert not output.is_visible()
+    folded.locator("summary").click()
+    assert output.is_visible() and output.inner_text().strip()
+
+
 def test_a_folded_part_is_open_on_paper(visit: Visit) -> None:
     """Nobody can click there."""
     page = visit.go("days/03-topics/index.html")

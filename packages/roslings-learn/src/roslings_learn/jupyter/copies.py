@@ -25,6 +25,8 @@ from roslings_learn.lessons import Day, Glossary
 
 LESSON, PICTURES, LIST = "lesson.ipynb", "pictures", "Days.md"
 MOST_COPIES = 1000
+STARTED = "*.launch.*"
+"""Files beside a lesson that its cells start."""
 REFERENCE, LABS, TASK = "site/pages/reference", "labs", "task.md"
 OUTSIDE = re.compile(rb"\]\(\.\./\.\./(?:site/pages/)?(?=reference/|labs/)")
 """A link from a day to a page that has no day: in the copies it is one folder nearer."""
@@ -87,6 +89,8 @@ class Copies:
             shutil.copytree(pictures, self.folder / day.id / PICTURES, dirs_exist_ok=True)
         for page in self._pages_of(day):  # the lesson links to them
             _write(self.folder / day.id / page.name, _linked(page))
+        for file in sorted(self.lesson_of(day).parent.glob(STARTED)):
+            _write(self.folder / day.id / file.name, file.read_bytes())
 
     def _copy_shared(self) -> None:
         """What lessons of several days link to: reference pages, and the labs' tasks."""
