@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from roslings.course import Lab, lab
+from until_told import run_until_told
 
 pytestmark = pytest.mark.slow
 
@@ -24,9 +25,9 @@ OTHERS = ["nodes", "distance-sensor", "actions", "serial-bridge", "pi-camera", "
 
 def typed(*words: str, ws: Path) -> subprocess.CompletedProcess[str]:
     """A command of the course, in a workspace of its own."""
-    return subprocess.run(
+    return run_until_told(
         [sys.executable, "-m", "roslings", *words], env={**os.environ, "ROSLINGS_WS": str(ws)},
-        capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL,
+        stdin=subprocess.DEVNULL,
     )  # fmt: skip
 
 
