@@ -9,9 +9,8 @@ from __future__ import annotations
 import os
 import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from pathlib import Path
-from types import TracebackType
 from typing import Any
 
 from ros2_on_pip.bag.clock import BagClock
@@ -44,7 +43,7 @@ class EmptyBag(Problem):
 
 
 class BagPlayer:
-    """A context manager: leaving the block ends it. Its methods may be called by any thread."""
+    """An open bag, which plays while `played_by` runs. Any thread may call its methods."""
 
     def __init__(self, path: Path) -> None:
         """Raises BadBag, EmptyBag."""
@@ -58,7 +57,7 @@ class BagPlayer:
         """Topics of types that are not installed here."""
         self._classes = dict(self._known())
         if not (self._classes and self._span.count):
-            self._reader.close()
+            self.close()
             raise EmptyBag(path)
         self.trouble = ""
         """What ended it before the bag's end."""
@@ -74,31 +73,29 @@ class BagPlayer:
             except UnknownInterface:
                 self.left_out.append(topic.name)
 
-    def __enter__(self) -> BagPlayer:
-        self._eye = Eye(NODE).__enter__()
+    def close(self) -> None:
+        """The bag's files."""
+        self._reader.close()
+
+    @contextmanager
+    def played_by(self, node: Any) -> Iterator[None]:
+        """Play, by publishers of this node and a thread; leaving the block ends the thread."""
         self._publishers = {
-            topic.name: self._eye.node.create_publisher(
+            topic.name: node.create_publisher(
                 self._classes[topic.name], topic.name, offered(topic.qos)
             )
             for topic in self._reader.metadata.topics
             if topic.name in self._classes
         }
-        self._thread = threading.Thread(target=self._run, name="bag")
-        self._thread.start()
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        with self._changed:
-            self._is_ended = True
-            self._changed.notify_all()
-        self._thread.join()
-        self._eye.__exit__(kind, error, trace)
-        self._reader.close()
+        thread = threading.Thread(target=self._run, name="bag")
+        thread.start()
+        try:
+            yield
+        finally:
+            with self._changed:
+                self._is_ended = True
+                self._changed.notify_all()
+            thread.join()
 
     # --- what a page asks and wants --------------------------------------------------------
 
@@ -199,5 +196,5 @@ def playing(path: Path) -> Iterator[BagPlayer]:
     """It plays, in a domain of its own, which is this process's from now on."""
     with leased_domain() as domain:
         os.environ["ROS_DOMAIN_ID"] = str(domain)
-        with BagPlayer(path) as player:
+        with closing(BagPlayer(path)) as player, Eye(NODE) as eye, player.played_by(eye.node):
             yield player
