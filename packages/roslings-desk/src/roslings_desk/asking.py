@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from concurrent.futures import Future
-from typing import Any
+from typing import Any, TypeVar
 
 from ros2_on_pip.calling import PATIENCE_S, CallFailed, NoAnswer
 from roslings_desk.hub import Hub
 
 LOOK_EVERY_S = 0.02
+T = TypeVar("T")
 
 
 async def ask(hub: Hub, service: str, cls: Any, request: Any) -> Any:
@@ -18,9 +19,7 @@ async def ask(hub: Hub, service: str, cls: Any, request: Any) -> Any:
     node = hub.eye.node
     client = await asyncio.wrap_future(hub.do(lambda: node.create_client(cls, service)))
     try:
-        return await asyncio.wait_for(_answer(hub, client, request), PATIENCE_S)
-    except asyncio.TimeoutError:
-        raise NoAnswer(service, PATIENCE_S) from None
+        return await in_time(service, _answer(hub, client, request))
     finally:
         hub.do(lambda: node.destroy_client(client))
 
@@ -28,6 +27,14 @@ async def ask(hub: Hub, service: str, cls: Any, request: Any) -> Any:
 async def _answer(hub: Hub, client: Any, request: Any) -> Any:
     await is_true(client.service_is_ready)
     return await answer_of(hub, client.srv_name, lambda: client.call_async(request))
+
+
+async def in_time(asked: str, waiting: Awaitable[T]) -> T:
+    """What comes of it, from the service or action `asked`. Raises NoAnswer."""
+    try:
+        return await asyncio.wait_for(waiting, PATIENCE_S)
+    except asyncio.TimeoutError:
+        raise NoAnswer(asked, PATIENCE_S) from None
 
 
 async def is_true(condition: Callable[[], bool]) -> None:

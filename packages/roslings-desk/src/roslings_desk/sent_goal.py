@@ -6,10 +6,9 @@ import asyncio
 from collections.abc import Iterable
 from typing import Any
 
-from ros2_on_pip.calling import PATIENCE_S, NoAnswer
 from ros2_on_pip.goal import STATUS
 from ros2_on_pip.problem import Problem, did_you_mean
-from roslings_desk.asking import answer_of, is_true
+from roslings_desk.asking import answer_of, in_time, is_true
 from roslings_desk.hub import Hub
 
 CANCELED = "it was cancelled"
@@ -78,12 +77,9 @@ class SentGoal:
         return f"{ENDS.get(name, 'it ended')} ({name})", found.result
 
     async def _send(self, client: Any, goal: Any) -> None:
-        try:
-            await asyncio.wait_for(is_true(client.server_is_ready), PATIENCE_S)
-            asked = answer_of(self._hub, self.action, lambda: self._request(client, goal))
-            handle = await asyncio.wait_for(asked, PATIENCE_S)
-        except asyncio.TimeoutError:
-            raise NoAnswer(self.action, PATIENCE_S) from None
+        await in_time(self.action, is_true(client.server_is_ready))
+        asked = answer_of(self._hub, self.action, lambda: self._request(client, goal))
+        handle = await in_time(self.action, asked)
         if not handle.accepted:
             raise Rejected(self.action)
         self._handle = handle
@@ -97,11 +93,8 @@ class SentGoal:
 
     async def cancel(self) -> None:
         """Ask the server to end it before its end. Raises NoAnswer, CallFailed, NotCanceled."""
-        try:
-            asked = answer_of(self._hub, self.action, self._handle.cancel_goal_async)
-            answer = await asyncio.wait_for(asked, PATIENCE_S)
-        except asyncio.TimeoutError:
-            raise NoAnswer(self.action, PATIENCE_S) from None
+        asked = answer_of(self._hub, self.action, self._handle.cancel_goal_async)
+        answer = await in_time(self.action, asked)
         if not answer.goals_canceling and not self.is_over:
             raise NotCanceled(self.action)
 
