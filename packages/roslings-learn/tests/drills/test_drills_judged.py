@@ -133,3 +133,18 @@ def test_a_drill_may_bring_a_check_of_its_own(tmp_path: Path) -> None:
     verdict = check(one, one.solution)
     assert verdict.first and (verdict.first.id, verdict.first.fault) == ("tower", "Unmet")
     assert "it is no tower" in (verdict.first.measured or "")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("first", "outcome"),
+    [("timeout 4 sh -c 'while :; do :; done' || true", "pass"), ("sleep 60", "fail")],
+    ids=["works", "sleeps"],
+)
+def test_a_script_that_still_loads_is_waited_for(tmp_path: Path, first: str, outcome: str) -> None:
+    """A slow computer needs seconds for two `ros2` commands; who only sleeps is not waited for."""
+    begins = "ros2 topic pub"
+    file = changed(tmp_path, "one_terminal", begins, f"{first}\n{begins}", of="solution")
+    verdict = check(drill("one_terminal"), file)
+    assert verdict.outcome == outcome
+    assert outcome == "pass" or (verdict.first and verdict.first.fault == "NotPrinted")

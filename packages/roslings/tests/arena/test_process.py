@@ -377,6 +377,19 @@ def test_a_process_that_waits_is_told_from_one_that_works(tmp_path: Path, namesp
         assert not any(process.asleep() for _ in range(20))
 
 
+def test_what_a_process_has_worked_is_counted_with_its_children(
+    tmp_path: Path, namespaces: bool
+) -> None:
+    """Seconds of a processor: of those that run and of those that ended; none when it is gone."""
+    burn = "import time; [None for _ in iter(lambda: time.process_time() < 0.4, False)]"
+    children = f"import subprocess, sys; subprocess.run([sys.executable, '-c', {burn!r}])"
+    source = f"{children}; print('done', flush=True); import time; time.sleep(1000)"
+    with Process("it", launch(tmp_path, namespaces, *python(source))) as process:
+        assert process.wait_until(lambda: bool(process.seen.lines), LONG_S)
+        assert 0.4 <= process.worked_s() < 10
+    assert process.worked_s() == 0
+
+
 def test_what_it_has_started_is_known_and_can_be_killed(tmp_path: Path, namespaces: bool) -> None:
     """By the words of its command; the process itself lives on, and no stranger is killed."""
     shell = "sleep 1000 & echo ready; wait; echo woken; exec sleep 2000"

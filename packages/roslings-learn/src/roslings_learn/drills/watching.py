@@ -8,7 +8,7 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 import ros2_on_pip
-from roslings.arena import Process
+from roslings.arena import LONGEST_WAIT_S, Process
 from roslings.capabilities.actions.record import ActionsSeen
 from roslings.capabilities.parameters.act import list_parameters
 from roslings.capabilities.services.act import Asker, answering
@@ -19,6 +19,7 @@ from roslings.course import NodeContract, TopicContract
 from roslings.evidence import Endpoint, ExperimentSeen, GraphSeen
 from roslings.experiment import Run, Scene
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
+from roslings.experiment.own_time import OwnTime
 from roslings.experiment.scene import hears, publishes
 from roslings.experiment.start import Start
 from roslings.matching import nearest_endpoint
@@ -35,7 +36,9 @@ TURNS_WITHIN_S = 0.8
 ASKS_WITHIN_S = 0.8
 COMES_UP_WITHIN_S, SHOWN_WITHIN_S = 5.0, 0.6
 """A node is in the graph some tenths of a second after its program has begun to speak."""
-PRINTS_WITHIN_S, ENDS_WITHIN_S = 3.0, 8.0
+PRINTS_WITHIN_S, ENDS_WITHIN_S = 2.5, 8.0
+LOADS_WITHIN_S = 8.0
+"""Of work; who works on for longer is not loading any more."""
 BESIDE = "beside"
 ROS2 = Path(ros2_on_pip.__path__[0])
 """The course's own `ros2`: a script may call it."""
@@ -80,8 +83,26 @@ def _await_nodes(card: DrillCard, scene: Scene, process: Process) -> None:
     wanted = len(card.nodes) + len(card.beside.nodes if card.beside else ())
     if card.exits is None and card.nodes:
         there = functools.partial(_are_there, scene, wanted)
-        scene.until_own(lambda: there() or bool(process.lines()), COMES_UP_WITHIN_S)
+        _until_idle(scene, process, lambda: there() or bool(process.lines()), COMES_UP_WITHIN_S)
         scene.until_own(there, SHOWN_WITHIN_S)
+
+
+def _until_idle(
+    scene: Scene, process: Process, condition: Callable[[], bool], within_s: float
+) -> None:
+    """As `Scene.until_own`; what the program's own processes work comes on top, to a bound.
+
+    A script of two `ros2` commands loads for a second on a fast computer, for four on a slow one.
+    """
+    own, before_s = OwnTime(scene.arena), process.worked_s()
+
+    def is_over() -> bool:
+        return own.is_past(within_s) and own.is_past(
+            within_s + min(process.worked_s() - before_s, LOADS_WITHIN_S)
+        )
+
+    most_s = within_s + LOADS_WITHIN_S + LONGEST_WAIT_S
+    scene.until(lambda: condition() or is_over(), most_s)
 
 
 def _are_there(scene: Scene, count: int) -> bool:
@@ -274,7 +295,8 @@ def _await_output(card: DrillCard, scene: Scene, process: Process) -> None:
         process.wait_ended(0.0 if process.alive else ENDS_WITHIN_S)
     elif card.prints:
         texts = [line for line in card.prints]
-        scene.until_own(
+        _until_idle(
+            scene, process,
             lambda: all(any(t in line.text for line in process.lines()) for t in texts),
             PRINTS_WITHIN_S,
-        )
+        )  # fmt: skip

@@ -4,13 +4,15 @@
 
 FD is one end of a stream socket pair; the arena holds the other. It first sends the number of
 bytes of an `Order` on a line, and the bytes, of `marshal`; later a signal's name, `WAITS`,
-`OWN_WAITS`, `STATE`, `COMMANDS` or `KILL:PID`, a line. The guardian answers one line of JSON an
-event:
+`OWN_WAITS`, `WORKED`, `STATE`, `COMMANDS` or `KILL:PID`, a line. The guardian answers one line of
+JSON an event:
 
     {"started": PID}                       {"said": TEXT, "at": NS}
     {"exited": STATUS, "at": NS, ...}      {"refused": REASON}
     {"answer": {THREAD: NS}, "to": ...}    to WAITS: ready to run, and no processor free, since
                                            it began; to OWN_WAITS: without its children
+    {"answer": S, "to": "WORKED"}          to WORKED: seconds of a processor that it has used, and
+                                           all that it started
     {"answer": LETTER, "to": "STATE"}      to STATE: of its main thread, as in proc(5); empty where
                                            it has ended
     {"answer": {PID: COMMAND}, "to": ...}  to COMMANDS: all that descend from it, with the words
@@ -55,7 +57,7 @@ CRUMB = 200
 """Such a part of all."""
 TICKS_A_SECOND = os.sysconf("SC_CLK_TCK")
 JUST_NOW_S = 0.2
-QUESTIONS = ("WAITS", "OWN_WAITS", "STATE", "COMMANDS")
+QUESTIONS = ("WAITS", "OWN_WAITS", "WORKED", "STATE", "COMMANDS")
 KILL = "KILL:"
 LONGEST_COMMAND = 4096
 NEARLY = 0.95
@@ -334,6 +336,8 @@ class Guardian:
             return kernel.waits(descendants())
         if name == "OWN_WAITS":
             return kernel.waits([self.pid])
+        if name == "WORKED":
+            return cpu_s_of(descendants())
         return state(self.pid) if name == "STATE" else commands(descendants())
 
     def reap(self) -> None:

@@ -246,6 +246,10 @@ class Process:
         """As `waits_ns`, of the main thread alone, when the process ended; empty before."""
         return {} if self._waited_ns is None else {self._main_thread: self._waited_ns}
 
+    def worked_s(self) -> float:
+        """Seconds of a processor that it and all that it started have used; 0 when it is gone."""
+        return float(str(self._ask("WORKED") or 0.0))
+
     def asleep(self) -> bool:
         """Its main thread waits for something, as a node's does between its callbacks."""
         return self._ask("STATE") == "S"
