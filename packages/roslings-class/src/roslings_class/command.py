@@ -17,6 +17,7 @@ from roslings.experiment.run_folder import LOCK, run_folder
 from roslings.experiment.walls import closed_places
 from roslings.report import Progress
 from roslings.report.safe_text import harmless
+from roslings.variants import chosen
 from roslings_class.alone import alone_in
 from roslings_class.capacity import Capacity
 from roslings_class.clock_times import zone_named
@@ -37,6 +38,7 @@ from roslings_class.messages import (
     summary_lines,
 )
 from roslings_class.moodle_worksheet import read_worksheet
+from roslings_class.own_cards import NoList, OneMachine, OwnCards, own_cards
 from roslings_class.result import Result
 from roslings_class.roster import insist_on_owners, read_roster
 from roslings_class.scheduler import GradingRequest, Scheduler, Standing
@@ -93,6 +95,8 @@ class Choices:
     """What Canvas calls the lab."""
     points: float | None = None
     """What the whole is worth on the platform; None: as the class list says, or 100."""
+    variants: bool = False
+    """Whether each student is graded by a card of their own."""
     explain: bool = False
     """Whether questions are made about each hand-in that passes."""
 
@@ -114,9 +118,20 @@ def grade(choices: Choices) -> Report:
     lab = course.lab(choices.lab, choices.hidden)
     _ = lab.card, lab.hints  # a mistake in the course is told before anything is run
     students = read_roster(choices.roster) if choices.roster else ()
+    if choices.variants:
+        _insist_on_owners_of_cards(choices, lab)
     zone = choices.rule.zone if choices.rule else ""
     with submissions_at(choices.submissions, students, zone_named(zone)) as submissions:
         return _graded(choices, lab, submissions)
+
+
+def _insist_on_owners_of_cards(choices: Choices, lab: Lab) -> None:
+    """Raises NoList, OneMachine, NoVariants, BadCourseFile."""
+    if not choices.roster:
+        raise NoList
+    if choices.dask:
+        raise OneMachine
+    chosen(lab, "anybody").card()
 
 
 def _graded(choices: Choices, lab: Lab, submissions: list[Submission]) -> Report:
@@ -202,7 +217,7 @@ def settings_for(choices: Choices, submissions: list[Submission]) -> Settings:
     return Settings(
         roster=roster, rule=rule, times=times, hidden=hidden, assignment=choices.assignment,
         points=choices.points, told=(*told, *told_by_itself(submissions)),
-        given=given_names(submissions),
+        variants=choices.variants, given=given_names(submissions),
     )  # fmt: skip
 
 
@@ -236,6 +251,7 @@ def _grade_all(
             hidden=choices.hidden.absolute() if choices.hidden else None,
             strangers=not choices.trust, keeps_evidence=choices.keeps_evidence,
             limits=Limits(choices.limit_s), soak_s=soak_s,
+            cards=_cards(choices, submissions, scratch / "cards"),
         )  # fmt: skip
         teller = Teller(progress)
         if choices.dask is None:
@@ -245,6 +261,13 @@ def _grade_all(
             lab = course.lab(choices.lab, request.hidden)
             with dask_pool(choices.dask, lab, choices.trust, request.limits) as workers:
                 Scheduler(request, book, ClusterCapacity(workers), teller).run(submissions, workers)
+
+
+def _cards(choices: Choices, submissions: list[Submission], folder: Path) -> OwnCards | None:
+    if not choices.variants or not choices.roster:
+        return None
+    students, names = read_roster(choices.roster), [each.name for each in submissions]
+    return own_cards(course.lab(choices.lab), students, names, folder)
 
 
 @dataclass

@@ -34,7 +34,7 @@ def explain(
     left = [each for each in wanted if not _is_there(each, latest, out)]
     for number, each in enumerate(left, 1):
         tell(f"Questions about {each.name}: {number} of {len(left)}")
-        found = _questions(lab, each, trust)
+        found = _questions(lab, each, trust, latest[each.name].whose)
         write_whole(_file(each, out), f"{_head(each, latest)}\n{found}".encode())
     return list(_told(len(wanted), len(submissions), out))
 
@@ -45,8 +45,9 @@ def _told(wanted: int, of: int, out: Path) -> Iterator[str]:
         yield "The others do not pass: what is wrong with a package is no question about it."
 
 
-def _questions(lab: str, submission: Submission, trust: bool) -> str:
+def _questions(lab: str, submission: Submission, trust: bool, whose: str) -> str:
     words = ["explain", lab, str(submission.path.absolute()), "--answers"]
+    words += ["--for", whose] if whose else []
     try:
         done = subprocess.run(
             [sys.executable, "-m", "roslings", *words, *([] if trust else ["--as-stranger"])],

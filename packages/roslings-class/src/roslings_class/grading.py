@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import lzma
+import os
 import signal
 import time
 import zlib
@@ -52,6 +53,8 @@ class Measured:
 def main(order: Order) -> None:
     """The process's whole life."""
     signal.signal(signal.SIGTERM, _stop)
+    if order.course:
+        os.environ["ROSLINGS_COURSE"] = str(order.course)
     answer(order)
 
 
@@ -103,7 +106,8 @@ def grade(order: Order) -> tuple[Result, Evidence | None]:
         submission=order.submission, digest=order.digest, attempt=order.attempt, state="graded",
         verdict=found.verdict, seconds=time.monotonic() - began_s, lab_version=version_of(lab),
         source=found.fingerprint.whole, marks=tuple(sorted(found.fingerprint.marks)),
-        rates=rates_of(found.evidence, lab), unusual=unusual(found.evidence),
+        rates=rates_of(found.evidence, lab), unusual=unusual(found.evidence), whose=order.whose,
+        words=order.words,
     )  # fmt: skip
     return result, found.evidence
 
@@ -176,5 +180,6 @@ def rates_of(evidence: Evidence, lab: Lab) -> dict[str, float]:
 def _refused(order: Order, refusal: Refused, seconds: float) -> Result:
     return Result(
         submission=order.submission, digest=order.digest, attempt=order.attempt, state="refused",
-        reason=refusal.reason, next_step=refusal.next_step, seconds=seconds,
+        reason=refusal.reason, next_step=refusal.next_step, seconds=seconds, whose=order.whose,
+        words=order.words,
     )  # fmt: skip

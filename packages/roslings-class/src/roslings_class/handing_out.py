@@ -24,7 +24,9 @@ from roslings_class.late_days import LateRule
 from roslings_class.messages import few as _few
 from roslings_class.messages import wrapped as _wrapped
 from roslings_class.moodle_worksheet import read_worksheet
-from roslings_class.roster import read_roster
+from roslings_class.own_cards import FILE as CARDS
+from roslings_class.own_cards import Courses, courses_of, write_cards
+from roslings_class.roster import Student, read_roster
 from roslings_class.student_pages import write_pages
 
 KEY = "handout"
@@ -47,6 +49,8 @@ class Settings(BaseModel):
     """What Canvas calls the lab: the head of its column; empty for the lab's own title."""
     points: float | None = None
     """What the whole is worth on the platform; None: as the class list says, or 100."""
+    variants: bool = False
+    """Whether each student has a card of their own."""
 
     def without(self, submission: str) -> Settings:
         """The same, where nothing is kept of it."""
@@ -84,7 +88,9 @@ def hand_out(book: Gradebook, lab: Lab, folder: Path) -> list[str]:
     assignments = points_of_assignments(settings.roster) if settings.roster else {}
     whole = settings.points or assignments.get(settings.assignment.strip()) or WHOLE
     write_all(found.grades, lab, folder, settings.assignment, worksheet, whole)
-    write_pages(book, lab, found, folder / STUDENTS)
+    with courses_of(lab) as courses:
+        write_pages(book, courses, found, folder / STUDENTS)
+        cards = _cards(courses, students, folder) if settings.variants and courses.variants else []
     feedback = Feedback(lab, folder, settings.given, found.counts, worksheet is not None)
     regrading = last_regrading(book)
     if regrading:
@@ -93,12 +99,18 @@ def hand_out(book: Gradebook, lab: Lab, folder: Path) -> list[str]:
     write_class_page(lab, found, common, folder / "class.html", regrading)
     back = [f"To upload as Moodle's worksheet: {from_here(folder)}/moodle.csv"] if worksheet else []
     return [
+        *cards,
         *_remarks(found, settings),
         *_about_assignment(settings, assignments),
         *back,
         *feedback.write(found),
         f"The class on one page: {from_here(folder)}/class.html",
     ]
+
+
+def _cards(courses: Courses, students: Sequence[Student], folder: Path) -> list[str]:
+    write_cards(courses, students, folder / CARDS)
+    return [f"Whose card says what: {from_here(folder)}/{CARDS}"]
 
 
 def _remarks(found: Class, settings: Settings) -> list[str]:

@@ -18,6 +18,7 @@ from roslings_class.grades import SAY_WHOSE, Class, class_of
 from roslings_class.grading import rates_of, unpacked
 from roslings_class.handing_out import hand_out, keep, settings_of
 from roslings_class.messages import summary_lines
+from roslings_class.own_cards import courses_of, in_course
 from roslings_class.result import Result
 from roslings_class.roster import read_roster
 from roslings_class.signed_gradebook import forged_lines, take_key
@@ -123,7 +124,8 @@ def regrade_all(folder: Path, lab_name: str, hidden: Path | None) -> Regraded:
         lab = course.lab(lab_name, settings.hidden)
         forged = book.forged()
         before = {name: each for name, each in book.latest().items() if name not in forged}
-        told = Counter(_again(book, result, lab) for result in before.values())
+        with courses_of(lab) as courses:
+            told = Counter(_again(book, each, courses.lab_of(each)) for each in before.values())
         changed, same, without = (told[word] for word in ("changed", "same", "without"))
         lines = [*about_key, f"{changed + same} judged again, {changed} scores changed."]
         lines += changed_lines(_noted(book, before, changed + same), _class(book).grades, folder)
@@ -156,7 +158,9 @@ def _again(book: Gradebook, result: Result, lab: Lab) -> str:
     if content is None:
         return "without"
     evidence = unpacked(content)
-    verdict = judge(lab, evidence).model_copy(update={"seconds": result.verdict.seconds})
+    with in_course(lab):
+        verdict = judge(lab, evidence)
+    verdict = verdict.model_copy(update={"seconds": result.verdict.seconds})
     version = version_of(lab)
     if verdict == result.verdict and version == result.lab_version:
         return "same"

@@ -17,7 +17,7 @@ from ros2_on_pip.typed_paths import from_here
 from roslings.built_site import BROUGHT, forget, is_up_to_date, note_texts, site_here
 from roslings.course import CourseError, Lab, all_labs, root
 from roslings.course.labs import EXAMPLE, example_root
-from roslings.course.promises import NAME as PROMISES
+from roslings.variants import NOT_FOR_STUDENTS
 from roslings.workspace.sources import files
 from roslings_class.course_files import course_files
 
@@ -121,7 +121,7 @@ def is_for_students(name: str) -> bool:
     if path.parts[0] == "tests":
         return len(path.parts) > 1 and path.parts[1] in TESTS
     if path.parts[0] == "labs" and len(path.parts) > 2:
-        return path.parts[2] not in ("solution", "mutants", PROMISES, "generated.yaml")
+        return path.parts[2] not in NOT_FOR_STUDENTS
     if path.parts[0] == "days" and "drills" in path.parts:
         return path.stem != "solution"
     hidden = path.parts[0] == "graders" and path.name.startswith("hidden_")

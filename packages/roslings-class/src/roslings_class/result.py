@@ -7,6 +7,7 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict
 
+from roslings.course.contract import Plain
 from roslings.verdict import Verdict
 from roslings_class.platform_names import NOBODY, platform_name
 
@@ -31,6 +32,10 @@ class Order(BaseModel):
     hidden: Path | None = None
     course: Path | None = None
     """Where the lab's files lie, where not in this course."""
+    whose: str = ""
+    """By whose card it is graded; empty where everybody has the same."""
+    words: dict[str, Plain] = {}
+    """What is the student's own in that card, by the names that `variants.yaml` has."""
     builds: Path | None = None
     builds_as_kin: bool = False
     """One of a lab's own packages: those that differ in their modules alone share a build."""
@@ -99,6 +104,10 @@ class Result(BaseModel):
     """Fingerprints of its code."""
     rates: dict[str, float] = {}
     """Topic of the card to the rate that was measured, in Hz."""
+    whose: str = ""
+    """By whose card it was judged; empty where everybody has the same."""
+    words: dict[str, Plain] = {}
+    """What is the student's own in that card."""
     unusual: tuple[str, ...] = ()
     """What its processes did that others' do not; empty as a rule."""
 
@@ -134,6 +143,6 @@ def broken(order: Order, reason: str, seconds: float = 0.0) -> Result:
     """A grading that ended without an answer: never the student's fault, never a zero."""
     return Result(
         submission=order.submission, digest=order.digest, attempt=order.attempt, state="broken",
-        reason=reason, seconds=seconds,
+        reason=reason, seconds=seconds, whose=order.whose, words=order.words,
         next_step="Look at this one yourself: ./roslings check LAB PATH",
     )  # fmt: skip

@@ -10,8 +10,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Protocol
 
+from roslings.course.contract import Plain
 from roslings_class.capacity import Capacity
 from roslings_class.gradebook import Gradebook
+from roslings_class.own_cards import OwnCards
 from roslings_class.result import Order, Result
 from roslings_class.submissions import Submission, digest_of
 from roslings_class.worker_pool import GRADING, Ended, Limits, worker_pool
@@ -37,6 +39,12 @@ class GradingRequest:
     limits: Limits = field(default_factory=Limits)
     life: str = GRADING
     """What each process does: MODULE:FUNCTION."""
+    cards: OwnCards | None = None
+    """Each student's own card; None: everybody has the same."""
+
+    def words(self, submission: Submission) -> dict[str, Plain]:
+        """What is the student's own in the card that it is graded by."""
+        return self.cards.words(submission.name) if self.cards else {}
 
     def order(self, submission: Submission, digest: str, attempt: int) -> Order:
         """The order for one try of a submission."""
@@ -49,8 +57,15 @@ class GradingRequest:
                 "seed": seed, "clock": self.clock, "hidden": self.hidden,
                 "builds": self.scratch / "builds", "keeps_evidence": self.keeps_evidence,
                 "strangers": self.strangers, "soak_s": self.soak_s,
+                "words": self.words(submission), **self._by_own_card(submission),
             }
         )  # fmt: skip
+
+    def _by_own_card(self, submission: Submission) -> dict[str, object]:
+        if self.cards is None:
+            return {}
+        name = submission.name
+        return {"course": self.cards.course(name), "whose": self.cards.whose[name]}
 
 
 @dataclass(frozen=True)
@@ -137,12 +152,12 @@ class Scheduler:
         latest = self._book.latest()
         forged = self._book.forged()
         done = {
-            name for name, (_, digest) in known.items()
-            if _is_done(latest.get(name), digest) and name not in forged
+            name for name in known
+            if name not in forged and self._is_done(latest.get(name), known[name])
         }  # fmt: skip
         unclear = {
-            name for name, (_, digest) in known.items()
-            if name not in {*done, *forged} and _was_tried(latest.get(name), digest)
+            name for name in known
+            if name not in {*done, *forged} and self._was_tried(latest.get(name), known[name])
         }  # fmt: skip
         fresh = [name for name in known if name not in done | unclear]
         self._standing = Standing(len(known), len(done), 0, len(unclear), None)
@@ -152,6 +167,18 @@ class Scheduler:
             return
         with worker_pool(self._request.lock, self._request.limits, self._request.life) as workers:
             self._all(workers, todo)
+
+    def _was_tried(self, result: Result | None, known: tuple[Submission, str]) -> bool:
+        """With this content, and by the card that is the student's today."""
+        submission, digest = known
+        return (
+            result is not None
+            and result.digest == digest
+            and result.words == self._request.words(submission)
+        )
+
+    def _is_done(self, result: Result | None, known: tuple[Submission, str]) -> bool:
+        return result is not None and result.is_conclusive and self._was_tried(result, known)
 
     def _all(self, workers: Workers, todo: _Todo) -> None:
         for ended in self._work(workers, todo.fresh, self._capacity):
@@ -201,11 +228,3 @@ class Scheduler:
     def _tell(self, working: int) -> None:
         was = self._standing
         self._watcher(Standing(was.all, was.done, working, was.unclear, was.left_s))
-
-
-def _is_done(result: Result | None, digest: str) -> bool:
-    return result is not None and result.digest == digest and result.is_conclusive
-
-
-def _was_tried(result: Result | None, digest: str) -> bool:
-    return result is not None and result.digest == digest

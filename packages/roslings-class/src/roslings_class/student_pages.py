@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from roslings.course import Lab
+from roslings.course.contract import as_typed
 from roslings.report import Refusal, write_check50, write_gradescope, write_json, write_junit
 from roslings.report.flow import paragraphs
 from roslings.report.html import OfClass
@@ -19,25 +20,26 @@ from roslings_class.folders import PAGE, bring_over, folder_name
 from roslings_class.gradebook import Gradebook
 from roslings_class.grades import Class, Grade
 from roslings_class.grading import unpacked
+from roslings_class.own_cards import Courses
 from roslings_class.result import Result
 
 STAMP = "made-from"
 """Holds the name of the result that a folder was made from, so that it is made once."""
 
 
-def write_pages(book: Gradebook, lab: Lab, found: Class, folder: Path) -> None:
+def write_pages(book: Gradebook, courses: Courses, found: Class, folder: Path) -> None:
     """Bring the folder of each submission up to date. Raises CannotWrite."""
     counts = found.counts
     for grade in one_each(found.grades):
         assert grade.result
         place = folder / folder_name(grade.result.submission)
         bring_over(folder, grade.result.submission)
-        reader = OfClass(whose(grade), counts[grade.submission])
+        reader = OfClass(whose(grade), " ".join(_counts(grade.result, counts[grade.submission])))
         stamp = f"{grade.result.digest} {grade.result.attempt} {reader.student} {reader.counts}\n"
         if _stamp_of(place) == stamp:
             continue
         place.mkdir(parents=True, exist_ok=True)
-        _write(book, lab, reader, grade.result, place)
+        _write(book, courses.lab_of(grade.result), reader, grade.result, place)
         write_whole(place / STAMP, stamp.encode())
 
 
@@ -49,6 +51,15 @@ def one_each(grades: list[Grade]) -> Iterator[Grade]:
 def whose(grade: Grade) -> str:
     """Whose work it is, all of a team."""
     return ", ".join(grade.team) or grade.name
+
+
+def _counts(result: Result, said: str) -> Iterator[str]:
+    """What is to be known beside the verdict: by whose card, and what a person or a clock did."""
+    if result.words:
+        own = ", ".join(f"{name} {as_typed(value)}" for name, value in result.words.items())
+        yield f"Judged by the card of {result.whose}: {own}."
+    if said:
+        yield said
 
 
 def _stamp_of(place: Path) -> str:

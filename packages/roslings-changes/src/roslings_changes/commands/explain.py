@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from ros2_on_pip.errors import EXIT_OF_OUTCOME, OK, RoslingsError
 from roslings import course
-from roslings.commands.options import package_options
+from roslings.commands.options import package_options, whose_option
 from roslings.typed import program
 
 if TYPE_CHECKING:
@@ -39,6 +39,7 @@ class DoesNotPass(RoslingsError):
 def add_options(word: argparse.ArgumentParser) -> None:
     """What it takes."""
     package_options(word)
+    whose_option(word, "ask by the card of NAME, where each student has another one")
     word.add_argument(
         "--answers", action="store_true", help="print the questions with their answers"
     )
@@ -53,7 +54,7 @@ def run(options: argparse.Namespace) -> int:
     from roslings.platforms import handed_in
     from roslings_changes.questions import questions
 
-    lab = course.lab(options.lab)
+    lab = _lab(options)
     with (
         handed_in(lab, options.path, options.as_stranger) as package,
         _grading(lab, options.as_stranger) as grade,
@@ -67,6 +68,15 @@ def run(options: argparse.Namespace) -> int:
         else:
             _play(found)
     return OK
+
+
+def _lab(options: argparse.Namespace) -> Lab:
+    """By the card of whose package it is."""
+    from roslings.variants import own_lab
+
+    if options.as_stranger and not options.whose:
+        return course.lab(options.lab)
+    return own_lab(options.lab, whose=options.whose)
 
 
 @contextmanager

@@ -50,6 +50,10 @@ def add_options(word: argparse.ArgumentParser) -> None:
         "--evidence", action="store_true", help="with --dask: bring the evidence back as well"
     )
     word.add_argument(
+        "--variants", action="store_true",
+        help="each student has a card of their own (start LAB --for NAME); needs --roster",
+    )  # fmt: skip
+    word.add_argument(
         "--explain", action="store_true",
         help="make three questions, with answers, about each hand-in that passes",
     )  # fmt: skip
@@ -110,7 +114,8 @@ def run(options: argparse.Namespace) -> int:
         roster=options.roster, rule=_late_rule(options), dask=options.dask,
         keeps_evidence=not options.dask or options.evidence, soak_s=options.soak,
         assignment=options.canvas_assignment, points=options.points,
-        extensions=options.extensions, times=tuple(options.times), explain=options.explain,
+        variants=options.variants, extensions=options.extensions, times=tuple(options.times),
+        explain=options.explain,
     )  # fmt: skip
     try:
         report = grade(choices)

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 USUALLY_PROVEN = ("packages", "contract")
-PROVABLE = (*USUALLY_PROVEN, "generated", "rewritten")
+PROVABLE = (*USUALLY_PROVEN, "generated", "rewritten", "variants")
 
 
 def add_options(word: argparse.ArgumentParser) -> None:
@@ -58,6 +58,10 @@ def add_options(word: argparse.ArgumentParser) -> None:
     word.add_argument(
         "--rewritten", action="store_true",
         help="write the solution in other ways; each must get 100",
+    )  # fmt: skip
+    word.add_argument(
+        "--variants", action="store_true",
+        help="each value of variants.yaml: the solution in these words gets 100",
     )  # fmt: skip
     word.add_argument(
         "--kept", action="store_true",
@@ -209,6 +213,10 @@ def _proofs_of(name: str, options: argparse.Namespace) -> Callable[..., Iterable
         from roslings_prove.rewritten import prove_rewritten
 
         return prove_rewritten
+    if name == "variants":
+        from roslings_prove.variants import prove_variants
+
+        return prove_variants
     if name == "contract":
         from roslings_prove.contract import prove_contract
 

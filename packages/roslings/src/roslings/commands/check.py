@@ -20,6 +20,7 @@ from roslings.commands.options import (
     soak_option,
     trust_option,
     verdict_options,
+    whose_option,
 )
 from roslings.commands.showing import is_stdout, kept, read, replace_kept, show
 from roslings.course import NoSolution
@@ -53,6 +54,7 @@ def add_options(word: argparse.ArgumentParser) -> None:
         "--as-stranger", action="store_true",
         help="hold somebody else's package as grade does, or refuse it where nothing can",
     )  # fmt: skip
+    whose_option(word, "check by the card of NAME, where each student has another one")
     soak_option(word, "0; as grade does where a platform's file is written")
     word.add_argument(
         "--clock", choices=("auto", "sim", "wall"), default="auto",
@@ -78,13 +80,22 @@ def run(options: argparse.Namespace) -> int:
     """Run what the student built, and say what to do next; a hint needs no new run."""
     from roslings.platforms import refusal_written, shapes_asked
 
-    lab = course.lab(options.lab, options.hidden)
+    lab = _lab(options)
     if options.hint and not options.solution and kept(lab).is_file():
         return _hint(lab, options)
     if not shapes_asked(options):
         return _check(lab, options)
     with refusal_written(lab.name, options, [options.path or workspace_root()]):
         return _check(lab, options)
+
+
+def _lab(options: argparse.Namespace) -> Lab:
+    """By the student's own card; the course's solution is one of everybody's."""
+    from roslings.variants import own_lab
+
+    if options.solution or (options.as_stranger and not options.whose):
+        return course.lab(options.lab, options.hidden)
+    return own_lab(options.lab, options.hidden, options.whose)
 
 
 def _hint(lab: Lab, options: argparse.Namespace) -> int:

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 from ros2_on_pip.errors import FAILED, OK, WRONG_USE
 from ros2_on_pip.typed_paths import from_here
-from roslings import course
 from roslings.workspace.student import package_of
 
 if TYPE_CHECKING:
@@ -60,7 +59,9 @@ def _pictures_wanted(options: argparse.Namespace) -> list[Path]:
     """The file that was named, or those that a lab's card wants in the package."""
     if not options.lab:
         return [options.save] if options.save else []
-    lab = course.lab(options.lab)
+    from roslings.variants import own_lab
+
+    lab = own_lab(options.lab)
     package = package_of(lab, options.path)
     if not lab.card.pictures:
         print(f"The lab {lab.name!r} wants no picture.")

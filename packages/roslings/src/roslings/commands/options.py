@@ -27,6 +27,11 @@ def path_option(word: argparse.ArgumentParser) -> None:
     )  # fmt: skip
 
 
+def whose_option(word: argparse.ArgumentParser, help_text: str) -> None:
+    """Whose card it is, of a lab of which students have different ones."""
+    word.add_argument("--for", dest="whose", metavar="NAME", help=help_text)
+
+
 def verdict_options(word: argparse.ArgumentParser) -> None:
     """Where a verdict goes, and how much of it is shown."""
     word.add_argument(

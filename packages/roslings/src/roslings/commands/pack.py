@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 from ros2_on_pip.errors import OK
 from ros2_on_pip.typed_paths import shown
-from roslings import course
 from roslings.commands.options import package_options, soak_option
 from roslings.workspace.student import package_of
 
@@ -25,9 +24,10 @@ def add_options(word: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Make the zip to hand in."""
+    from roslings.variants import own_lab
     from roslings.workspace.student import pack as zip_it
 
-    lab = course.lab(options.lab)
+    lab = own_lab(options.lab)
     packed = zip_it(lab, options.out, options.path)
     verb = "Replaced" if packed.replaced else "Made"
     print(f"{verb} {shown(packed.path)}: {len(packed.files)} files, {packed.size_bytes:,} bytes.")

@@ -6,23 +6,29 @@ import argparse
 
 from ros2_on_pip.errors import OK
 from ros2_on_pip.typed_paths import from_here, shown
-from roslings import course
-from roslings.commands.options import lab_options
+from roslings.commands.options import lab_options, whose_option
 from roslings.typed import program
 
 
 def add_options(word: argparse.ArgumentParser) -> None:
     """The lab."""
     lab_options(word)
+    whose_option(word, "whose card it is, where each student has another one: the number or the"
+                 " name that your teacher has in the class list")  # fmt: skip
 
 
 def run(options: argparse.Namespace) -> int:
     """Put a lab's starter into the workspace."""
+    from roslings.variants import own_lab, take_name, told_of
     from roslings.workspace.student import start as put
 
-    lab = course.lab(options.lab)
+    if options.whose:
+        take_name(options.whose)
+    told = list(told_of(options.lab))
+    lab = own_lab(options.lab)
     started = put(lab)
     print(f"The starter of {lab.name!r} is in {shown(started.package)} ({started.files} files).")
+    print("".join(f"{line}\n" for line in told), end="")
     print(f"Read the task: {from_here(lab.task)}")
     print(f"Then check what you built: {program()} check {lab.name}")
     return OK
