@@ -73,7 +73,7 @@ def dies(bookmark: Bookmark) -> str:
         (fills, "a folder/Zoë.xml", "memory"),
         (talks, "talks.py", "memory"),
         (breaks, "broken.py", ""),
-        (dies, "dies.xml", ""),
+        (dies, "dies.xml", "crash"),
     ],
 )
 def test_who_reads_too_much_is_ended_and_the_file_is_named(

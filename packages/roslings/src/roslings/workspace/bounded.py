@@ -55,10 +55,15 @@ class Bookmark:
         return self._page[:].partition(b"\0")[0].decode("utf-8", "replace")
 
 
+Met = Literal["time", "memory", "crash", ""]
+CRASHES = (-signal.SIGSEGV, -signal.SIGBUS, -signal.SIGABRT)
+"""So ends who finds no memory in the middle of C: a parser, or Python itself."""
+
+
 class ReaderEnded(Exception):
     """The child met a bound, or what it read was too much for it in another way."""
 
-    def __init__(self, at: str, met: Literal["time", "memory", ""], words: str = "") -> None:
+    def __init__(self, at: str, met: Met, words: str = "") -> None:
         self.at, self.met, self.words = at, met, words
         super().__init__(f"{at}: {met or words}")
 
@@ -174,6 +179,8 @@ def _understood(content: bytes, status: int, at: str) -> str:
         raise ReaderEnded(at, "memory")
     if status in (-signal.SIGXCPU, -signal.SIGKILL):
         raise ReaderEnded(at, "time")
+    if status in CRASHES:
+        raise ReaderEnded(at, "crash")
     if status:
         raise ReaderEnded(at, "", f"status {status}")
     return _answer(json.loads(content), at)

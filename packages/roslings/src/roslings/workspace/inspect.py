@@ -73,6 +73,8 @@ def read_bounded(folder: Path, read: Callable[[Bookmark], str]) -> str:
 WHY = {
     "time": f"it takes more than {ReadingBounds.cpu_s} s of a processor",
     "memory": f"it takes more than {ReadingBounds.memory_bytes // MB} MB of memory",
+    "crash": f"Python itself breaks off at it: it takes more than"
+    f" {ReadingBounds.memory_bytes // MB} MB of memory, or is nested too deeply",
 }
 
 
