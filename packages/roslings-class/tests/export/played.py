@@ -37,6 +37,7 @@ class Played:
     bundle: Path
     user: int
     environment: dict[str, str]
+    lab: course.Lab
 
     def run(
         self, *words: str, cwd: Path, within_s: float, env: Mapping[str, str] | None = None
@@ -50,7 +51,7 @@ class Played:
 
     def hand_in(self, to: Path) -> Path:
         """The solution's files in the folder `to`."""
-        shutil.copytree(LAB.solution, to / LAB.card.package)
+        shutil.copytree(self.lab.solution, to / self.lab.card.package)
         self.give(to)
         return to
 
@@ -68,6 +69,7 @@ def played(
     environment: Mapping[str, str] | None = None,
     user: int = 0,
     hidden: str | None = None,
+    lab: course.Lab = LAB,
 ) -> Iterator[Played]:
     """The platform `name`, whose bundle lies at `bundle_at` below a folder of its own.
 
@@ -77,13 +79,13 @@ def played(
     place.chmod(0o755)
     try:
         bundle = place / bundle_at
-        export(name, replace(LAB, hidden=_written(place, hidden)), bundle)
+        export(name, replace(lab, hidden=_written(place, hidden)), bundle)
         (place / "instructors_own.py").unlink(missing_ok=True)
-        furnish(bundle / SYSTEMS[name].course.replace("@LAB@", LAB.name))
+        furnish(bundle / SYSTEMS[name].course.replace("@LAB@", lab.name))
         home = place / "home"
         home.mkdir()
         own = {"PATH": SYSTEMS_PATH, "HOME": str(home), "LANG": "C.UTF-8", **(environment or {})}
-        made = Played(place, bundle, user, own)
+        made = Played(place, bundle, user, own, lab)
         made.give(home)
         yield made
     finally:

@@ -18,6 +18,7 @@ import pytest
 from played import LAB, ORDINARY, Played, played
 from test_export_results import schema
 
+from roslings.course import lab
 from skips import needs
 
 pytestmark = [
@@ -39,10 +40,12 @@ POINTS = {"secret": 25}
 @check()
 def test_secret(package: PackageView) -> None:
     """A secret."""
-    assert not package.files.pictures, "there is a picture"
+    assert not package.files.name, "the package has a name"
 '''
 """The solution fails it: of 125 points it has 100."""
 SCORE = 80.0
+of_two_labs = pytest.mark.parametrize("name", ["topics", "actions"])
+"""The second has message types of its own: they are made in the bundle's own course."""
 BROKEN = HIDDEN.replace("from roslings.judge import", "from roslings.no_such_room import")
 
 
@@ -61,12 +64,15 @@ def done_well(done: subprocess.CompletedProcess[str]) -> None:
 # --- Gradescope --------------------------------------------------------------------------------
 
 
-def test_gradescope() -> None:
+@of_two_labs
+def test_gradescope(name: str) -> None:
     """Root in /autograder: setup.sh while the image is built, then each submission.
 
     With hidden checks, as the text advises: their result is there, for the instructor alone.
     """
-    with played("gradescope", "autograder/source", NO_NAMESPACES, hidden=HIDDEN) as gradescope:
+    with played(
+        "gradescope", "autograder/source", NO_NAMESPACES, hidden=HIDDEN, lab=lab(name)
+    ) as gradescope:
         place = gradescope.place / "autograder"
         shutil.copy2(place / "source/run_autograder", place / "run_autograder")
         built = gradescope.run("./setup.sh", cwd=place / "source", within_s=TEN_MINUTES_S)
@@ -107,12 +113,14 @@ def _gradescope_refuses(gradescope: Played, place: Path) -> None:
 # --- PrairieLearn ------------------------------------------------------------------------------
 
 
-def test_prairielearn() -> None:
+@of_two_labs
+def test_prairielearn(name: str) -> None:
     """Root in a container without a network; the student's zip file lies in /grade/student.
 
     With hidden checks, as the text advises, and the trial that builds the image.
     """
-    with played("prairielearn", "roslings", NO_NAMESPACES, hidden=HIDDEN) as grader:
+    own = lab(name)
+    with played("prairielearn", "roslings", NO_NAMESPACES, hidden=HIDDEN, lab=own) as grader:
         prepare = str(grader.bundle / "prepare.sh")
         built = grader.run("bash", prepare, cwd=grader.place, within_s=TEN_MINUTES_S)
         done_well(built)
@@ -120,8 +128,8 @@ def test_prairielearn() -> None:
         grade = grader.place / "grade"
         (grade / "student").mkdir(parents=True)
         (grade / "data").mkdir()
-        zipped = str(grade / "student" / LAB.name)
-        shutil.make_archive(zipped, "zip", LAB.solution.parent, LAB.solution.name)
+        zipped = str(grade / "student" / own.name)
+        shutil.make_archive(zipped, "zip", own.solution.parent, own.solution.name)
         done = grader.run(
             "unshare", "--net", "sh", "-c", 'ip link set lo up && exec "$0" "$1"',
             str(grader.bundle / "grade.sh"), str(grade), cwd=grade, within_s=TEN_MINUTES_S,
