@@ -27,9 +27,9 @@ TABLE = "command_names"
 GROUP = "roslings.command"
 ORDER = (
     "doctor", "lab", "site", "drill", "quiz", "start", "check", "watch", "explain", "status",
-    "diff", "pack", "rover", "desk", "board", "camera", "graph", "break", "ros2", "ready",
-    "grade", "regrade", "override", "forget", "overview", "export", "cluster", "new-lab", "prove",
-    "release", "serve", "test", "wheels",
+    "diff", "pack", "my-rover", "rover", "desk", "board", "camera", "graph", "break", "ros2",
+    "ready", "grade", "regrade", "override", "forget", "overview", "export", "cluster", "new-lab",
+    "prove", "release", "serve", "test", "wheels",
 )  # fmt: skip
 """As `--help` lists them; what stands in no place here comes last."""
 FIRST_WORD = ""

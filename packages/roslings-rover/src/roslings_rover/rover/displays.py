@@ -35,6 +35,7 @@ STYLES = {
     "wall": "bright_black",
     "path": "cyan",
     "rover": "bold yellow",
+    "believed": "bright_black",
     "said": "bold magenta",
 }
 
@@ -202,7 +203,7 @@ class Terminal:
 
         columns, lines = self._console.size
         wide = max(columns - SIDE_COLUMNS, 20)
-        drawn = cells(node.rover, wide, lines - 3, self._letters, heard(node))
+        drawn = cells(node.rover, wide, lines - 3, self._letters, heard(node), node.believed)
         text = Text(no_wrap=True, overflow="crop")
         for row, words in zip(drawn, _filled(beside(node), len(drawn)), strict=True):
             _append_row(text, row)

@@ -32,8 +32,12 @@ class Driver:
     def look(self) -> None:
         """Follow the key that was pressed since the last look."""
         if key := self._keys.next(0.0):
-            self._hands = self._hands.press(key)
-            self._say(self._hands.steering)
+            self.press(key)
+
+    def press(self, key: str) -> None:
+        """Say what this key says."""
+        self._hands = self._hands.press(key)
+        self._say(self._hands.steering)
 
     def _say(self, steering: Steering) -> None:
         twist = self._make()
@@ -48,7 +52,7 @@ def driving(wanted: bool) -> Iterator[Callable[[], None]]:
         yield _look_for_nothing
         return
     try:
-        with keys_of() as keys, _node() as node:
+        with keys_of() as keys, keyboard_node() as node:
             yield Driver(node, keys).look
     except NoKeys as error:
         raise NoTerminal(error) from error
@@ -59,7 +63,8 @@ def _look_for_nothing() -> None:
 
 
 @contextmanager
-def _node() -> Iterator[Any]:
+def keyboard_node() -> Iterator[Any]:
+    """A node of its own context, until the block ends; nothing spins it."""
     import rclpy
     from rclpy.signals import SignalHandlerOptions
 

@@ -11,7 +11,7 @@ from roslings_rover.models.differential_drive import Pose
 from roslings_rover.models.world import Ball, World
 from roslings_rover.rover.rover import Rover
 
-Kind = Literal["floor", "wall", "path", "ball", "rover", "said"]
+Kind = Literal["floor", "wall", "path", "ball", "believed", "rover", "said"]
 LETTER_HEIGHT = 2.0
 """A letter in a terminal is about twice as high as it is wide."""
 
@@ -65,15 +65,25 @@ def text_map(rover: Rover, columns: int, lines: int, letters: Letters = UNICODE)
 
 
 def cells(
-    rover: Rover, columns: int, lines: int, letters: Letters, said: str = ""
+    rover: Rover,
+    columns: int,
+    lines: int,
+    letters: Letters,
+    said: str = "",
+    believed: Pose | None = None,
 ) -> list[list[Cell]]:
-    """The map, letter by letter; what is `said` stands over the rover."""
+    """The map, letter by letter; what is `said` stands over the rover.
+
+    Where somebody believes it to be elsewhere, a second arrow stands there.
+    """
     sheet = Sheet(rover.world, *size_for(rover.world, columns, lines), letters)
     sheet.put_obstacles()
     sheet.put_path(rover.path)
     for ball in rover.world.balls:
         sheet.put_ball(ball)
     sheet.put_words(rover.pose, said)
+    if believed:
+        sheet.put_rover(believed, "believed")
     sheet.put_rover(rover.pose)
     return list(sheet.rows())
 
@@ -122,12 +132,12 @@ class Sheet:
         self._balls[int(column), int(line)] = column, line
         self._set(column, line, Cell(self._letters.ball, "ball", ball.hue))
 
-    def put_rover(self, pose: Pose) -> None:
+    def put_rover(self, pose: Pose, kind: Kind = "rover") -> None:
         """The rover, as an arrow; it never covers a ball."""
         arrows = self._letters.arrows
         turn = round(pose.heading_rad / (2 * math.pi) * len(arrows)) % len(arrows)
         place = self._beside_a_ball(*self._position(pose.x_m, pose.y_m))
-        self._set(*place, Cell(arrows[turn], "rover"))
+        self._set(*place, Cell(arrows[turn], kind))
 
     def _beside_a_ball(self, column: float, line: float) -> tuple[float, float]:
         """Where the rover and a ball share a letter: the next one, on the side where it is."""

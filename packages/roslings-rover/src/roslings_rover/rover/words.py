@@ -27,13 +27,19 @@ def beside(node: RoverNode) -> list[str]:
         f"turn     {shown(motion.turn_rad_s):>6} rad/s",
         f"way      {node.rover.way_m:6.2f} m",
         "",
+        *(node.about_parts or _topics(node)),
+        "",
+        "Ctrl-C ends it",
+    ]
+
+
+def _topics(node: RoverNode) -> list[str]:
+    return [
         "hears /cmd_vel",
         *(("      sentences, /motor_state",) if node.listens else ()),
         f"says  {', '.join(said(node))}",
         "      /camera/image_raw",
         *about_tf(node),
-        "",
-        "Ctrl-C ends it",
     ]
 
 

@@ -138,7 +138,7 @@ def _check_package(lab: Lab, package: Path, options: argparse.Namespace) -> int:
         )  # fmt: skip
         with ready(lab, choices) as begun:
             graded = begun.grade(package, began_ns(os.environ), quiet)
-        before = None if options.solution else replace_kept(lab, graded.verdict)
+        before = None if options.solution else replace_kept(lab, graded.verdict, package)
         code = show(graded.verdict, options, before)
         if options.timings:
             _show_timings(graded, options)

@@ -46,14 +46,17 @@ def kept(lab: Lab) -> Path:
     return workspace_root() / ".roslings" / f"verdict-{lab.name}.json"
 
 
-def replace_kept(lab: Lab, verdict: Verdict) -> Verdict | None:
-    """Keep this verdict; the one before, or None where there is none that can be read."""
+def replace_kept(lab: Lab, verdict: Verdict, package: Path) -> Verdict | None:
+    """Keep this verdict; the one before, or None where there is none that can be read.
+
+    The package is kept, too, where it has the best score so far: `my-rover` carries that one.
+    """
     from roslings.report import BadVerdictFile
 
     before = None
     with suppress(BadVerdictFile):
         before = read(kept(lab))
-    _keep(lab, verdict)
+    _keep(lab, verdict, package)
     return before
 
 
@@ -64,9 +67,10 @@ def read(path: Path) -> Verdict:
     return read_json(path)
 
 
-def _keep(lab: Lab, verdict: Verdict) -> None:
+def _keep(lab: Lab, verdict: Verdict, package: Path) -> None:
     """Keep score and verdict; a workspace that cannot be written does not hide the verdict."""
     from roslings.report import CannotWrite, write_json
+    from roslings.workspace.best import keep_best
     from roslings.workspace.progress import record
 
     if not workspace_root().is_dir():
@@ -74,5 +78,6 @@ def _keep(lab: Lab, verdict: Verdict) -> None:
     try:
         record(verdict)
         write_json(verdict, kept(lab))
+        keep_best(lab, package, verdict.score)
     except (WorkspaceError, CannotWrite) as error:
         print(f"roslings: the score was not kept. {error}", file=sys.stderr)

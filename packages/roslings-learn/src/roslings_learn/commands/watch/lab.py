@@ -68,7 +68,7 @@ class LabSession(Session):
             with self.checking():
                 self.graded = ready.grade(package, time.monotonic_ns())
             verdict = self.graded.verdict
-            show(verdict, self.options, replace_kept(self.lab, verdict))
+            show(verdict, self.options, replace_kept(self.lab, verdict, package))
         except Exception as error:
             self.graded = None
             tell(error)

@@ -1,0 +1,1 @@
+"""One robot that grows out of a student's own parts."""

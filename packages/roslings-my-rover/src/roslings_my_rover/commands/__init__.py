@@ -1,0 +1,1 @@
+"""What each command does: call the rooms in order, and print what they return."""

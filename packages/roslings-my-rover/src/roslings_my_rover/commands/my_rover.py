@@ -1,0 +1,58 @@
+"""`./roslings my-rover`: one robot of all the parts that you have built."""
+
+from __future__ import annotations
+
+import argparse
+
+from ros2_on_pip.errors import OK
+
+
+def add_options(word: argparse.ArgumentParser) -> None:
+    """What it takes."""
+    word.add_argument(
+        "day", metavar="DAY", type=int, nargs="?", help="only the parts up to this day, as 5"
+    )
+    word.add_argument(
+        "--parts", action="store_true", help="say which parts there are, and start nothing"
+    )
+    word.add_argument(
+        "--borrow", metavar="DAY", type=int, action="append", default=[],
+        help="for a day that you skipped: the course's part; may be given again",
+    )  # fmt: skip
+    word.add_argument(
+        "--src", action="store_true",
+        help="your packages as they lie in the workspace today, not those of your best check",
+    )  # fmt: skip
+    word.add_argument(
+        "--keys", action="store_true",
+        help="drive it by the keys of this terminal; Space is the stop of day 10, p pulls the"
+        " cable of day 6",
+    )  # fmt: skip
+    word.add_argument(
+        "--follow", action="store_true", help="follow the ball, by what day 7 says on /ball"
+    )
+    word.add_argument(
+        "--view", choices=("auto", "window", "terminal", "lines"), default="auto",
+        help="where the map is shown (default: a window where there is a screen)",
+    )  # fmt: skip
+    word.add_argument("--seed", metavar="N", type=int, default=0, help="for the sensors' noise")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run the rover of the student's parts until Ctrl-C; or say which there are."""
+    from roslings_my_rover.chosen import NoPart, chosen, told
+
+    choice = chosen(options.day, options.borrow, options.src)
+    if options.parts:
+        print("\n".join(told(choice)))
+        return OK
+    if not choice.there:
+        raise NoPart
+    from ros2_on_pip.surroundings import check_middleware, domain_id, prepare
+    from roslings_my_rover.running import run as run_rover
+
+    prepare()
+    domain_id()
+    check_middleware()
+    run_rover(choice, options.view, options.keys, options.follow, options.seed)
+    return OK

@@ -1,0 +1,136 @@
+"""The programs of the parts while they run: started as they are wired, and when one ends, anew.
+
+A part that ends is named with its last line. The rover goes on without it: the others get the
+wiring of a rover that never had it.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from roslings.arena import Installed, Launch, Process
+from roslings_my_rover import follow, relay
+from roslings_my_rover.installing import Built
+from roslings_my_rover.parts import Part
+from roslings_my_rover.wiring import Link, Wiring, wired
+
+RELAY, FOLLOWER = "relay", "follower"
+LONGEST_LINE = 60
+
+
+@dataclass(frozen=True)
+class Ended:
+    """A part that is not there any more."""
+
+    part: Part
+    program: str
+    last_line: str
+
+    @property
+    def line(self) -> str:
+        """What the map says of it, at most 80 columns."""
+        words = self.last_line.strip()
+        short = words if len(words) <= LONGEST_LINE else f"{words[: LONGEST_LINE - 3]}..."
+        return f"{self.program} ended. It said: {short}" if short else f"{self.program} ended."
+
+
+@dataclass
+class _Running:
+    """One program, and how it was started."""
+
+    link: Link
+    process: Process
+    stack: ExitStack
+
+
+@dataclass
+class Crew:
+    """All programs beside the rover."""
+
+    built: Sequence[Built]
+    environment: Mapping[str, str]
+    """What ROS needs to know besides: the domain, and how far one hears."""
+    home: Path
+    port: str = ""
+    device: str = ""
+    follows: bool = False
+    ended: list[Ended] = field(default_factory=list)
+    _running: dict[str, _Running] = field(default_factory=dict)
+
+    @property
+    def parts(self) -> list[Part]:
+        """Those that are there now."""
+        gone = {each.part for each in self.ended}
+        return [each.chosen.part for each in self.built if each.chosen.part not in gone]
+
+    @property
+    def wiring(self) -> Wiring:
+        """As it is with the parts that are there now."""
+        return wired(self.parts, self.port, self.device)
+
+    def look(self) -> list[Ended]:
+        """Those that have ended since the last look; the others are wired without them."""
+        news = list(self._gone())
+        self.ended += news
+        if news:
+            self.start()
+        return news
+
+    def start(self) -> None:
+        """Start what is wanted and not there, and end what is there and not wanted so."""
+        wanted = self._wanted()
+        for name in [*self._running]:
+            if name not in wanted or self._running[name].link != wanted[name]:
+                self._running.pop(name).stack.close()
+        for name, link in wanted.items():
+            if name not in self._running:
+                self._running[name] = self._started(name, link)
+
+    def end(self) -> None:
+        """All of them, the last one first."""
+        while self._running:
+            self._running.popitem()[1].stack.close()
+
+    def _wanted(self) -> dict[str, Link]:
+        wiring = self.wiring
+        own = {RELAY: wiring.relay} if wiring.relay else {}
+        follower = {FOLLOWER: Link()} if self.follows else {}
+        return {**own, **wiring.programs, **follower}
+
+    def _gone(self) -> Iterator[Ended]:
+        for each in self.built:
+            for name in each.chosen.part.programs:
+                running = self._running.get(name)
+                if running and not running.process.alive:
+                    lines = [line.text for line in running.process.lines() if line.text.strip()]
+                    yield Ended(each.chosen.part, name, lines[-1] if lines else "")
+                    break
+
+    def _started(self, name: str, link: Link) -> _Running:
+        command, installed = self._command(name)
+        environment = {**(installed.environment if installed else {}), **self.environment}
+        launch = Launch([*command, *link.arguments], environment, self.home, namespaces=False)
+        stack = ExitStack()
+        return _Running(link, stack.enter_context(Process(name, launch)), stack)
+
+    def _command(self, name: str) -> tuple[list[str], Installed | None]:
+        """Of a part's program, or of one of ours, with the environment of any part."""
+        for each in self.built:
+            if name in each.chosen.part.programs:
+                return [str(each.program(name))], each.installed
+        module = {RELAY: relay, FOLLOWER: follow}[name]
+        return [sys.executable, str(module.__file__)], self.built[0].installed
+
+
+@contextmanager
+def working(crew: Crew) -> Iterator[Crew]:
+    """All are started; at the end of the block all have ended."""
+    try:
+        crew.start()
+        yield crew
+    finally:
+        crew.end()

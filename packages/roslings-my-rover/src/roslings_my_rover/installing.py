@@ -1,0 +1,72 @@
+"""Build the parts with colcon, each once: what has not changed is taken as it was built."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from roslings.arena import Installed, Place
+from roslings.experiment.run_folder import run_folder
+from roslings.workspace.shared_build import shared_build
+from roslings.workspace.student import workspace_root
+from roslings_my_rover.chosen import Chosen
+
+BUILDS = Path(".roslings/my_rover")
+
+
+@dataclass(frozen=True)
+class Broken:
+    """A part that does not build, or that lacks a program."""
+
+    chosen: Chosen
+    because: str
+
+    @property
+    def line(self) -> str:
+        """`sonar is left out: it does not build. ...`."""
+        return f"{self.chosen.part.name} is left out: {self.because}"
+
+
+@dataclass(frozen=True)
+class Built:
+    """A part whose programs can be started."""
+
+    chosen: Chosen
+    installed: Installed
+
+    def program(self, name: str) -> Path:
+        """The file of an executable."""
+        return self.installed.programs / name
+
+
+def build_all(
+    parts: Sequence[Chosen], home: Path, tell: Callable[[str], None]
+) -> tuple[list[Built], list[Broken]]:
+    """Build each; those that cannot be built or started, with the reason.
+
+    Raises CannotRead and DiskFull.
+    """
+    built, broken = list[Built](), list[Broken]()
+    for each in parts:
+        tell(f"Building {each.part.name} ({each.lab.name})")
+        found = _build(each, home)
+        (built if isinstance(found, Built) else broken).append(found)  # type: ignore[arg-type]
+    return built, broken
+
+
+def _build(each: Chosen, home: Path) -> Built | Broken:
+    place = Place("domain", home, home)
+    builds = workspace_root() / BUILDS
+    builds.mkdir(parents=True, exist_ok=True)
+    with run_folder() as room:
+        seen, installed = shared_build(
+            builds, each.package, room, place, each.lab.card.builds_within_s
+        )
+    if installed is None:
+        last = next((line for line in reversed(seen.output) if line.strip()), "colcon failed")
+        return Broken(each, f"it does not build. {last.strip()}")
+    missing = [name for name in each.part.programs if not (installed.programs / name).is_file()]
+    if missing:
+        return Broken(each, f"it has no executable {missing[0]!r}.")
+    return Built(each, installed)

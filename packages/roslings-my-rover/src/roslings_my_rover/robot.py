@@ -1,0 +1,128 @@
+"""The rover that carries a student's parts: what a part does, the robot itself no longer does."""
+
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import dataclass, field
+from typing import Any
+
+from roslings_my_rover.wiring import Robot
+from roslings_rover.models.differential_drive import Pose
+from roslings_rover.rover.driven import DrivenRover
+from roslings_rover.rover.ears import LONGEST_SENTENCE, SENTENCE_LASTS_S, Sentence
+
+SPEED_OF_SOUND_M_S = 343.0
+ECHO_EVERY_S = 0.1
+STATUS = "/robot_status"
+
+
+@dataclass
+class MyRover(DrivenRover):
+    """A driven rover whose links follow a wiring, which may change while it runs."""
+
+    wiring: Robot = field(default_factory=Robot)
+    about_parts: tuple[str, ...] = ()
+    """What the map says of the parts; at most 32 columns each."""
+    _believed: Pose | None = None
+    _status: Sentence | None = None
+    _status_s: float = -math.inf
+    _links: list[Any] = field(default_factory=list, repr=False)
+
+    @property
+    def sentence(self) -> Sentence | None:
+        """Its status, as long as somebody says it; of all sentences this one alone."""
+        return self._status if time.monotonic() - self._status_s < SENTENCE_LASTS_S else None
+
+    @property
+    def believed(self) -> Pose | None:
+        """Where the student's bridge thinks that the rover is; None where no bridge says it."""
+        return self._believed if self.wiring.believes else None
+
+    def connect(self, wiring: Robot) -> None:
+        """Follow another wiring from now on."""
+        if wiring != self.wiring or not self._links:
+            self.wiring = wiring
+            self._close_links()
+            self._open_links()
+
+    def _open_topics(self) -> None:
+        super()._open_topics()
+        from std_msgs.msg import String
+
+        node = self._node
+        self._node.destroy_subscription(self._ear)
+        self._node.destroy_publisher(self._odom)
+        self._node.destroy_publisher(self._pictures)
+        self._voice_ear = node.create_subscription(String, STATUS, self._take_status, 10)
+        self._open_links()
+
+    def _open_links(self) -> None:
+        from geometry_msgs.msg import Twist
+        from nav_msgs.msg import Odometry
+        from rclpy.qos import qos_profile_sensor_data
+        from sensor_msgs.msg import Image
+        from std_msgs.msg import Float64
+
+        node, wiring = self._node, self.wiring
+        if wiring.hears:
+            self._links.append(node.create_subscription(Twist, wiring.hears, self._hear, 10))
+        if wiring.believes:
+            self._links.append(node.create_subscription(Odometry, "odom", self._take_odom, 10))
+        self._odom = node.create_publisher(Odometry, "odom", 10) if wiring.says_odom else None
+        self._pictures = (
+            node.create_publisher(Image, "camera/image_raw", qos_profile_sensor_data)
+            if wiring.shows_pictures
+            else None
+        )
+        self._echo = node.create_publisher(Float64, "sonar_echo", 10) if wiring.says_echo else None
+
+    def _close_links(self) -> None:
+        for each in self._links:
+            self._node.destroy_subscription(each)
+        self._links.clear()
+        for publisher in (self._odom, self._pictures, self._echo):
+            if publisher is not None:
+                self._node.destroy_publisher(publisher)
+
+    def _open_timers(self) -> None:
+        super()._open_timers()
+        self._timers.append(self._node.create_timer(ECHO_EVERY_S, self._say_echo))
+
+    def _step(self) -> None:
+        """Where the board turns the wheels, it also lets the time go on."""
+        if self.wiring.hears:
+            super()._step()
+        else:
+            self._stepped_s = time.monotonic()
+            self.look_for_balls()
+
+    def _tell_where(self) -> None:
+        if self._odom is not None:
+            super()._tell_where()
+
+    def _show_picture(self) -> None:
+        if self._pictures is not None:
+            super()._show_picture()
+
+    def _say_echo(self) -> None:
+        """The seconds until the echo came back; NaN where none was understood."""
+        if self._echo is None:
+            return
+        from std_msgs.msg import Float64
+
+        range_m = self.rover.range().range_m
+        seconds = 2 * range_m / SPEED_OF_SOUND_M_S if math.isfinite(range_m) else math.nan
+        self._echo.publish(Float64(data=seconds))
+
+    def _take_status(self, said: Any) -> None:
+        line = "".join(letter for letter in " ".join(said.data.split()) if letter.isprintable())
+        self._status = Sentence(line[:LONGEST_SENTENCE], STATUS)
+        self._status_s = time.monotonic()
+
+    def _take_odom(self, told: Any) -> None:
+        """A part may say anything: what is no number is no place."""
+        place, turn = told.pose.pose.position, told.pose.pose.orientation
+        heading = 2 * math.atan2(turn.z, turn.w)
+        if all(map(math.isfinite, (place.x, place.y, heading))):
+            self._believed = Pose(place.x, place.y, heading)
