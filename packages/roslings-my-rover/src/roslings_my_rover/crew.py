@@ -1,7 +1,7 @@
 """The programs of the parts while they run: started as they are wired, and when one ends, anew.
 
 A part that ends is named with its last line. The rover goes on without it: the others get the
-wiring of a rover that never had it.
+wiring of a rover that never had it. Only a stop keeps its place: without it nothing drives.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ class Crew:
     @property
     def parts(self) -> list[Part]:
         """Those that are there now."""
-        gone = {each.part for each in self.ended}
+        gone = {each.part for each in self.ended if not each.part.holds_its_place}
         return [each.chosen.part for each in self.built if each.chosen.part not in gone]
 
     @property
@@ -102,10 +102,11 @@ class Crew:
         return {**own, **wiring.programs, **follower}
 
     def _gone(self) -> Iterator[Ended]:
+        known = {each.program for each in self.ended}
         for each in self.built:
             for name in each.chosen.part.programs:
                 running = self._running.get(name)
-                if running and not running.process.alive:
+                if running and not running.process.alive and name not in known:
                     lines = [line.text for line in running.process.lines() if line.text.strip()]
                     yield Ended(each.chosen.part, name, lines[-1] if lines else "")
                     break

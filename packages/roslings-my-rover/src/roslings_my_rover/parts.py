@@ -18,6 +18,8 @@ class Part:
     """Executables that run in the rover."""
     can: str
     """What the rover does by it that it did not before."""
+    holds_its_place: bool = False
+    """Whether nothing takes its place when it ends: a stop that is gone is no reason to drive."""
 
 
 VOICE = Part("voice", "nodes", ("minimal_publisher",), "says its status over its head")
@@ -30,7 +32,10 @@ PILOT = Part("pilot", "actions", ("drive_server",), "drives to a point by itself
 CABLE = Part("cable", "serial-bridge", ("serial_bridge",), "drives its wheels through the Arduino")
 EYES = Part("eyes", "pi-camera", ("camera", "ball_finder"), "sees the ball")
 LIMITER = Part("limiter", "bring-up", ("speed_limiter", "beacon"), "keeps to a limit of its own")
-GUARD = Part("guard", "e-stop", ("e_stop_button", "guard"), "stops when the button is pressed")
+GUARD = Part(
+    "guard", "e-stop", ("e_stop_button", "guard"), "stops when the button is pressed",
+    holds_its_place=True,
+)  # fmt: skip
 PARTS = (VOICE, SONAR, PACE, PILOT, CABLE, EYES, LIMITER, GUARD)
 """In the order of the days. The talker and the black box are no parts: one only chats, the other
 reads what the rover has left behind."""

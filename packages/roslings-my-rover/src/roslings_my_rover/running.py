@@ -85,7 +85,7 @@ def run(choice: Choice, view: View, keys: bool, follows: bool, seed: int = 0) ->
         stack.enter_context(node)
         asked = stack.enter_context(listening())
         stack.enter_context(working(crew))
-        show.parts(crew.parts)
+        show.parts(crew)
         with opened(view, node) as display:
             _go_on(node, crew, display, asked, look, show)
         print(f"\nYour rover is at {position(node)}.\nIt went {rover.way_m:.2f} m.")
@@ -126,7 +126,7 @@ def _look_at_parts(node: MyRover, crew: Crew, show: Shown) -> None:
     for ended in crew.look():
         node.connect(crew.wiring.robot)
         show.tell(ended.line)
-        show.parts(crew.parts)
+        show.parts(crew)
 
 
 class Shown:
@@ -147,16 +147,17 @@ class Shown:
         if self._until_s and time.monotonic() > self._until_s:
             self._node.notice, self._until_s = "", 0.0
 
-    def parts(self, there: list[Part]) -> None:
+    def parts(self, crew: Crew) -> None:
         """A line each; at most 32 columns."""
-        self._node.about_parts = tuple(self._lines(there))
+        ended = {each.part for each in crew.ended}
+        self._node.about_parts = tuple(self._lines(crew.parts, ended))
 
-    def _lines(self, there: list[Part]) -> Iterator[str]:
+    def _lines(self, there: list[Part], ended: set[Part]) -> Iterator[str]:
         for each in self._choice.there:
             remark = each.remark
             if each.part in self._broken:
                 remark = "does not build"
-            elif each.part not in there:
+            elif each.part in ended or each.part not in there:
                 remark = "has ended"
             yield f"{each.part.name:8} {remark}".rstrip()
         yield from (each.line for each in self._choice.absent)

@@ -42,6 +42,8 @@ def next_lines(labs: list[LabStatus], next_step: Today) -> Iterator[str]:
     verb = "start" if next_step.step is progress.Step.START else "check"
     yield f"{'Then' if drill else 'Next':6}{program()} {verb} {lab.name}"
     yield f"{'Task':6}{from_here(lab.task)}"
+    if any(each.progress.checks for each in labs):
+        yield f"{'Robot':6}{program()} my-rover    what your packages do together"
 
 
 def _first_lines(lab: Lab) -> Iterator[str]:

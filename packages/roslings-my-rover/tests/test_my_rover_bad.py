@@ -1,0 +1,124 @@
+"""What goes wrong with a part: it is named, the rover goes on, and nothing is left behind."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from carried import _environment, carried, put, until
+from test_my_rover_wins import carries, workspace
+
+from roslings.course import lab
+from roslings_my_rover.parts import CABLE, GUARD, LIMITER, SONAR, VOICE
+
+__all__ = ["workspace"]
+pytestmark = pytest.mark.slow
+
+
+def module_of(workspace: Path, name: str, file: str) -> Path:
+    """A file of a student's package."""
+    return next((workspace / "src" / lab(name).outline.package).rglob(file))
+
+
+def test_a_part_that_crashes_is_named_and_passed_by(workspace: Path) -> None:
+    """With its last line; the command then goes straight to the motors."""
+    carries(workspace, LIMITER)
+    file = module_of(workspace, "bring-up", "speed_limiter.py")
+    file.write_text(
+        file.read_text("utf-8").replace("def main(", "raise RuntimeError('burnt')\n\n\ndef main("),
+        "utf-8",
+    )
+    with carried(workspace) as rover:
+        rover.wait_for(r"speed_limiter ended\. It said: RuntimeError: burnt")
+        assert rover.drive(0.5, until_it=lambda: rover.pose[3])
+        assert rover.interrupt() == 0
+        assert rover.heard.count("speed_limiter ended") == 2  # when it did, and at the end
+
+
+def test_a_part_that_does_not_build_is_left_out(workspace: Path) -> None:
+    """With the reason; the others run."""
+    carries(workspace, SONAR)
+    file = workspace / "src" / lab("distance-sensor").outline.package / "setup.py"
+    file.write_text(file.read_text("utf-8").replace("setup(", "setpu(", 1), "utf-8")
+    with carried(workspace) as rover:
+        rover.wait_for(r"^sonar is left out: it does not build\. .*setpu")
+        rover.wait_for("Robot status count")
+
+
+def test_a_stop_that_ends_is_no_reason_to_drive(workspace: Path) -> None:
+    """The button is killed: the guard stops the rover, and it stays stopped."""
+    carries(workspace, GUARD)
+    with carried(workspace, keys=True) as rover:
+        until(lambda: "/press" in dict(rover.node.get_service_names_and_types()), lambda: "")
+        rover.press(" ")
+        rover.wait_for("stop is released")
+        assert rover.drive(0.3, until_it=lambda: rover.pose[3])
+        subprocess.run(
+            ["pkill", "-KILL", "-s", _session_of_button(rover.process.pid), "-f", "e_stop_button"],
+            check=True,
+        )
+        rover.wait_for(r"e_stop_button ended")
+        assert rover.drive(0.3, until_it=lambda: not rover.pose[3])
+        assert not rover.drive(0.3, until_it=lambda: rover.pose[3], within_s=5.0)
+
+
+def _session_of_button(pid: int) -> str:
+    """Each program has a guardian, which has a session of its own."""
+    words = ["ps", "-eo", "sid,ppid,pid,args"]
+    found = subprocess.run(words, capture_output=True, text=True, check=True).stdout
+    rows = [line.split(None, 3) for line in found.splitlines()[1:]]
+    guardians = {row[2] for row in rows if row[1] == str(pid)}
+    return next(row[0] for row in rows if row[1] in guardians and "e_stop_button" in row[3])
+
+
+def test_nothing_is_left_when_it_is_killed(workspace: Path) -> None:
+    """No program of a part outlives the command."""
+    carries(workspace, CABLE)
+    with carried(workspace) as rover:
+        rover.wait_for("Robot status count")
+        rover.process.kill()
+        rover.process.wait()
+        mark = str(workspace / ".roslings" / "my_rover")
+        until(lambda: mark not in _commands(), _commands, 30.0)
+
+
+def _commands() -> str:
+    return subprocess.run(["ps", "-eo", "args"], capture_output=True, text=True, check=True).stdout
+
+
+def typed(workspace: Path, *words: str) -> subprocess.CompletedProcess[str]:
+    """The command to its end."""
+    return subprocess.run(
+        [sys.executable, "-m", "roslings", "my-rover", *words], env=_environment(1, workspace),
+        stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False, cwd=workspace,
+    )  # fmt: skip
+
+
+def test_without_any_part_the_next_step_is_said(workspace: Path) -> None:
+    """And what drives already."""
+    shutil.rmtree(workspace / "src", ignore_errors=True)
+    done = typed(workspace)
+    assert done.returncode == 2
+    assert "start nodes" in done.stderr and "./roslings rover" in done.stderr
+
+
+def test_parts_are_told_without_starting_any(workspace: Path) -> None:
+    """At most 80 columns; what is not there names its lab."""
+    carries(workspace)
+    done = typed(workspace, "--parts")
+    assert done.returncode == 0
+    lines = done.stdout.splitlines()
+    assert len(lines) == 8 and max(map(len, lines)) <= 80
+    assert re.match(r"day  2  voice    says its status over its head  \(never checked\)", lines[0])
+    assert "start pi-camera" in done.stdout
+
+
+def test_keys_without_a_terminal_are_refused(workspace: Path) -> None:
+    """Before anything is started."""
+    put(workspace, VOICE)
+    done = typed(workspace, "--keys")
+    assert done.returncode != 0 and "--keys" in done.stderr

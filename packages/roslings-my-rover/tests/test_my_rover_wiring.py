@@ -1,0 +1,90 @@
+"""The wiring of every rover that there can be: 256 sets of parts."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from itertools import combinations
+
+import pytest
+
+from roslings.course import lab
+from roslings_my_rover.parts import CABLE, EYES, GUARD, LIMITER, PARTS, PILOT, SONAR, Part
+from roslings_my_rover.wiring import CHECKED, ENTRANCE, LIMITED, MOTORS, Wiring, wired
+
+SETS = [frozenset(some) for n in range(len(PARTS) + 1) for some in combinations(PARTS, n)]
+LINKS = {ENTRANCE, LIMITED, CHECKED, MOTORS}
+OF_CARDS = {
+    (LIMITER, "speed_limiter"): ("cmd_vel_in", "cmd_vel"),
+    (GUARD, "guard"): ("cmd_vel_raw", "cmd_vel"),
+    (CABLE, "serial_bridge"): ("cmd_vel", None),
+}
+"""What each stage hears and says by its card."""
+
+
+def stages(parts: frozenset[Part]) -> Iterator[tuple[str, str | None]]:
+    """From which link to which each stage leads; None: to the wheels."""
+    wiring = wired(parts, "port", "device")
+    for (part, program), (hears, says) in OF_CARDS.items():
+        if part in parts:
+            names = dict(wiring.programs[program].remaps)
+            yield _absolute(names.get(hears, hears)), _absolute(names.get(says, says))
+    if wiring.relay:
+        names = dict(wiring.relay.remaps)
+        yield names["commands"], names["checked"]
+    if wiring.robot.hears:
+        yield wiring.robot.hears, None
+
+
+def _absolute(name: str | None) -> str | None:
+    return name if name is None or name.startswith("/") else f"/{name}"
+
+
+@pytest.mark.parametrize("size", range(len(PARTS) + 1))
+def test_each_command_has_one_way_to_the_wheels(size: int) -> None:
+    """From /cmd_vel, through each stage that is there, once; each link has one publisher."""
+    for parts in (each for each in SETS if len(each) == size):
+        found = list(stages(parts))
+        heard = Counter(hears for hears, _ in found)
+        said = Counter(says for _, says in found if says)
+        assert set(heard) <= LINKS and max(heard.values()) == 1, parts
+        assert max(said.values(), default=1) == 1 and ENTRANCE not in said, parts
+        way, leads = [ENTRANCE], dict(found)
+        while (link := leads[way[-1]]) is not None:
+            way.append(link)
+        assert len(way) == len(found), f"{parts}: {found}"
+
+
+def test_what_a_part_does_the_robot_does_not() -> None:
+    """Odometry, pictures and the time of the wheels have one source each."""
+    for parts in SETS:
+        robot = wired(parts).robot
+        assert robot.says_odom == (CABLE not in parts) == bool(robot.hears)
+        assert robot.believes == (CABLE in parts)
+        assert robot.shows_pictures == (EYES not in parts)
+        assert robot.says_echo == (SONAR in parts)
+
+
+def test_the_names_are_those_of_the_cards() -> None:
+    """A card that is changed for a new term changes the rover, or this test."""
+    for (part, program), (hears, says) in OF_CARDS.items():
+        node = lab(part.lab).card.node(program)
+        assert f"/{hears}" in {each.topic for each in node.subscribes}
+        assert says is None or f"/{says}" in {each.topic for each in node.publishes}
+    for part in PARTS:
+        programs = {node.executable for node in lab(part.lab).card.nodes}
+        assert set(part.programs) <= programs, part
+    assert lab(SONAR.lab).card.node("distance_sensor").subscribes[0].topic == "/sonar_echo"
+    assert lab(PILOT.lab).card.node("drive_server").publishes[0].topic == ENTRANCE
+    assert {each.name for each in lab(CABLE.lab).card.node("serial_bridge").parameters} >= {"port"}
+    assert {each.name for each in lab(EYES.lab).card.node("camera").parameters} >= {"device"}
+
+
+def test_an_argument_is_written_as_ros_takes_it() -> None:
+    """Without anything to say, nothing is said."""
+    wiring: Wiring = wired({CABLE, LIMITER}, port="/run/a port")
+    assert wiring.programs["serial_bridge"].arguments == [
+        "--ros-args", "-r", "cmd_vel:=/rover/limited", "-p", "port:=/run/a port",
+    ]  # fmt: skip
+    assert wiring.programs["beacon"].arguments == []
+    assert wiring.relay is None
