@@ -147,10 +147,15 @@ class Carried:
         self.node.create_subscription(cls, topic, found.append, qos_profile_sensor_data)
         return found
 
-    def call(self, cls: Any, service: str, **words: Any) -> Any:
-        """The answer of a service."""
+    def wait_for_service(self, cls: Any, service: str) -> Any:
+        """A client of it."""
         client = self.node.create_client(cls, service)
         until(client.service_is_ready, lambda: f"nobody serves {service}\n{self.heard}")
+        return client
+
+    def call(self, cls: Any, service: str, **words: Any) -> Any:
+        """The answer of a service."""
+        client = self.wait_for_service(cls, service)
         future = client.call_async(cls.Request(**words))
         until(lambda: self.spin(0.05) or future.done(), lambda: f"{service} never answers")
         return future.result()

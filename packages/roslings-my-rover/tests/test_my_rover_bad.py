@@ -51,9 +51,11 @@ def test_a_part_that_does_not_build_is_left_out(workspace: Path) -> None:
 
 def test_a_stop_that_ends_is_no_reason_to_drive(workspace: Path) -> None:
     """The button is killed: the guard stops the rover, and it stays stopped."""
+    from std_srvs.srv import SetBool
+
     carries(workspace, GUARD)
     with carried(workspace, keys=True) as rover:
-        until(lambda: "/press" in dict(rover.node.get_service_names_and_types()), lambda: "")
+        rover.wait_for_service(SetBool, "/press")
         rover.press(" ")
         rover.wait_for("stop is released")
         assert rover.drive(0.3, until_it=lambda: rover.pose[3])

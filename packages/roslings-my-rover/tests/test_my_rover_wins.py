@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
-from carried import Carried, _environment, carried, put, until
+from carried import Carried, _environment, carried, put
 
 from roslings_my_rover.parts import (
     CABLE,
@@ -48,10 +48,10 @@ def says_its_status(rover: Carried) -> bool:
 def brakes_before_the_wall(rover: Carried) -> bool:
     """The bin ahead of it is at 5.1 m; the command goes on, and it stands before it."""
     touches = "The rover touches something"
-    rover.drive(
+    stands = rover.drive(
         0.5, until_it=lambda: touches in rover.heard or (rover.pose[0] > 4 and not rover.pose[3])
     )
-    return touches not in rover.heard and 4.0 < rover.pose[0] < 5.0
+    return stands and touches not in rover.heard and rover.pose[0] < 5.0
 
 
 def drives_slowly(rover: Carried) -> bool:
@@ -107,9 +107,11 @@ def keeps_to_its_limit(rover: Carried) -> bool:
 
 def stops_at_the_button(rover: Carried) -> bool:
     """It begins stopped; Space lets it go, and Space stops it again."""
+    from std_srvs.srv import SetBool
+
     if rover.drive(0.3, until_it=lambda: rover.pose[3], within_s=IN_VAIN_S):
         return False
-    until(lambda: "/press" in dict(rover.node.get_service_names_and_types()), lambda: rover.heard)
+    rover.wait_for_service(SetBool, "/press")
     rover.press(" ")
     rover.wait_for("stop is released")
     if not rover.drive(0.3, until_it=lambda: rover.pose[3]):

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
 from roslings.arena import Installed, Place
+from roslings.arena.kernel import cores
 from roslings.experiment.run_folder import run_folder
 from roslings.workspace.shared_build import shared_build
 from roslings.workspace.student import workspace_root
@@ -43,15 +45,17 @@ class Built:
 def build_all(
     parts: Sequence[Chosen], home: Path, tell: Callable[[str], None]
 ) -> tuple[list[Built], list[Broken]]:
-    """Build each; those that cannot be built or started, with the reason.
+    """Build each, one a processor; those that cannot be built or started, with the reason.
 
     Raises CannotRead and DiskFull.
     """
     built, broken = list[Built](), list[Broken]()
-    for each in parts:
-        tell(f"Building {each.part.name} ({each.lab.name})")
-        found = _build(each, home)
-        (built if isinstance(found, Built) else broken).append(found)  # type: ignore[arg-type]
+    with ThreadPoolExecutor(cores()) as pool:
+        made = [(each, pool.submit(_build, each, home)) for each in parts]
+        for each, future in made:
+            tell(f"Building {each.part.name} ({each.lab.name})")
+            found = future.result()
+            (built if isinstance(found, Built) else broken).append(found)  # type: ignore[arg-type]
     return built, broken
 
 

@@ -22,6 +22,8 @@ class MyRover(DrivenRover):
     """A driven rover whose links follow a wiring, which may change while it runs."""
 
     wiring: Robot = field(default_factory=Robot)
+    told: str = ""
+    """What has just happened to a part; a command does not wipe it away."""
     about_parts: tuple[str, ...] = ()
     """What the map says of the parts; at most 32 columns each."""
     _believed: Pose | None = None
@@ -104,6 +106,10 @@ class MyRover(DrivenRover):
     def _show_picture(self) -> None:
         if self._pictures is not None:
             super()._show_picture()
+
+    def _hear(self, twist: Any) -> None:
+        super()._hear(twist)
+        self.notice = self.notice or self.told
 
     def _say_echo(self) -> None:
         """The seconds until the echo came back; NaN where none was understood."""

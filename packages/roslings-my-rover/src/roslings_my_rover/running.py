@@ -139,13 +139,13 @@ class Shown:
 
     def tell(self, words: str) -> None:
         """For some seconds, or until there is other news."""
-        self._node.notice = words
+        self._node.told = self._node.notice = words
         self._until_s = time.monotonic() + NOTICE_LASTS_S
 
     def forget(self) -> None:
         """What was told is old."""
         if self._until_s and time.monotonic() > self._until_s:
-            self._node.notice, self._until_s = "", 0.0
+            self._node.told, self._node.notice, self._until_s = "", "", 0.0
 
     def parts(self, crew: Crew) -> None:
         """A line each; at most 32 columns."""
