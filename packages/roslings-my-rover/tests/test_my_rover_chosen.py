@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+import re
 import shutil
+from argparse import ArgumentParser
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 
-from roslings.course import Lab, lab
+from roslings.course import Lab, lab, root
 from roslings.verdict import Verdict
 from roslings.workspace.best import best_package, keep_best
 from roslings.workspace.progress import record
 from roslings_my_rover.chosen import CannotBorrow, chosen, told
-from roslings_my_rover.parts import PARTS
+from roslings_my_rover.commands import my_rover
+from roslings_my_rover.launch_file import DEVICE, PORT, launch_file
+from roslings_my_rover.parts import PARTS, Part, day_number, labs_of_parts
+from roslings_my_rover.wiring import wired
 
 
 @pytest.fixture
@@ -128,3 +134,47 @@ def test_an_edition_without_solutions_lends_nothing(
     monkeypatch.setenv("ROSLINGS_COURSE", str(tmp_path / "course"))
     with pytest.raises(CannotBorrow, match="start services"):
         chosen(borrowed=[4])
+
+
+def test_the_launch_file_has_each_program_with_its_wiring(workspace: Path) -> None:
+    """As the rover starts them; of absent parts it says nothing."""
+    for part in PARTS:
+        built(workspace, part.lab)
+    tree = ElementTree.fromstring(launch_file(chosen()))
+    nodes = {node.attrib["exec"]: node for node in tree.iter("node")}
+    wiring = wired(PARTS, PORT, DEVICE)
+    assert nodes.keys() == wiring.programs.keys()
+    for name, link in wiring.programs.items():
+        remaps = [(each.attrib["from"], each.attrib["to"]) for each in nodes[name].iter("remap")]
+        values = [(each.attrib["name"], each.attrib["value"]) for each in nodes[name].iter("param")]
+        assert (tuple(remaps), tuple(values)) == (link.remaps, link.parameters)
+    assert len(list(ElementTree.fromstring(launch_file(chosen(last_day=2))).iter("node"))) == 1
+
+
+PAGE = (root() / "site/pages/reference/my-rover.md").read_text("utf-8")
+TYPED = re.findall(r"\./roslings (my-rover[^\n`]*)", PAGE)
+
+
+@pytest.mark.parametrize("typed", [*dict.fromkeys(TYPED)])
+def test_what_the_page_types_is_a_command(typed: str) -> None:
+    """With options that there are."""
+    parser = ArgumentParser()
+    my_rover.add_options(parser)
+    parser.parse_args(typed.split()[1:])
+
+
+def test_the_page_tells_each_part() -> None:
+    """Its day, its name and its lab, as the rover has them."""
+    rows = re.findall(r"^\| (\d+) \| ([a-z]+) \| `([a-z-]+)` \|", PAGE, re.M)
+    labs = labs_of_parts()
+    assert rows == [(str(day_number(labs[part.name])), part.name, part.lab) for part in PARTS]
+
+
+@pytest.mark.parametrize("part", PARTS, ids=lambda part: part.name)
+def test_each_task_ends_on_the_rover(part: Part) -> None:
+    """With a command that there is."""
+    text = lab(part.lab).task.read_text("utf-8").rpartition("## On your rover")[2]
+    (typed,) = re.findall(r"^\./roslings my-rover(.*)$", text, re.M)
+    parser = ArgumentParser()
+    my_rover.add_options(parser)
+    parser.parse_args(typed.split())

@@ -14,6 +14,7 @@ from pathlib import Path
 import pytest
 from carried import Carried, _environment, carried, put
 
+from roslings.course import lab
 from roslings_my_rover.parts import (
     CABLE,
     EYES,
@@ -142,7 +143,7 @@ WINS = [
     Win(CABLE, goes_through_its_cable, "listens_elsewhere", keys=True, without=False),
     Win(EYES, follows_the_ball, "topic_misspelt", ("--follow",)),
     Win(LIMITER, keeps_to_its_limit, "forward_without_limit"),
-    Win(GUARD, stops_at_the_button, "drives_at_first", keys=True),
+    Win(GUARD, stops_at_the_button, "button_topic_misspelt", keys=True),
 ]
 IDS = [win.part.name for win in WINS]
 LOOKED_FOR = [win for win in WINS if win.without and win.part is not VOICE]
@@ -200,3 +201,30 @@ def test_all_parts_in_one_rover(workspace: Path) -> None:
         assert says_its_status(rover)
         assert rover.interrupt() == 0
         assert re.search(r"^It went \d\.\d\d m\.$", rover.heard, re.M)
+
+
+def test_the_program_of_day_9_tells_the_metres_of_the_drive(workspace: Path) -> None:
+    """From the bag that the rover keeps; a second drive takes the place of the first."""
+    carries(workspace)
+    for seconds in (3, 1):
+        with carried(workspace, "--bag") as rover:
+            assert rover.drive(0.3, until_it=lambda: rover.pose[3])
+            rover.drive(0.3, until_it=lambda: False, within_s=seconds)
+            assert rover.interrupt() == 0
+            went = float(re.findall(r"^It went ([\d.]+) m\.$", rover.heard, re.M)[0])
+            assert "The bag of this drive: ~/my_rover_bag" in rover.heard
+        told = read_drive(workspace / "my_rover_bag")
+        metres = float(re.findall(r"^distance: ([\d.]+) m$", told, re.M)[0])
+        assert metres == pytest.approx(went, abs=0.1), told
+        assert went > 0.2
+
+
+def read_drive(bag: Path) -> str:
+    """What the solution of day 9 says of it."""
+    folder = lab("black-box").solution
+    words = [sys.executable, "-m", "black_box.read_drive", str(bag)]
+    environment = _environment(0, bag.parent)
+    environment = {**environment, "PYTHONPATH": f"{folder}:{environment['PYTHONPATH']}"}
+    done = subprocess.run(words, env=environment, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return done.stdout

@@ -18,7 +18,9 @@ from roslings_my_rover.installing import Built
 from roslings_my_rover.parts import Part
 from roslings_my_rover.wiring import Link, Wiring, wired
 
-RELAY, FOLLOWER = "relay", "follower"
+RELAY, FOLLOWER, RECORDER = "relay", "follower", "recorder"
+RECORDED = ("/odom", "/cmd_vel", "/rover/motors", "/obstacle", "/robot_status", "/ball")
+"""What the bag of a drive holds: what was wanted, what was done, and why."""
 LONGEST_LINE = 60
 
 
@@ -58,6 +60,8 @@ class Crew:
     port: str = ""
     device: str = ""
     follows: bool = False
+    bag: Path | None = None
+    """A new folder for what was said; None: nothing is kept."""
     ended: list[Ended] = field(default_factory=list)
     _running: dict[str, _Running] = field(default_factory=dict)
 
@@ -99,7 +103,8 @@ class Crew:
         wiring = self.wiring
         own = {RELAY: wiring.relay} if wiring.relay else {}
         follower = {FOLLOWER: Link()} if self.follows else {}
-        return {**own, **wiring.programs, **follower}
+        recorder = {RECORDER: Link()} if self.bag else {}
+        return {**recorder, **own, **wiring.programs, **follower}
 
     def _gone(self) -> Iterator[Ended]:
         known = {each.program for each in self.ended}
@@ -123,8 +128,14 @@ class Crew:
         for each in self.built:
             if name in each.chosen.part.programs:
                 return [str(each.program(name))], each.installed
+        return self._own_command(name), self.built[0].installed
+
+    def _own_command(self, name: str) -> list[str]:
+        if name == RECORDER:
+            words = ["bag", "record", "-o", str(self.bag), "--topics", *RECORDED]
+            return [sys.executable, "-m", "ros2_on_pip", *words]
         module = {RELAY: relay, FOLLOWER: follow}[name]
-        return [sys.executable, str(module.__file__)], self.built[0].installed
+        return [sys.executable, str(module.__file__)]
 
 
 @contextmanager

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -10,8 +11,10 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
+from ros2_on_pip.typed_paths import shown
 from roslings.experiment.run_folder import run_folder
 from roslings.report import Progress
+from roslings.workspace.student import workspace_root
 from roslings_my_rover.chosen import Choice, NoPart
 from roslings_my_rover.crew import Crew, working
 from roslings_my_rover.hands import hands
@@ -28,6 +31,7 @@ from roslings_rover.rover.rover import Rover
 from roslings_rover.rover.words import position
 
 LOOK_EVERY_S = 0.2
+BAG = "my_rover_bag"
 NOTICE_LASTS_S = 6.0
 OF_ROS = ("ROS_DOMAIN_ID", "ROS_AUTOMATIC_DISCOVERY_RANGE", "RMW_IMPLEMENTATION",
           "FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_BUILTIN_TRANSPORTS")  # fmt: skip
@@ -55,8 +59,10 @@ class Cable:
         self.tell("The cable is plugged in." if self.plugged else "The cable is pulled.")
 
 
-def run(choice: Choice, view: View, keys: bool, follows: bool, seed: int = 0) -> Rover:
-    """Run it until Ctrl-C; returns the rover as it then is.
+def run(
+    choice: Choice, view: View, keys: bool, follows: bool, seed: int = 0, keeps_bag: bool = False
+) -> Rover:
+    """Run it until Ctrl-C; returns the rover as it then is. With `keeps_bag`, see `bag_place`.
 
     Raises NoPart where there is nothing to carry, NoTerminal, NoWindow, and what a board, a
     camera or a build raises.
@@ -76,22 +82,43 @@ def run(choice: Choice, view: View, keys: bool, follows: bool, seed: int = 0) ->
         board = stack.enter_context(_board(rover)) if CABLE in parts else None
         device = stack.enter_context(_camera(rover, home)) if EYES in parts else None
         crew = Crew(
-            built, _environment(home), home, board.name if board else "", str(device or ""), follows
-        )
+            built, _environment(home), home, board.name if board else "", str(device or ""),
+            follows, home / BAG if keeps_bag else None,
+        )  # fmt: skip
         node = MyRover(rover, by_keys=keys, wiring=crew.wiring.robot)
         show = Shown(node, choice, broken)
         cable = Cable(board, show.tell)
         look = stack.enter_context(hands(keys, show.tell, cable.pull))
         stack.enter_context(node)
         asked = stack.enter_context(listening())
-        stack.enter_context(working(crew))
-        show.parts(crew)
-        with opened(view, node) as display:
-            _go_on(node, crew, display, asked, look, show)
+        with working(crew):
+            show.parts(crew)
+            with opened(view, node) as display:
+                _go_on(node, crew, display, asked, look, show)
         print(f"\nYour rover is at {position(node)}.\nIt went {rover.way_m:.2f} m.")
         for ended in crew.ended:
             print(ended.line)
+        if crew.bag:
+            print(_kept(crew.bag))
     return rover
+
+
+def bag_place() -> Path:
+    """Where the bag of the last drive is."""
+    return workspace_root() / BAG
+
+
+def _kept(bag: Path) -> str:
+    """Put the bag in the place of the last one; what to do with it."""
+    if not bag.is_dir():
+        return "No bag was kept: nothing was said."
+    place = bag_place()
+    shutil.rmtree(place, ignore_errors=True)
+    shutil.move(bag, place)
+    return (
+        f"The bag of this drive: {shown(place)}\n"
+        f"Your program of day 9 reads it: ros2 run black_box read_drive {shown(place)}"
+    )
 
 
 def _environment(home: Path) -> dict[str, str]:

@@ -32,6 +32,14 @@ def add_options(word: argparse.ArgumentParser) -> None:
         "--follow", action="store_true", help="follow the ball, by what day 7 says on /ball"
     )
     word.add_argument(
+        "--bag", action="store_true",
+        help="keep a bag of this drive, for your program of day 9: ~/roslings_ws/my_rover_bag",
+    )  # fmt: skip
+    word.add_argument(
+        "--launch", action="store_true",
+        help="print the launch file that starts these parts, wired as in the rover",
+    )  # fmt: skip
+    word.add_argument(
         "--view", choices=("auto", "window", "terminal", "lines"), default="auto",
         help="where the map is shown (default: a window where there is a screen)",
     )  # fmt: skip
@@ -48,11 +56,16 @@ def run(options: argparse.Namespace) -> int:
         return OK
     if not choice.there:
         raise NoPart
+    if options.launch:
+        from roslings_my_rover.launch_file import launch_file
+
+        print(launch_file(choice))
+        return OK
     from ros2_on_pip.surroundings import check_middleware, domain_id, prepare
     from roslings_my_rover.running import run as run_rover
 
     prepare()
     domain_id()
     check_middleware()
-    run_rover(choice, options.view, options.keys, options.follow, options.seed)
+    run_rover(choice, options.view, options.keys, options.follow, options.seed, options.bag)
     return OK
