@@ -2,9 +2,8 @@
 
     .venv/bin/python tests/bench/my_rover.py [ROUNDS]
 
-The parts are the labs' solutions, built before. Prints the seconds from Enter to a map that is shown,
-of all parts and of the voice alone; the processors and the memory of all its processes during 20 s of
-driving, and how often the map was drawn.
+The parts are the labs' solutions, built before. Prints the seconds from Enter to a map, of all
+parts and of the voice alone; then processors and memory of all its processes, for 20 s.
 """
 
 from __future__ import annotations

@@ -11,7 +11,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import Any
 
@@ -169,9 +169,14 @@ class Carried:
 
 
 @contextmanager
-def carried(workspace: Path, *words: str, keys: bool = False) -> Iterator[Carried]:
-    """The rover of this workspace, as soon as it is ready; nothing of it is left afterwards."""
-    with leased_domain() as domain:
+def carried(
+    workspace: Path, *words: str, keys: bool = False, domain: int | None = None
+) -> Iterator[Carried]:
+    """The rover of this workspace, as soon as it is ready; nothing of it is left afterwards.
+
+    On a domain of its own, unless one is given.
+    """
+    with nullcontext(domain) if domain is not None else leased_domain() as domain:
         ours, theirs = os.openpty()
         process = subprocess.Popen(
             [sys.executable, "-m", "roslings", "my-rover", "--view", "lines",

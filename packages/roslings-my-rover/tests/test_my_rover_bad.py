@@ -39,6 +39,25 @@ def test_a_part_that_crashes_is_named_and_passed_by(workspace: Path) -> None:
         assert rover.heard.count("speed_limiter ended") == 2  # when it did, and at the end
 
 
+def test_a_part_that_prints_without_end_holds_nobody_up(workspace: Path) -> None:
+    """The rover drives, and ends at Ctrl-C."""
+    carries(workspace)
+    file = module_of(workspace, "nodes", "minimal_publisher.py")
+    text = file.read_text("utf-8")
+    endless = "while True:\n    print('again', flush=True)\n\n\ndef main("
+    file.write_text(text.replace("def main(", endless), "utf-8")
+    with carried(workspace) as rover:
+        assert rover.drive(0.3, until_it=lambda: rover.pose[3])
+        assert rover.interrupt() == 0
+
+
+def test_a_second_one_is_told(workspace: Path) -> None:
+    """Both would follow /cmd_vel."""
+    carries(workspace)
+    with carried(workspace) as rover, carried(workspace, domain=rover.domain) as second:
+        second.wait_for("A second rover runs here")
+
+
 def test_a_part_that_does_not_build_is_left_out(workspace: Path) -> None:
     """With the reason; the others run."""
     carries(workspace, SONAR)

@@ -10,6 +10,7 @@ from ros2_on_pip.keyboard import Keys, NoKeys, keys_of
 from roslings_rover.rover.keys import Driver, NoTerminal, keyboard_node
 
 SPACE, CABLE = " ", "p"
+TOLD = "Space is the stop of day 10, p the cable of day 6; q and z: faster and slower."
 
 
 class OwnKeys(Driver):

@@ -24,8 +24,6 @@ class MyRover(DrivenRover):
     wiring: Robot = field(default_factory=Robot)
     told: str = ""
     """What has just happened to a part; a command does not wipe it away."""
-    about_parts: tuple[str, ...] = ()
-    """What the map says of the parts; at most 32 columns each."""
     _believed: Pose | None = None
     _status: Sentence | None = None
     _status_s: float = -math.inf

@@ -17,7 +17,7 @@ from roslings.report import Progress
 from roslings.workspace.student import workspace_root
 from roslings_my_rover.chosen import Choice, NoPart
 from roslings_my_rover.crew import Crew, working
-from roslings_my_rover.hands import hands
+from roslings_my_rover.hands import TOLD, hands
 from roslings_my_rover.installing import Broken, build_all
 from roslings_my_rover.parts import CABLE, EYES, Part
 from roslings_my_rover.robot import MyRover
@@ -85,7 +85,7 @@ def run(
             built, _environment(home), home, board.name if board else "", str(device or ""),
             follows, home / BAG if keeps_bag else None,
         )  # fmt: skip
-        node = MyRover(rover, by_keys=keys, wiring=crew.wiring.robot)
+        node = MyRover(rover, by_keys=keys, wiring=crew.wiring.robot, more_keys=TOLD)
         show = Shown(node, choice, broken)
         cable = Cable(board, show.tell)
         look = stack.enter_context(hands(keys, show.tell, cable.pull))

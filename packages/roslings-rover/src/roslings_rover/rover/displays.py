@@ -171,7 +171,7 @@ def _heard_where(node: DrivenRover) -> str:
 
 def _how_to_drive(node: DrivenRover) -> str:
     if node.by_keys:
-        return f"The keys count in this terminal.\n{KEYS_TELL}\n{KEYS_PACE}"
+        return f"The keys count in this terminal.\n{KEYS_TELL}\n{node.more_keys or KEYS_PACE}"
     return f"Make the rover move, in a second terminal:\nsource setup.bash\n{FIRST_COMMAND}"
 
 
@@ -236,7 +236,7 @@ class Lines:
         if node.tf and not node.publishes_tf:
             self._say(f"/tf is left out: its type is missing. {' '.join(next_steps())}")
         if node.by_keys:
-            self._say(f"{KEYS_TELL}\n{KEYS_PACE}")
+            self._say(f"{KEYS_TELL}\n{node.more_keys or KEYS_PACE}")
             return
         self._say("Make it move, in a second terminal: source setup.bash, then")
         self._say(FIRST_COMMAND)

@@ -55,6 +55,8 @@ class RoverNode:
     """The keys of this terminal drive it."""
     listens: bool = False
     """It hears what others say, too."""
+    more_keys: str = ""
+    """What other keys do; at most 80 columns."""
     about_parts: tuple[str, ...] = ()
     """What there is to say of the parts that it is made of; at most 32 columns each."""
     _told_s: float = field(default=-math.inf, repr=False)

@@ -86,7 +86,7 @@ def below(node: DrivenRover) -> list[str]:
     if node.rover.touches:
         return ["The rover touches something. Drive it back: a negative linear.x.", ""]
     if node.by_keys:
-        return [KEYS_TELL, KEYS_PACE]
+        return [KEYS_TELL, node.more_keys or KEYS_PACE]
     if node.driver:
         return [f"{node.driver} drives it, by messages on /cmd_vel.", ""]
     if node.commands:
