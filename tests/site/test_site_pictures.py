@@ -8,6 +8,7 @@ import sys
 import xml.etree.ElementTree as Xml
 from pathlib import Path
 
+import my_rover_picture
 import pytest
 
 from roslings.course import all_labs, root
@@ -123,3 +124,18 @@ def test_programs_of_the_page_print_what_it_says(tmp_path: Path) -> None:
         (tmp_path / "lines.py").write_text(program, "utf-8")
         ran = [sys.executable, str(tmp_path / "lines.py")]
         assert subprocess.run(ran, capture_output=True, text=True, check=True).stdout == output
+
+
+# --- a rover that grows --------------------------------------------------------------------------
+
+
+def test_the_rover_of_parts_is_drawn_by_its_program() -> None:
+    """As the terminal shows it; README and page show the same, with the same words."""
+    assert my_rover_picture.picture() == my_rover_picture.PICTURE.read_text("utf-8")
+    place = my_rover_picture.PICTURE.relative_to(root())
+    readme = (root() / "README.md").read_text("utf-8")
+    page_of_it = (REFERENCE / "my-rover.md").read_text("utf-8")
+    assert f"![{my_rover_picture.ALT}]({place})" in readme
+    assert f"![{my_rover_picture.ALT}](pictures/{place.name})" in page_of_it
+    for line in my_rover_picture.screen():
+        assert len(line) <= 80
