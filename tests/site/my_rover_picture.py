@@ -30,8 +30,8 @@ WAY = ((0.45, 0.0, 2.0), (0.3, 0.6, 2.2), (0.45, 0.0, 4.0))
 """Metres and radians a second, and for how many seconds: a curve past the ball."""
 REMARKS = {"pace": "60 of 100"}
 ALT = (
-    "The map of a rover in a terminal. It has driven a curve. Over it stands Robot status count: 42."
-    " Beside it: voice, sonar, pace 60 of 100, pilot, cable; no eyes yet: day 7."
+    "The map of a rover in a terminal. It has driven a curve. Over it stands Robot status count:"
+    " 42. Beside it: voice, sonar, pace 60 of 100, pilot, cable; no eyes yet: day 7."
 )
 
 
