@@ -19,6 +19,7 @@ from roslings_learn.lessons.rules import Lesson
 
 BLOCK = re.compile(r"^```bash\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 PLACED = re.compile(r"Terminal (\d), in [^:\n]+:(?:\n\n|$)" + BLOCK.pattern[1:], re.M | re.DOTALL)
+GOES_ON = re.compile(r" *\\\n *")
 
 
 @dataclass(frozen=True)
@@ -42,9 +43,15 @@ def text_of(lesson: Lesson, sections: Sequence[str]) -> str:
 
 
 def placed(text: str) -> list[Commands]:
-    """Each block of commands that names its terminal, in the text's order."""
+    """Each block of commands that names its terminal, in the text's order.
+
+    A line that ends in a backslash goes on in the next one.
+    """
     found = PLACED.findall(text)
-    return [Commands(int(number), tuple(typed.splitlines())) for number, typed in found]
+    return [
+        Commands(int(number), tuple(GOES_ON.sub(" ", typed).splitlines()))
+        for number, typed in found
+    ]
 
 
 @dataclass

@@ -179,8 +179,13 @@ class HalfDone:
 
 
 def states(lab: Lab) -> list[HalfDone]:
-    """After each TODO but the last, which may be a finished package."""
-    texts = [file.read_text("utf-8") for file in lab.starter.rglob("*") if file.is_file()]
+    """After each TODO but the last, which may be a finished package.
+
+    A tool that only the starter has is no part of what is graded.
+    """
+    names = (file.relative_to(lab.solution) for file in lab.solution.rglob("*"))
+    begun = (lab.starter / name for name in names)
+    texts = [file.read_text("utf-8") for file in begun if file.is_file()]
     return [HalfDone(lab, n) for n in sorted({n for text in texts for n in numbers(text)})[:-1]]
 
 

@@ -31,6 +31,7 @@ COVERS_THE_FIRST_LINE = """button => {
 MUST_BE_THERE = {
     "index", "glossary", "review", "search", "labs/index", "labs/topics", "reference/commands",
     "reference/doctor", "reference/messages", "reference/lifecycle", "reference/tf-and-scan",
+    "reference/colcon-test",
     "reference/whole-robot", "reference/micro-ros", "reference/distributions", "reference/ros1",
     "reference/faq",
     "teachers/index", "teachers/hand-ins", "teachers/exports", "teachers/api",

@@ -183,3 +183,18 @@ def test_demo_talker_and_listener(empty: Shell, whole_group: bool) -> None:
         assert voice.interrupt(whole_group) == 0
         assert ear.interrupt(whole_group) == 0
     assert "Traceback" not in voice.text + ear.text
+
+
+def test_the_tests_of_a_created_package_are_skipped_without_a_warning(
+    empty: Shell, tmp_path: Path
+) -> None:
+    """Its marks are known; the linters of a full ROS are not here."""
+    assert empty(*CREATE).code == 0
+    ran = subprocess.run(
+        [sys.executable, "-m", "pytest", "-rs", "-p", "no:cacheprovider"],
+        cwd=tmp_path / "chatter", capture_output=True, text=True, check=False,
+        env={**empty.environment, "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"},
+    )  # fmt: skip
+    assert "3 skipped" in ran.stdout, ran.stdout + ran.stderr
+    assert "warning" not in ran.stdout.lower()
+    assert ran.returncode == 0

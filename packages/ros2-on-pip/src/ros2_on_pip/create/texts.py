@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from xml.sax.saxutils import escape, quoteattr
 
 TEST_DEPENDENCIES = ("ament_copyright", "ament_flake8", "ament_pep257", "python3-pytest")
+MARKS = ("copyright", "flake8", "linter", "pep257")
+"""What the tests below are marked with."""
 
 
 @dataclass(frozen=True)
@@ -105,9 +107,14 @@ setup(
 
 
 def setup_cfg(request: PackageRequest) -> str:
-    """Where `ros2 run` looks for the executables."""
+    """Where `ros2 run` looks for the executables; and the marks of the tests.
+
+    The linters of a full ROS tell pytest their marks. Without them, pytest warns of each mark in
+    five lines, and colcon shows that as an error's output.
+    """
     place = f"$base/lib/{request.package}"
-    return f"[develop]\nscript_dir={place}\n[install]\ninstall_scripts={place}\n"
+    folders = f"[develop]\nscript_dir={place}\n[install]\ninstall_scripts={place}\n"
+    return folders + "\n    ".join(["[tool:pytest]\nmarkers =", *MARKS]) + "\n"
 
 
 def node_py(request: PackageRequest) -> str:
