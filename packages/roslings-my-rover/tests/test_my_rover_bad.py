@@ -88,7 +88,7 @@ def test_a_stop_that_ends_is_no_reason_to_drive(workspace: Path) -> None:
 
 def pid_of(workspace: Path, program: str) -> int:
     """A program of a part, as it was built for this workspace."""
-    words = ["ps", "-eo", "pid,args"]
+    words = ["ps", "-ww", "-eo", "pid,args"]
     found = subprocess.run(words, capture_output=True, text=True, check=True).stdout
     (line,) = [
         line for line in found.splitlines()
@@ -109,7 +109,7 @@ def test_nothing_is_left_when_it_is_killed(workspace: Path) -> None:
 
 
 def _commands() -> str:
-    return subprocess.run(["ps", "-eo", "args"], capture_output=True, text=True, check=True).stdout
+    return subprocess.run(["ps", "-ww", "-eo", "args"], capture_output=True, text=True, check=True).stdout
 
 
 def typed(workspace: Path, *words: str) -> subprocess.CompletedProcess[str]:

@@ -22,6 +22,7 @@ RELAY, FOLLOWER, RECORDER = "relay", "follower", "recorder"
 RECORDED = ("/odom", "/cmd_vel", "/rover/motors", "/obstacle", "/robot_status", "/ball")
 """What the bag of a drive holds: what was wanted, what was done, and why."""
 LONGEST_LINE = 60
+RECORDS_WITHIN_S = 20.0
 
 
 @dataclass(frozen=True)
@@ -121,7 +122,10 @@ class Crew:
         environment = {**(installed.environment if installed else {}), **self.environment}
         launch = Launch([*command, *link.arguments], environment, self.home, namespaces=False)
         stack = ExitStack()
-        return _Running(link, stack.enter_context(Process(name, launch)), stack)
+        process = stack.enter_context(Process(name, launch))
+        if name == RECORDER:
+            process.wait_until(lambda: _records(process), RECORDS_WITHIN_S)
+        return _Running(link, process, stack)
 
     def _command(self, name: str) -> tuple[list[str], Installed | None]:
         """Of a part's program, or of one of ours, with the environment of any part."""
@@ -136,6 +140,11 @@ class Crew:
             return [sys.executable, "-m", "ros2_on_pip", *words]
         module = {RELAY: relay, FOLLOWER: follow}[name]
         return [sys.executable, str(module.__file__)]
+
+
+def _records(process: Process) -> bool:
+    """What is said before that is lost."""
+    return any("Recording..." in line.text for line in process.lines())
 
 
 @contextmanager
