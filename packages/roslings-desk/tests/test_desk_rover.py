@@ -287,4 +287,4 @@ def test_a_goal_is_typed_and_a_wrong_one_is_told(page: Any, nodes: Nodes) -> Non
     page.get_by_role("button", name="Send the goal").press("Enter")
     until(lambda: heard, "a goal")
     assert (heard[0].pose.position.x, heard[0].pose.position.y) == (1.5, -0.5)
-    expect(page.get_by_role("status")).to_contain_text("1 subscriptions hear it")
+    expect(page.get_by_role("status")).to_contain_text("1 subscription hears it")

@@ -138,7 +138,7 @@ class RoverTab:
         self._goals.publish(goal, [partial(setattr, goal.header, "stamp")])
         there = {seen.name: seen.subscriptions for seen in self._hub.topics()}
         listening = there.get(GOAL_POSE, 0)
-        who = f"{listening} subscriptions hear it" if listening else "no node listens there"
+        who = _who_hears(listening)
         self._spoken.say(f"Goal x {x_m:.2f} m, y {y_m:.2f} m is published on {GOAL_POSE}; {who}.")
 
     # --- driving ---------------------------------------------------------------------------
@@ -245,3 +245,9 @@ def _picture(trail: list[Moment]) -> str:
         default_world(), trail or [Moment(0.0, Pose())], Body().radius_m, moves=False
     )
     return f"data:image/svg+xml;base64,{base64.b64encode(drawn.encode()).decode()}"
+
+
+def _who_hears(count: int) -> str:
+    if count == 1:
+        return "1 subscription hears it"
+    return f"{count} subscriptions hear it" if count else "no node listens there"
