@@ -109,7 +109,8 @@ def test_nothing_is_left_when_it_is_killed(workspace: Path) -> None:
 
 
 def _commands() -> str:
-    return subprocess.run(["ps", "-ww", "-eo", "args"], capture_output=True, text=True, check=True).stdout
+    words = ["ps", "-ww", "-eo", "args"]
+    return subprocess.run(words, capture_output=True, text=True, check=True).stdout
 
 
 def typed(workspace: Path, *words: str) -> subprocess.CompletedProcess[str]:
