@@ -60,6 +60,16 @@ def test_a_second_one_is_told(workspace: Path) -> None:
         second.wait_for("A second rover runs here")
 
 
+def test_who_speaks_on_anothers_link_is_named(workspace: Path) -> None:
+    """With the link, and both who speak there."""
+    from geometry_msgs.msg import Twist
+
+    carries(workspace, GUARD)
+    with carried(workspace) as rover:
+        rover.node.create_publisher(Twist, "/rover/motors", 10)
+        rover.wait_for("/guard and /tester both say /rover/motors")
+
+
 def test_a_part_that_does_not_build_is_left_out(workspace: Path) -> None:
     """With the reason; the others run."""
     carries(workspace, SONAR)

@@ -7,7 +7,7 @@ import time
 from dataclasses import dataclass, field
 from typing import Any
 
-from roslings_my_rover.wiring import Robot
+from roslings_my_rover.wiring import LINKS, Robot
 from roslings_rover.models.differential_drive import Pose
 from roslings_rover.rover.driven import DrivenRover
 from roslings_rover.rover.ears import LONGEST_SENTENCE, SENTENCE_LASTS_S, Sentence
@@ -24,6 +24,7 @@ class MyRover(DrivenRover):
     wiring: Robot = field(default_factory=Robot)
     told: str = ""
     """What has just happened to a part; a command does not wipe it away."""
+    _clash: str = ""
     _believed: Pose | None = None
     _status: Sentence | None = None
     _status_s: float = -math.inf
@@ -107,7 +108,20 @@ class MyRover(DrivenRover):
 
     def _hear(self, twist: Any) -> None:
         super()._hear(twist)
-        self.notice = self.notice or self.told
+        self.notice = self.notice or self.told or self._clash
+
+    def _look_for_twins(self) -> None:
+        """A command that comes from two is no command of either."""
+        super()._look_for_twins()
+        self._clash = next(filter(None, map(self._clash_on, LINKS)), "")
+        self.notice = self.notice or self._clash
+
+    def _clash_on(self, link: str) -> str:
+        there = self._node.get_publishers_info_by_topic(link)
+        if len(there) < 2:
+            return ""
+        names = " and ".join(sorted({f"/{each.node_name}" for each in there}))
+        return f"{names} both say {link}. End what does not belong there."
 
     def _say_echo(self) -> None:
         """The seconds until the echo came back; NaN where none was understood."""

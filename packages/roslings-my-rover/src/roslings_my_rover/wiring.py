@@ -17,6 +17,8 @@ LIMITED = "/rover/limited"
 CHECKED = "/cmd_vel_raw"
 """What the guard of day 10 hears: its card names it, and asks for a deadline there."""
 MOTORS = "/rover/motors"
+LINKS = (LIMITED, CHECKED, MOTORS)
+"""Inside of the rover: each has one publisher, and nobody else's command belongs there."""
 BEFORE_THE_RELAY = (PACE, SONAR, GUARD)
 """Parts that nothing would follow, or that nothing would speak to, without the relay."""
 
