@@ -11,7 +11,9 @@ import pytest
 
 from ros2_on_pip.errors import FAILED, INCONCLUSIVE
 from roslings.course import Lab
+from roslings_class.result import Result
 from roslings_prove.new_lab import new_lab
+from roslings_prove.prove import AS_ABOVE, Solution, proof_of
 
 
 @dataclass(frozen=True)
@@ -53,6 +55,22 @@ KINDS = {
     ),
     "no Python": Kind("def test_ends(", "def test_ends((", "SyntaxError: "),
 }  # fmt: skip
+
+
+def test_what_the_grader_did_is_told_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It is wrong, and not open: to prove it again would tell the same."""
+    monkeypatch.setenv("ROSLINGS_COURSE", str(tmp_path))
+    package = Solution(new_lab("range-alarm", "alarm", "03-topics"))
+    result = Result(
+        submission=package.name, digest="", attempt=1, state="broken", broken_by_grader=True,
+        reason="The grader has a mistake: graders/grade_range_alarm.py:46\nNameError",
+    )  # fmt: skip
+    first = proof_of(package, result)
+    assert not first.holds and not first.is_open
+    assert "grade_range_alarm.py:46\n       NameError" in first.line
+    assert proof_of(package, result, {result.grader_broke}).problem == AS_ABOVE
+    busy = result.model_copy(update={"broken_by_grader": False})
+    assert proof_of(package, busy, {""}).is_open
 
 
 @pytest.mark.slow

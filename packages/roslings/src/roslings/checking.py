@@ -83,7 +83,7 @@ def mistakes_told(lab: Lab) -> Iterator[None]:
     except MeasuringFailed as failure:
         from roslings.judge.grader_mistakes import why_it_broke_off
 
-        if mistake := why_it_broke_off(lab, failure.last_words):
+        if mistake := why_it_broke_off(lab, failure.words):
             raise mistake from failure
         raise
 

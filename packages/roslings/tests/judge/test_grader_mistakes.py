@@ -5,7 +5,7 @@ from __future__ import annotations
 import shutil
 import traceback
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import pytest
@@ -153,6 +153,35 @@ def test_what_the_line_calls_may_break_off_deeper(tmp_path: Path) -> None:
     assert "ValueError: deeper  (raised in judge/test_grader_mistakes.py:" in mistake.told
 
 
+def test_the_line_is_found_however_deep_it_broke_off(tmp_path: Path) -> None:
+    """The message has the last words only, and the line of the grader stands far above them."""
+    found = broken(tmp_path, RUNS, "    scene.watch(ALIVE)")
+    experiment = load_grader(found.grader).telling
+    words = last_words(lambda: experiment.function(Deep(30)))
+    failure = MeasuringFailed(1, words)
+    assert "grade_example.py" not in str(failure)
+    with pytest.raises(GraderBroke) as told, mistakes_told(found):
+        raise failure
+    assert f"grade_example.py:{line_of(found.grader, 'scene.watch(ALIVE)')}" in str(told.value)
+
+
+@dataclass(frozen=True)
+class Deep:
+    """A scene that calls itself before it breaks off."""
+
+    times: int
+
+    def watch(self, topic: object) -> None:
+        """By two functions in turn: Python tells a line that calls itself once."""
+        if not self.times:
+            raise ValueError("deeper")
+        self.again(topic)
+
+    def again(self, topic: object) -> None:
+        """The other one."""
+        Deep(self.times - 1).watch(topic)
+
+
 def test_what_is_not_the_graders_is_left_as_it_is() -> None:
     """The machine's trouble has no line in a grader."""
     failure = MeasuringFailed(1, last_words(lambda: int("x")))
@@ -174,8 +203,8 @@ def test_an_experiment_that_asks_for_nothing_is_told(tmp_path: Path) -> None:
     insist(error, found.grader, "def telling", "asks for 'beter', and no experiment before it")
 
 
-def test_the_last_words_may_be_cut_short(tmp_path: Path) -> None:
-    """Where the line is not among them, the file tells what is wrong with it."""
+def test_its_words_may_not_name_the_line(tmp_path: Path) -> None:
+    """Then the file tells what is wrong with it."""
     found = broken(tmp_path, "def test_runs(", "def test_runs((")
     error = why_it_broke_off(found, "SyntaxError: '(' was never closed")
     assert error

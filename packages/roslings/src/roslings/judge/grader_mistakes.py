@@ -157,12 +157,12 @@ def load_or_tell(grader: Path) -> ModuleType:
         raise (GraderBroke(found.told) if found else error) from error
 
 
-def why_it_broke_off(lab: Lab, last_words: str) -> GraderBroke | None:
+def why_it_broke_off(lab: Lab, words: str) -> GraderBroke | None:
     """What a lab's grader did wrong where a measuring process ended with these words.
 
     None where it was not the grader.
     """
-    if found := mistake_in(last_words, lab.graders):
+    if found := mistake_in(words, lab.graders):
         return GraderBroke(found.told)
     try:
         asked = [each for file in lab.graders for each in asked_for_nothing(load_or_tell(file))]
