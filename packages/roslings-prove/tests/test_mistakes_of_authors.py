@@ -37,6 +37,10 @@ KINDS = {
         WATCH, "scene.wach(ALIVE)", "AttributeError: 'Scene' object has no attribute 'wach'",
         seen_in_files=False,
     ),
+    "a wrong thing for an action": Kind(
+        "scene.run(ALARM)", 'scene.run("alarm")',
+        "AttributeError: 'str' object has no attribute 'executable'", seen_in_files=False,
+    ),
     "an unknown name in a check": Kind(
         QUIET, "telling.topic(ALIFE).must(have_rate(ALIVE))",
         "NameError: name 'ALIFE' is not defined",
@@ -122,5 +126,5 @@ def insist(said: str, kind: Kind, line: int) -> None:
     words = " ".join(said.replace("│", " ").split())
     assert f"graders/grade_range_alarm.py:{line}" in words, said
     assert kind.said in words, said
-    assert "mends this line" in words, said
+    assert "mends this line" in words or "Mend this first" in words, said
     assert "The measurement broke off" not in words

@@ -41,6 +41,11 @@ class GraderBroke(BadGrader):
 
     exit_status = INCONCLUSIVE
 
+    def __init__(self, told: str, in_short: str = "") -> None:
+        """`in_short` says on one line where it is, and what Python says."""
+        self.in_short = in_short
+        super().__init__(told)
+
 
 @dataclass(frozen=True)
 class Mistake:
@@ -77,6 +82,11 @@ class Mistake:
         lines = [f"{what}: {self.place}{within}", f"    {code}" if code else "",
                  f"{self.words}{raised}", NEXT_STEP]  # fmt: skip
         return "\n".join(filter(None, lines))
+
+    @property
+    def error(self) -> GraderBroke:
+        """To be raised."""
+        return GraderBroke(self.told, self.in_short)
 
 
 # --- what an exception tells, and what a text tells --------------------------------------------
@@ -154,7 +164,7 @@ def load_or_tell(grader: Path) -> ModuleType:
         return load_grader(grader)
     except Exception as error:
         found = mistake_of(error, [grader])
-        raise (GraderBroke(found.told) if found else error) from error
+        raise (found.error if found else error) from error
 
 
 def why_it_broke_off(lab: Lab, words: str) -> GraderBroke | None:
@@ -163,12 +173,12 @@ def why_it_broke_off(lab: Lab, words: str) -> GraderBroke | None:
     None where it was not the grader.
     """
     if found := mistake_in(words, lab.graders):
-        return GraderBroke(found.told)
+        return found.error
     try:
         asked = [each for file in lab.graders for each in asked_for_nothing(load_or_tell(file))]
     except GraderBroke as error:
         return error
-    return GraderBroke(asked[0].told) if asked else None
+    return asked[0].error if asked else None
 
 
 def asked_for_nothing(grader: Any) -> Iterator[Mistake]:
