@@ -8,11 +8,13 @@ from sphinx.application import Sphinx
 
 from course_site import (
     api,
+    card_words,
     day_box,
     doctor_page,
     few_scripts,
     few_tags,
     glossary_page,
+    grader_words,
     landing,
     lesson_page,
     maths,
@@ -52,6 +54,8 @@ def setup(app: Sphinx) -> dict[str, Any]:
         landing,
     ):
         part.setup(app)
-    for part in (doctor_page, api, navigation, few_scripts, few_tags, small_scripts, one_sheet):
+    for part in (doctor_page, api, card_words, grader_words, navigation):
+        part.setup(app)
+    for part in (few_scripts, few_tags, small_scripts, one_sheet):
         part.setup(app)
     return {"version": "1", "parallel_read_safe": False, "parallel_write_safe": True}

@@ -75,12 +75,12 @@ def _definitions(tree: ast.AST) -> Iterator[Definition]:
 
 
 def _room(room: Room) -> str:
-    parts = [f"## `{room.name}`", _prose(room.about)]
+    parts = [f"## `{room.name}`", prose(room.about)]
     return "\n\n".join([*parts, *(_definition(each) for each in room.definitions)])
 
 
 def _definition(node: Definition) -> str:
-    about = _prose(inspect.cleandoc(ast.get_docstring(node) or ""))
+    about = prose(inspect.cleandoc(ast.get_docstring(node) or ""))
     methods = [
         f"- `{_signature(each)}`: {_first_sentence(each)}"
         for each in _definitions(node)
@@ -104,10 +104,10 @@ def _signature(node: Definition) -> str:
 
 def _first_sentence(node: Definition) -> str:
     text = " ".join((ast.get_docstring(node) or "").split("\n\n")[0].split())
-    return _prose(text)
+    return prose(text)
 
 
-def _prose(docstring: str) -> str:
+def prose(docstring: str) -> str:
     """A docstring as Markdown: indented parts are examples, code marks are kept."""
     pieces = re.split(r"(`[^`]*`)", docstring)
     kept = [

@@ -16,7 +16,9 @@ import roslings
 from roslings_learn.lessons import Lessons, read_lessons
 from roslings_learn.lessons.glossary import LINK
 
-WATCHED = ("days/path.yaml", "days/*/quiz.yaml", "glossary/*.yaml", "labs/*/card.yaml")
+WATCHED = (
+    "days/path.yaml", "days/*/quiz.yaml", "glossary/*.yaml", "labs/*/card.yaml", "graders/**/*.py",
+)  # fmt: skip
 
 
 def lessons_of(config: Config) -> Lessons:
@@ -32,7 +34,8 @@ def _read(root: Path) -> Lessons:
 def course_digest(root: Path) -> str:
     """Changes when a page must be made anew although its own file is the same."""
     files = [path for pattern in WATCHED for path in root.glob(pattern)]
-    files += [*Path(__file__).parent.glob("*.py"), *Path(roslings.__file__).parent.rglob("*.py")]
+    own = Path(__file__).parent
+    files += [*own.glob("*.py"), *own.glob("*.yaml"), *Path(roslings.__file__).parent.rglob("*.py")]
     files += Path(roslings.__file__).parent.rglob("*.md")
     digest = hashlib.sha256()
     for path in sorted(files):

@@ -55,8 +55,12 @@ OWN = "each mutant is a package of its own"
 POINTS = "the card gives points for the grader's checks"
 ORDER = "what a check needs, and what explains it, is checked before"
 FAULTS = "each fault that is named is one"
+ASKED = "what experiments and checks ask for is there"
+DEFINED = "each name in the grader is defined"
 READ = "its files can be read"
-RULES = {HINTS, ANCHORS, MUTANTS, NAMES, TASK, FITS, OWN, POINTS, ORDER, FAULTS, READ}
+RULES = {
+    HINTS, ANCHORS, MUTANTS, NAMES, TASK, FITS, OWN, POINTS, ORDER, FAULTS, ASKED, DEFINED, READ,
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("each", LABS.values(), ids=LABS)
@@ -151,6 +155,22 @@ CASES: dict[str, tuple[tuple[str, str, str], str, str]] = {
     "the grader is no Python": (
         (GRADER, "def test_ends(", "def test_ends(("), READ, "SyntaxError",
     ),
+    "a demand is misspelt": (
+        (GRADER, "import count_up, have_rate", "import count_up, hav_rate"), READ,
+        "ImportError: cannot import name 'hav_rate'",
+    ),
+    "a name in an experiment is misspelt": (
+        (GRADER, "scene.watch(ALIVE)", "scene.watch(ALIFE)"), DEFINED,
+        "NameError: name 'ALIFE' is not defined",
+    ),
+    "a check asks for no experiment": (
+        (GRADER, "test_text(telling:", "test_text(tellin:"), ASKED,
+        "it asks for 'tellin', and no experiment is called so. There are: package, telling",
+    ),
+    "an experiment asks for no earlier one": (
+        (GRADER, "def telling(scene: Scene)", "def telling(scene: Scene, before: object)"), ASKED,
+        "it asks for 'before', and no experiment before it is called so. There are: none",
+    ),
     "a check needs a later one": (
         (GRADER, 'needs=["builds"]', 'needs=["ends"]'), ORDER, "needs: no earlier check: ends",
     ),
@@ -165,6 +185,15 @@ def test_each_mistake_is_told_by_its_rule(
     file, old, new = broken
     change(made.folder / file, old, new)
     assert said in wrong()[rule]
+
+
+def test_a_mistake_in_the_grader_is_told_with_its_line(made: Lab) -> None:
+    """As an editor opens it, with the line itself and the next step."""
+    change(made.folder / GRADER, "import count_up, have_rate", "import count_up, hav_rate")
+    told_of_it = wrong()[READ]
+    assert "The grader has a mistake: graders/grade_line_follower.py:7" in told_of_it
+    assert "from roslings.capabilities.topics.demands import count_up, hav_rate" in told_of_it
+    assert "mends this line, and types the same" in told_of_it
 
 
 def test_two_mutants_of_one_content_are_told(made: Lab) -> None:

@@ -99,6 +99,8 @@ def test_the_grader_learns_another_name() -> None:
     """Where it calls the node by the card's word."""
     (change,) = changes_of(WORDS["nodes.beacon.executable"])
     assert 'CARD.node("beaconx")' in change.grader(EXAMPLE.grader.read_text("utf-8"))
+    same = 'CARD = lab("beacon").card\nBEACON = CARD.node("beacon")'
+    assert change.grader(same) == 'CARD = lab("beacon").card\nBEACON = CARD.node("beaconx")'
     (other,) = changes_of(HZ)
     assert other.grader("1.0") == "1.0"
 

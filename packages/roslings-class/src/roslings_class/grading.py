@@ -15,12 +15,14 @@ from pydantic import BaseModel
 
 from roslings import course
 from roslings.arena import NoFreeDomain, NoFreeUser
+from roslings.checking import mistakes_told
 from roslings.course import Lab
 from roslings.evidence import Evidence, PackageSeen, read_json, thin_json
 from roslings.experiment import Choices, MeasuringFailed, measure
 from roslings.experiment.soaking import SOAKING
 from roslings.hand_in.errors import Refused
 from roslings.hand_in.unpack import in_its_own_words, package_in
+from roslings.judge.grader_mistakes import GraderBroke
 from roslings.judge.loaded import judge_for
 from roslings.report.html.intervals import watched
 from roslings.report.whole_file import write_whole
@@ -102,6 +104,9 @@ def grade(order: Order) -> tuple[Result, Evidence | None]:
         return _refused(order, refusal, time.monotonic() - began_s), None
     except (MeasuringFailed, MachineTrouble, NoFreeDomain, NoFreeUser) as trouble:
         return broken(order, str(trouble), time.monotonic() - began_s), None
+    except GraderBroke as mistake:
+        seconds = time.monotonic() - began_s
+        return broken(order, str(mistake), seconds, by_the_grader=True), None
     result = Result(
         submission=order.submission, digest=order.digest, attempt=order.attempt, state="graded",
         verdict=found.verdict, seconds=time.monotonic() - began_s, lab_version=version_of(lab),
@@ -130,7 +135,8 @@ def _measured(order: Order, lab: Lab) -> Measured:
             order.soaking.touch()
 
     with judge_for(lab, order.strangers) as judge:
-        evidence = measure(lab.name, package, files, choices, note)
+        with mistakes_told(lab):
+            evidence = measure(lab.name, package, files, choices, note)
         verdict = judge(evidence, began_ns)
     return Measured(verdict, evidence, Fingerprint(read.whole, frozenset(read.marks)))
 

@@ -8,6 +8,7 @@ from typing import Literal
 from pydantic import BaseModel, ConfigDict
 
 from roslings.course.contract import Plain
+from roslings.judge.grader_mistakes import GraderBroke
 from roslings.verdict import Verdict
 from roslings_class.platform_names import NOBODY, platform_name
 
@@ -95,6 +96,8 @@ class Result(BaseModel):
     reason: str = ""
     """Why it was refused, or broke off."""
     next_step: str = ""
+    broken_by_grader: bool = False
+    """It broke off by a mistake in the grader: to try it again tells nothing new."""
     seconds: float = 0.0
     lab_version: str = ""
     """Of the engine, the card and the grader that judged it."""
@@ -119,6 +122,15 @@ class Result(BaseModel):
         return self.verdict is not None and self.verdict.outcome != "inconclusive"
 
     @property
+    def grader_broke(self) -> str:
+        """The mistake of the grader by which it could not tell; empty where there was none."""
+        if self.broken_by_grader:
+            return self.reason
+        checks = self.verdict.checks if self.verdict else ()
+        told = (f"{each.id}: {each.why}" for each in checks if each.fault == GraderBroke.__name__)
+        return "\n".join(told)
+
+    @property
     def score(self) -> float | None:
         """0 to 100; None where nobody could tell."""
         return self.verdict.score if self.verdict else None
@@ -139,10 +151,13 @@ class Result(BaseModel):
         return self.verdict.outcome if self.verdict else "inconclusive"
 
 
-def broken(order: Order, reason: str, seconds: float = 0.0) -> Result:
+def broken(
+    order: Order, reason: str, seconds: float = 0.0, *, by_the_grader: bool = False
+) -> Result:
     """A grading that ended without an answer: never the student's fault, never a zero."""
     return Result(
         submission=order.submission, digest=order.digest, attempt=order.attempt, state="broken",
         reason=reason, seconds=seconds, whose=order.whose, words=order.words,
+        broken_by_grader=by_the_grader,
         next_step="Look at this one yourself: ./roslings check LAB PATH",
     )  # fmt: skip

@@ -23,7 +23,9 @@ from roslings.course.promises import NAME as PROMISES
 from roslings.course.promises import Promises
 from roslings.course.task import is_current
 from roslings.judge.faults import Fault
+from roslings.judge.grader_mistakes import GraderBroke, asked_for_nothing, load_or_tell
 from roslings.judge.sheet import CheckLine, sheet
+from roslings.judge.undefined import undefined_names
 from roslings.workspace.normal import digest_of_all, digest_of_file
 from roslings.workspace.sources import files
 from roslings_learn.lessons.anchors import anchors_of
@@ -104,10 +106,13 @@ class LabFiles:
         if not self.card:
             return []
         try:
+            load_or_tell(self.lab.grader)
             return sheet(self.lab)
+        except GraderBroke as mistake:
+            self.unread.append(str(mistake).replace("\n", "\n       "))
         except Exception as error:  # a grader is a program: anything may be wrong with it
             self.unread.append(f"{self.lab.grader.name}: {type(error).__name__}: {error}")
-            return []
+        return []
 
     @cached_property
     def made(self) -> dict[str, Made]:
@@ -269,6 +274,15 @@ def _order(seen: LabFiles) -> Iterator[str]:
             yield from _named(f"{line.id}: {word}: no earlier check", _without(names, earlier))
 
 
+def _asked(seen: LabFiles) -> Iterator[str]:
+    yield from (each.in_short for each in asked_for_nothing(load_or_tell(seen.lab.grader)))
+
+
+def _defined(seen: LabFiles) -> Iterator[str]:
+    """Python looks for a name when the line runs, and an experiment runs late."""
+    yield from (each.in_short for each in undefined_names(load_or_tell(seen.lab.grader)))
+
+
 def _kinds(seen: LabFiles) -> Iterator[str]:
     """Faults by the names of their classes; the grader was loaded, and so were its faults."""
     known = {kind.__name__ for kind in _made_of(Fault)}
@@ -312,4 +326,6 @@ WITH_GRADER: Rules = (
     ("the card gives points for the grader's checks", _checked),
     ("what a check needs, and what explains it, is checked before", _order),
     ("each fault that is named is one", _kinds),
+    ("what experiments and checks ask for is there", _asked),
+    ("each name in the grader is defined", _defined),
 )

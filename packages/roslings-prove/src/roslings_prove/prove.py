@@ -24,6 +24,7 @@ from roslings_class.scheduler import GradingRequest, Scheduler, Watcher, always
 from roslings_class.submissions import Submission
 from roslings_class.worker_pool import GRADING
 
+AS_ABOVE = "the grader breaks off as it does above"
 DOES_NOT_APPLY = (CourseError, OSError, ValueError)
 """What making a mutant raises: an edit that does not fit, a file that is not there, or no text."""
 
@@ -236,9 +237,11 @@ def gradings_fit(
     """
     with run_folder() as scratch:
         results = graded(mixed(packages), scratch, watcher, jobs, still=still)
+    told = set[str]()
     for package in packages:
-        if package.name in results:
-            yield proof_of(package, results[package.name])
+        if result := results.get(package.name):
+            yield proof_of(package, result, told)
+            told.add(result.grader_broke)
 
 
 def mixed(packages: Iterable[Package]) -> list[Package]:
@@ -296,13 +299,20 @@ def graded(
     with gradebook(scratch / book, "labs") as results:
         scheduler = Scheduler(request, results, Capacity(fixed=jobs), watcher, still)
         scheduler.run(submissions)
-        if not all(result.is_conclusive for result in results.latest().values()):
+        left = [each for each in results.latest().values() if not each.is_conclusive]
+        if any(not each.grader_broke for each in left):
             scheduler.run(submissions)
         return results.latest()
 
 
-def proof_of(package: Package, result: Result) -> Proof:
-    """Nothing can be said where the machine could not tell, or where nothing was graded."""
+def proof_of(package: Package, result: Result, told: Collection[str] = ()) -> Proof:
+    """Nothing can be said where the machine could not tell, or where nothing was graded.
+
+    A mistake of the grader that was `told` is told no second time.
+    """
+    if mistake := result.grader_broke:
+        text = AS_ABOVE if mistake in told else mistake.replace("\n", "\n       ")
+        return Proof(package.about, text, package=package.name)
     if result.word == "inconclusive":
         unclear = _told(result, "inconclusive") or result.reason
         problem = f"not everything could be told, prove it again: {unclear}"

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 from ros2_on_pip.typed_paths import shown
 from roslings.course import Lab
 from roslings.evidence import Evidence, Span
-from roslings.experiment import Choices, Measuring, measuring_process
+from roslings.experiment import Choices, Measuring, MeasuringFailed, measuring_process
 from roslings.saving import Graded
 from roslings.workspace.inspect import inspect_package
 
@@ -42,7 +42,7 @@ class Ready:
     def grade(self, package: Path, began_ns: int, quiet: bool = False) -> Graded:
         """Measure a package and judge what was seen; its seconds count from `began_ns` on.
 
-        Raises MeasuringFailed, and whatever reading and staging the package raises.
+        Raises MeasuringFailed, GraderBroke, and whatever reading and staging the package raises.
         """
         from roslings.report import Progress
 
@@ -50,7 +50,8 @@ class Ready:
             progress.step(f"Reading {shown(package)}")
             files = inspect_package(package, self._lab.card)
             read_ns = time.monotonic_ns()
-            evidence = self._begun.measure(package, files, progress.step, self._load_judge)
+            with mistakes_told(self._lab):
+                evidence = self._begun.measure(package, files, progress.step, self._load_judge)
             reading = Span(part="reading", of=files.name, began_ns=began_ns, ended_ns=read_ns)
             evidence.timeline.insert(0, reading)
             progress.step("Judging what was seen")
@@ -69,6 +70,22 @@ class Ready:
         from roslings.judge.preload import load_judge
 
         load_judge(self._lab.name)
+
+
+@contextmanager
+def mistakes_told(lab: Lab) -> Iterator[None]:
+    """A block that measures: where it breaks off by a mistake in the grader, that is told.
+
+    Raises GraderBroke in place of the MeasuringFailed of such a mistake.
+    """
+    try:
+        yield
+    except MeasuringFailed as failure:
+        from roslings.judge.grader_mistakes import why_it_broke_off
+
+        if mistake := why_it_broke_off(lab, failure.words):
+            raise mistake from failure
+        raise
 
 
 @contextmanager

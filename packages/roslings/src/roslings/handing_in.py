@@ -9,18 +9,19 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from roslings.arena import CannotStart, NoFreeDomain, NoFreeUser
-from roslings.checking import any_seed
+from roslings.checking import any_seed, mistakes_told
 from roslings.course import Lab
 from roslings.evidence import Evidence, ProcessSeen
 from roslings.experiment import Choices, MeasuringFailed, measure
 from roslings.experiment.soaking import SOAKING
 from roslings.judge.demands import lifetime_s
+from roslings.judge.grader_mistakes import GraderBroke
 from roslings.judge.words import describe_end
 from roslings.report.safe_text import harmless
 from roslings.workspace.errors import WorkspaceError
 from roslings.workspace.inspect import inspect_package
 
-TROUBLE = (CannotStart, MeasuringFailed, NoFreeDomain, NoFreeUser, WorkspaceError)
+TROUBLE = (CannotStart, GraderBroke, MeasuringFailed, NoFreeDomain, NoFreeUser, WorkspaceError)
 
 
 def left_running(
@@ -35,7 +36,8 @@ def left_running(
     try:
         files = inspect_package(package, lab.card)
         choices = Choices(any_seed(), soak_s=for_s, only_soak=True)
-        evidence = measure(lab.name, package, files, choices, tell)
+        with mistakes_told(lab):
+            evidence = measure(lab.name, package, files, choices, tell)
     except TROUBLE as trouble:
         return ["Your nodes could not be run here, so nobody has seen that they stay:",
                 *str(trouble).splitlines()]  # fmt: skip

@@ -52,11 +52,15 @@ class Change:
         return changed
 
     def grader(self, text: str) -> str:
-        """The grader, which may call a thing by this word of the card."""
+        """The grader, which may call a thing by this word of the card.
+
+        A lab may have the same name, as new labs do of which nobody said another one.
+        """
         if self.word.kind is not Kind.KEY:
             return text
         (_, value), *_ = self.places
-        return text.replace(f'"{self.word.value}"', f'"{value}"')
+        own = rf'(?<!\blab\()"{re.escape(self.word.value)}"'
+        return re.sub(own, lambda _: f'"{value}"', text)
 
 
 def changes_of(word: Word) -> list[Change]:

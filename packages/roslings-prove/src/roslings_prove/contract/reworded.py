@@ -11,9 +11,9 @@ from pathlib import Path
 from pydantic import BaseModel
 
 from roslings import course
-from roslings.judge import judge
+from roslings.judge import GraderBroke, judge
 from roslings_class import grading
-from roslings_class.result import Order, Result
+from roslings_class.result import Order, Result, broken
 
 LIFE = f"{__name__}:main"
 NOTE = "wanted.json"
@@ -39,16 +39,20 @@ def main(order: Order) -> None:
     os.environ["ROSLINGS_COURSE"] = str(order.course)
     wanted = Wanted.model_validate_json((order.course / NOTE).read_text("utf-8"))
     result = judged(order, wanted)
-    if wanted.is_met(result):
+    if wanted.is_met(result) or result.broken_by_grader:
         grading.put(result, order)
     else:
         grading.main(order)
 
 
 def judged(order: Order, wanted: Wanted) -> Result:
-    """What the other card makes of the same evidence."""
+    """What the other card makes of the same evidence; it may break the grader."""
     evidence = grading.unpacked(wanted.seen.read_bytes())
+    try:
+        verdict = judge(course.lab(order.lab), evidence)
+    except GraderBroke as mistake:
+        return broken(order, mistake.in_short, by_the_grader=True)
     return Result(
         submission=order.submission, digest=order.digest, attempt=order.attempt, state="graded",
-        verdict=judge(course.lab(order.lab), evidence),
+        verdict=verdict,
     )  # fmt: skip

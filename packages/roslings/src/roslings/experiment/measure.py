@@ -30,9 +30,11 @@ class MeasuringFailed(RoslingsError):
 
     exit_status = INCONCLUSIVE
 
-    def __init__(self, status: int, last_words: str) -> None:
-        self.status, self.last_words = status, last_words
-        super().__init__(f"The measurement broke off (status {status}).\n{last_words}".rstrip())
+    def __init__(self, status: int, words: str) -> None:
+        """`words` are all that it wrote; the message has the last of them."""
+        self.status, self.words = status, words
+        last = "\n".join(words.splitlines()[-LAST_WORDS:])
+        super().__init__(f"The measurement broke off (status {status}).\n{last}".rstrip())
 
 
 @dataclass(frozen=True)
@@ -96,8 +98,7 @@ class Measuring:
         if status := self._process.wait():
             if shutil.disk_usage(self._order.folder).free < ROOM_NEEDED_BYTES:
                 raise DiskFull(self._order.folder)
-            words = self._order.errors.read_text("utf-8", errors="replace").splitlines()
-            raise MeasuringFailed(status, "\n".join(words[-LAST_WORDS:]))
+            raise MeasuringFailed(status, self._order.errors.read_text("utf-8", errors="replace"))
 
 
 @contextmanager

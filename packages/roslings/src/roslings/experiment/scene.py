@@ -163,12 +163,20 @@ class Scene:
 
     @contextmanager
     def starting(self) -> Iterator[None]:
-        """A stretch in which nodes start by another way than `run`: a launch file, say."""
+        """A stretch in which nodes start by another way than `run`: a launch file, say.
+
+        >>> with scene.starting():
+        ...     scene.until(lambda: process.alive, 5.0)
+        """
         with self._turns.busy(), self._noted("starting"):
             yield
 
     def ending(self) -> AbstractContextManager[None]:
-        """A stretch in which what was started so is asked to end, and waited for."""
+        """A stretch in which what was started so is asked to end, and waited for.
+
+        >>> with scene.ending():
+        ...     process.interrupt(scene.ends_within_s)
+        """
         return self._noted("ending")
 
     def _noted(self, part: Part) -> AbstractContextManager[None]:
@@ -187,7 +195,11 @@ class Scene:
         return Counter(self.seen.graph.nodes) - self._over
 
     def busy(self) -> AbstractContextManager[None]:
-        """A stretch in which something of ours takes a processor: no times are judged meanwhile."""
+        """A stretch in which something of ours takes a processor: no times are judged meanwhile.
+
+        >>> with scene.busy():
+        ...     picture = draw_a_large_picture()
+        """
         return self._turns.busy()
 
     def timed(self) -> AbstractContextManager[None]:
@@ -307,7 +319,10 @@ class Scene:
             return self.is_written(process, text)
 
     def is_written(self, process: Process, text: str) -> bool:
-        """The text stands in the terminal or in /rosout."""
+        """The text stands in the terminal or in /rosout.
+
+        >>> scene.until(lambda: scene.is_written(process, "ready"), 5.0)
+        """
         lines = [*process.lines(), *(line for log in self.seen.rosout.values() for line in log)]
         return any(text in line.text for line in lines)
 
@@ -357,7 +372,10 @@ class Scene:
             list(fingers.map(lambda process: process.interrupt(within_s), processes))
 
     def until(self, condition: Callable[[], bool], within_s: float) -> bool:
-        """Wait for the condition, as long as every process lives. Whether it holds."""
+        """Wait for the condition, as long as every process lives. Whether it holds.
+
+        >>> scene.until(lambda: scene.heard(CHATTER) >= 10, 8.0)
+        """
         with self._timed_watching():
             return self._until_alive(condition, within_s)
 
@@ -367,7 +385,10 @@ class Scene:
         return self.until_own(turn.is_over, within_s)
 
     def until_own(self, condition: Callable[[], bool], within_s: float) -> bool:
-        """As `until`; what the processes wait for a processor comes on top, to a bound."""
+        """As `until`; what the processes wait for a processor comes on top, to a bound.
+
+        >>> scene.until_own(lambda: not process.alive, 3.0)
+        """
         own = OwnTime(self._arena)
         self.until(lambda: condition() or own.is_past(within_s), within_s + LONGEST_WAIT_S)
         return condition()
@@ -376,6 +397,8 @@ class Scene:
         """As `until_own`, for what was away: not for long where others have missed `what`, too.
 
         For a while even then: on a busy computer another experiment may have given up too early.
+
+        >>> scene.until_back(lambda: scene.heard(IMAGE) > before, says(IMAGE), 10.0)
         """
         own = OwnTime(self._arena)
 
@@ -395,12 +418,17 @@ class Scene:
 
         When all nodes are complete, it is waited for during `grace_s` of their own time, and in no
         later experiment: `what` is its name.
+
+        >>> scene.appears(lambda: len(scene.seen.graph.nodes) == 2, "both nodes")
         """
         with self._timed_watching():
             return self._until_there(condition, what, grace_s)
 
     def is_missed(self, what: str) -> bool:
-        """Some experiment of this grading has waited for it in vain."""
+        """Some experiment of this grading has waited for it in vain.
+
+        >>> scene.is_missed(publishes(CHATTER))
+        """
         return self._presence.is_known(what)
 
     def hear(self, contract: TopicContract, count: int = 1, grace_s: float = GRACE_S) -> bool:

@@ -35,7 +35,11 @@ class Unobserved:
 
     @contextmanager
     def run(self, node: NodeContract, remaps: Sequence[str] = ()) -> Iterator[Process]:
-        """Start a node; press Ctrl-C when the block ends."""
+        """Start a node; press Ctrl-C when the block ends.
+
+        >>> with scene.run(TALKER), scene.run(LISTENER) as listener:
+        ...     scene.read_along(listener, LISTENER, CHATTER)
+        """
         with self._arena.run(node.executable, PLAIN.arguments(remaps)) as process:
             self.seen.processes[node.executable] = process.seen
             yield process

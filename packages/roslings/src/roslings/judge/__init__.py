@@ -28,7 +28,8 @@ from roslings.judge.demands import (
 )
 from roslings.judge.every_package import depends, well_formed
 from roslings.judge.faults import Fault, Inconclusive, NothingToJudge
-from roslings.judge.judge import BadGrader, judge
+from roslings.judge.grader_mistakes import BadGrader, GraderBroke
+from roslings.judge.judge import judge
 from roslings.judge.unobserved import speak_unobserved
 from roslings.judge.views import ExperimentView, PackageView
 
@@ -36,6 +37,7 @@ __all__ = [
     "BadGrader",
     "ExperimentView",
     "Fault",
+    "GraderBroke",
     "Inconclusive",
     "NothingToJudge",
     "PackageView",

@@ -71,7 +71,10 @@ def require_its_time(
 
 
 def be_well_formed(build_type: str) -> Demand[PackageView]:
-    """package.xml is valid and of the right kind, no file is missing, Python can read the code."""
+    """package.xml is valid and of the right kind, no file is missing, Python can read the code.
+
+    >>> package.must(be_well_formed(CARD.build_type))
+    """
 
     def demand(package: PackageView) -> None:
         files = package.files

@@ -10,10 +10,10 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from roslings.course import Lab
-from roslings.course.files import CourseError
 from roslings.evidence import Evidence, ExperimentSeen, Span
-from roslings.grader import Experiment, experiments_of, load_grader
+from roslings.grader import Experiment, experiments_of
 from roslings.judge.dropped import Looks, watched
+from roslings.judge.grader_mistakes import BadGrader, load_or_tell
 from roslings.judge.unrecorded import NotRecordedView
 from roslings.judge.views import ExperimentView, View, views_of
 from roslings.timeline import NS_PER_S, shares_s
@@ -32,10 +32,6 @@ if TYPE_CHECKING:
 NO_PLUGINS = "PYTEST_DISABLE_PLUGIN_AUTOLOAD"
 
 
-class BadGrader(CourseError):
-    """A grader's file cannot be used; the course's fault."""
-
-
 def judge(lab: Lab, evidence: Evidence, began_ns: int | None = None) -> Verdict:
     """Run the lab's checks on `evidence`. Raises BadGrader.
 
@@ -50,7 +46,7 @@ def judge_later(lab: Lab, bring: Callable[[], tuple[Evidence, int | None]]) -> V
     `bring` brings `began_ns`, too, as `judge` has it. Raises BadGrader.
     """
     _ = lab.card, lab.hints, lab.hidden_checks
-    declared = [each for grader in lab.graders for each in experiments_of(load_grader(grader))]
+    declared = [each for grader in lab.graders for each in experiments_of(load_or_tell(grader))]
     views: dict[str, View] = {}
     looks = Looks()
     brought: list[tuple[Evidence, int | None]] = []
@@ -93,7 +89,7 @@ def run_checks(lab: Lab, evidences: Evidences, looks: Looks) -> tuple[CheckResul
 
     from roslings.judge.plugin import Collector, evidence_plugin
 
-    collector = Collector(lab, looks)
+    collector = Collector(lab, looks, evidences.names)
     options = [
         *map(str, lab.graders),
         "-c",

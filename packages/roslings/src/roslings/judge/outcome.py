@@ -3,16 +3,26 @@
 from __future__ import annotations
 
 import traceback
+from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 from roslings.evidence import UnreadablePart
 from roslings.judge.faults import Fault, Inconclusive, NothingToJudge, Unmet
 from roslings.judge.faults.python_words import hint_for, mend_for
+from roslings.judge.grader_mistakes import GraderBroke, Mistake, mistake_of
 from roslings.judge.remarks import remarks
 
+ITSELF = "the grader itself failed here"
 
-def words_for(error: BaseException | None, title: str) -> dict[str, Any]:
-    """Outcome and sentences for what a check raised; for None, that it passed."""
+
+def words_for(
+    error: BaseException | None, title: str, graders: Sequence[Path] = ()
+) -> dict[str, Any]:
+    """Outcome and sentences for what a check raised; for None, that it passed.
+
+    A mistake in one of `graders` is told with its line.
+    """
     if error is None:
         return {"outcome": "pass", "measured": remarks()}
     if isinstance(error, AssertionError):
@@ -32,9 +42,20 @@ def words_for(error: BaseException | None, title: str) -> dict[str, Any]:
         return {"outcome": "skip", "why": str(error)}
     if isinstance(error, Inconclusive | UnreadablePart):
         return {"outcome": "inconclusive", "why": str(error)}
-    words = "".join(traceback.format_exception(error)).strip()
-    why = "the grader itself failed here: tell your instructor"
-    return {"outcome": "inconclusive", "why": why, "log": tuple(words.splitlines()[-12:])}
+    log = tuple("".join(traceback.format_exception(error)).strip().splitlines()[-12:])
+    if found := mistake_of(error, graders):
+        return {**words_for_mistake(found), "log": log}
+    return {"outcome": "inconclusive", "why": f"{ITSELF}: tell your instructor", "log": log}
+
+
+def words_for_mistake(mistake: Mistake) -> dict[str, Any]:
+    """Outcome and sentences for a check that cannot tell, by a mistake of the grader."""
+    return {
+        "outcome": "inconclusive",
+        "why": f"{ITSELF}: {mistake.in_short}. Who writes the lab mends this line; who does the"
+        " lab tells the instructor",
+        "fault": GraderBroke.__name__,
+    }
 
 
 def _message(error: AssertionError) -> str:

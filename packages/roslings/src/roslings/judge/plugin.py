@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import types
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,7 +15,8 @@ from roslings.judge.check import check_of
 from roslings.judge.dropped import Looks
 from roslings.judge.faults import Fault, Inconclusive, NothingToJudge, PrintsWithoutEnd
 from roslings.judge.floods import flood_in
-from roslings.judge.outcome import words_for
+from roslings.judge.grader_mistakes import nothing_called
+from roslings.judge.outcome import words_for, words_for_mistake
 from roslings.judge.remarks import begin_remarks
 from roslings.judge.sheet import title_of
 from roslings.judge.unrecorded import NotRecordedView
@@ -26,7 +27,8 @@ from roslings.verdict import CheckResult
 class Collector:
     """Runs each check once its needs have passed, and writes down what came of it."""
 
-    def __init__(self, lab: Lab, looks: Looks) -> None:
+    def __init__(self, lab: Lab, looks: Looks, there: Sequence[str] = ()) -> None:
+        """`there` are the names that a check can ask for."""
         self.results: list[CheckResult] = []
         self.problems: list[str] = []
         self._roots: dict[str, str] = {}
@@ -34,7 +36,7 @@ class Collector:
         """Checks that do not pass, and keep no other from being judged."""
         self._floods: dict[str, str] = {}
         """Executables that print without end, to the check that tells it."""
-        self._lab, self._looks = lab, looks
+        self._lab, self._looks, self._there = lab, looks, there
 
     def pytest_addoption(self, parser: pytest.Parser) -> None:
         """How a failure is written: nobody reads pytest's own page, half of a judgement's time."""
@@ -113,7 +115,7 @@ class Collector:
             "max_points": worth,
             "lesson": self._lab.lesson_of(name),
             "hidden": name in self._lab.hidden_checks,
-            **_words_for(error, title_of(_function(item))),
+            **self._words_for(item, error),
         }
         if isinstance(error, Fault) and not error.blocks:
             self._open.add(name)
@@ -121,11 +123,13 @@ class Collector:
             words["hints"] = hint.steps
         return CheckResult(**words)
 
-
-def _words_for(error: BaseException | None, title: str) -> dict[str, Any]:
-    if isinstance(error, pytest.skip.Exception):
-        return {"outcome": "skip", "why": str(error)}
-    return words_for(error, title)
+    def _words_for(self, item: pytest.Item, error: BaseException | None) -> dict[str, Any]:
+        if isinstance(error, pytest.skip.Exception):
+            return {"outcome": "skip", "why": str(error)}
+        if isinstance(error, pytest.FixtureLookupError) and error.argname:
+            mistake = nothing_called(error.argname, _function(item), self._there)
+            return words_for_mistake(mistake)
+        return words_for(error, title_of(_function(item)), self._lab.graders)
 
 
 def _function(item: pytest.Item) -> Any:

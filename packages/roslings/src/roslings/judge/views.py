@@ -254,7 +254,10 @@ class ExperimentView(View):
         return self.labelled(node.executable)
 
     def labelled(self, label: str) -> ProcessView:
-        """The process that the experiment gave this name. Raises KeyError."""
+        """The process that the experiment gave this name. Raises KeyError.
+
+        >>> twice.labelled("/left/first").must(stay_up)
+        """
         runs = [each.processes[label] for each in self.before if label in each.processes]
         before = tuple(process for process in runs if process.ending)
         doubted = tuple(
@@ -300,7 +303,10 @@ class ExperimentView(View):
         return self._endpoint(node, topic, "subscription")
 
     def published_by(self, node: NodeContract) -> list[str]:
-        """The topics that a node publishes, without those of ROS itself."""
+        """The topics that a node publishes, without those of ROS itself.
+
+        >>> assert telling.published_by(BEACON) == [ALIVE.topic]
+        """
         name = self.node(node).near.found
         ends = own_endpoints(self.seen.graph)
         return sorted({e.topic for e in ends if e.kind == "publisher" and e.node == name})

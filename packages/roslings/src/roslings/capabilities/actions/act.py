@@ -117,7 +117,11 @@ class Director:
 
     @contextmanager
     def giving(self) -> Iterator[GoalGiver | None]:
-        """A client that is matched with the server; None where there is none to give goals to."""
+        """A client that is matched with the server; None where there is none to give goals to.
+
+        >>> with director.giving() as giver:
+        ...     there = giver is not None
+        """
         end = self._end()
         if end is None or self._silent:
             yield None
@@ -303,7 +307,10 @@ def await_action(scene: Scene) -> None:
 
 
 class Rest:
-    """Tells that a robot will not get to a point: it stands, or has not come nearer, for long."""
+    """Tells that a robot will not get to a point: it stands, or has not come nearer, for long.
+
+    >>> rest = Rest(robot, goal)
+    """
 
     def __init__(self, robot: Robot, goal: Mapping[str, float], own: OwnTime | None = None) -> None:
         """`own` is the time of the node that is to command the robot, from now on."""
@@ -313,7 +320,10 @@ class Rest:
         self._pose, self._told = robot.pose, len(robot.seen.commands)
 
     def is_over(self) -> bool:
-        """It has been so for long enough."""
+        """It has been so for long enough.
+
+        >>> scene.until(lambda: rest.is_over(), 20.0)
+        """
         now_s = time.monotonic()
         if self._own and len(self._robot.seen.commands) == self._told:
             return self._own.is_past(IDLE_S)

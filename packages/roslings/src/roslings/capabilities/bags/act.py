@@ -83,7 +83,10 @@ class Giver:
 
 
 def holding(drive: Drive, reader: BagReaderContract) -> DriveHeld:
-    """The truth about a drive."""
+    """The truth about a drive.
+
+    >>> holding(giver.drive(), READER)
+    """
     odometry = of_topic(drive.said, reader.odometry)
     names = [topic.name for topic in drive.topics]
     return DriveHeld(

@@ -53,7 +53,10 @@ class Shot:
     decoy: Disc | None = None
 
     def frame(self, seed: int) -> Frame:
-        """The picture; the same seed draws the same noise."""
+        """The picture; the same seed draws the same noise.
+
+        >>> frame = shot.frame(scene.seed)
+        """
         eye = Eye(self.width, self.height)
         camera = SyntheticCamera(eye, self.light, self.encoding, self.idle_bytes, seed)
         return camera.frame([disc for disc in (self.decoy, self.ball) if disc])

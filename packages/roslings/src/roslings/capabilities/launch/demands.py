@@ -65,6 +65,8 @@ def run_on(experiment: ExperimentView) -> None:
     """The launch did not end by itself before there was any node. Raises Inconclusive.
 
     So where the file asks for what only the full ROS has.
+
+    >>> brought_up.must(run_on)
     """
     process = launch_of(experiment)
     log = process.last_lines()
@@ -215,6 +217,8 @@ def follow_the_argument(
     """In each namespace, the parameter that the argument sets has the value that it was given.
 
     Left out are namespaces for whose nodes the file has sections of their own.
+
+    >>> otherwise.must(follow_the_argument(LAUNCH, CAREFUL, CARD.node))
     """
     return _obeyed(contract, argument, node, False, faults.ArgumentIgnored)
 
@@ -225,6 +229,8 @@ def win_over_its_section(
     """The same of the namespaces that `follow_the_argument` leaves out.
 
     To be asked after it: where only these are wrong, it is the section that has won.
+
+    >>> otherwise.must(win_over_its_section(LAUNCH, CAREFUL, CARD.node))
     """
     return _obeyed(contract, argument, node, True, faults.SectionOfTheNodeWins)
 

@@ -49,7 +49,10 @@ class Setter:
         self._try(part, {name: value}, together=False)
 
     def set_together(self, part: str, values: Mapping[str, Plain]) -> None:
-        """Ask it to set several at once: all of them, or none."""
+        """Ask it to set several at once: all of them, or none.
+
+        >>> setter.set_together("both", {"lowest": 0.1, "highest": 0.4})
+        """
         self._try(part, values, together=True)
 
     def _try(self, part: str, values: Mapping[str, Plain], together: bool) -> None:

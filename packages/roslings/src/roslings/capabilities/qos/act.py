@@ -174,7 +174,10 @@ class Watched:
         )
 
     def close(self) -> None:
-        """Write down what the motors were told, and when the operator commanded."""
+        """Write down what the motors were told, and when the operator commanded.
+
+        >>> guard.close()
+        """
         self.seen.moves += [
             MoveSeen(at_ns=each["at"], fields=_moving(each["moved"])) for each in self._moved()
         ]

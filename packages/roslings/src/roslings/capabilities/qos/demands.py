@@ -416,7 +416,10 @@ def hear_from_afar(topic: TopicContract) -> Demand[ExperimentView]:
 
 
 def on_two_computers(*demands: Demand[ExperimentView]) -> Demand[ExperimentView]:
-    """These demands, where there are two computers. Else Inconclusive, with the reason."""
+    """These demands, where there are two computers. Else Inconclusive, with the reason.
+
+    >>> apart.must(on_two_computers(stop_for(CMD_VEL, "far", HOSTS.stops_within_s)))
+    """
 
     def demand(experiment: ExperimentView) -> None:
         _hosts(experiment)

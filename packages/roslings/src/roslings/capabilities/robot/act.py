@@ -98,11 +98,17 @@ class Robot:
         return abs(motion.forward_m_s) < STANDS_M_S and abs(motion.turn_rad_s) < STANDS_RAD_S
 
     def distance_to(self, x_m: float, y_m: float) -> float:
-        """How far it really is from a point, in metres."""
+        """How far it really is from a point, in metres.
+
+        >>> scene.until(lambda: robot.distance_to(3.0, 5.0) < 0.1, 30.0)
+        """
         return math.hypot(x_m - self.pose.x_m, y_m - self.pose.y_m)
 
     def listen_to(self, topic: str, type_: str) -> None:
-        """Do what is said on this topic. Nothing where its type has no speeds."""
+        """Do what is said on this topic. Nothing where its type has no speeds.
+
+        >>> robot.listen_to(CMD_VEL.topic, CMD_VEL.type)
+        """
         from rclpy.qos import QoSProfile, ReliabilityPolicy
 
         try:
@@ -113,7 +119,10 @@ class Robot:
         self._ear = self._probe.eye.create_subscription(commands, topic, self._hear, quality)
 
     def speak_to(self, ear: Endpoint) -> None:
-        """Tell this subscription where it is."""
+        """Tell this subscription where it is.
+
+        >>> robot.speak_to(ear)
+        """
         from nav_msgs.msg import Odometry
 
         eye = self._probe.eye

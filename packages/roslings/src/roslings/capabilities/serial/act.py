@@ -224,7 +224,10 @@ class Cable:
         )
 
     def say(self, ear: Endpoint, forward_m_s: float, turn_rad_s: float) -> bool:
-        """Say one motion; whether somebody was there to hear it. A dead node is not waited for."""
+        """Say one motion; whether somebody was there to hear it. A dead node is not waited for.
+
+        >>> cable.say(ear, 0.2, 0.0)
+        """
         if not self._lives():
             return False
         content = {"linear": {"x": forward_m_s}, "angular": {"z": turn_rad_s}}
@@ -252,7 +255,10 @@ class Cable:
         self._way.points_m.append((round(pose.x_m, 4), round(pose.y_m, 4)))
 
     def write_down(self) -> None:
-        """Put what the board and its cable saw into the evidence."""
+        """Put what the board and its cable saw into the evidence.
+
+        >>> cable.write_down()
+        """
         keeps = self._scene.probe.store.keeps
         self.seen.told = lines_of(self.board.told)
         self.seen.heard = [each for each in lines_of(self.board.heard) if keeps("requests", each)]
@@ -300,6 +306,8 @@ def lines_of(chunks: Sequence[Chunk]) -> list[CableLine]:
 
     What has no end for too long is a line as well, a wrong one. The time is cut to microseconds, as
     the board's clock has them: nobody asks for more, and there are thousands of lines.
+
+    >>> lines_of(board.told)
     """
     lines, begun = list[CableLine](), b""
     for chunk in chunks:
