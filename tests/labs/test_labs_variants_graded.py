@@ -87,6 +87,7 @@ def test_a_class_is_graded_by_the_own_cards(tmp_path: Path) -> None:
         else next((grades / "students" / "s1002").glob("*.html")).read_text("utf-8")
     )
     assert re.search(r"Judged by the card of s1002: rate [\d.]+", page)
+    assert "How the rates spread" not in (grades / "class.html").read_text("utf-8")
     with (grades / "cards.csv").open(encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     assert [row["for"] for row in rows] == ["s1001", "s1002", "s1003"]

@@ -129,9 +129,11 @@ def _failed_part(counts: Counter[str]) -> float:
 
 
 def _rates(lab: Lab, results: Sequence[Result]) -> Iterator[Markup]:
+    """Of those who have everybody's card: where cards differ, there is no one right rate."""
     figures = []
+    alike = [result.rates for result in results if not result.words]
     for asked in asked_rates(lab):
-        rates = [result.rates[asked.topic] for result in results if asked.topic in result.rates]
+        rates = [found[asked.topic] for found in alike if asked.topic in found]
         if rates:
             low, high = min(asked.low_hz, *rates), max(asked.high_hz, *rates)
             words = (
