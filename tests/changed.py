@@ -162,6 +162,8 @@ ROOMS = {
     "shapes": (f"{ENGINE}/report",),
     "hand_in": (f"{CLASS}/batch",),
     "way": ("tests/cli",),
+    "variants": ("tests/labs/test_labs_variants.py", f"{ENGINE}/workspace"),
+    "own_card": (f"{ENGINE}/workspace", "tests/cli/test_cli_startup.py"),
 }
 """Rooms whose tests stand elsewhere, too."""
 

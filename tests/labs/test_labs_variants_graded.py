@@ -13,10 +13,12 @@ from pathlib import Path
 
 import pytest
 
+from ros2_on_pip.errors import INCONCLUSIVE
 from roslings.course import lab, root
 from roslings.course.files import read_yaml
 from roslings.variants import chosen
 from roslings_prove.variants import InOwnWords, SolutionEdits
+from until_told import until_told
 
 PAGE = (root() / "site/pages/teachers/variants.md").read_text("utf-8")
 TOPICS = lab("topics")
@@ -24,12 +26,14 @@ FILES = ("class.csv", "hand-ins", "grades")
 
 
 def roslings(*words: str | Path, code: int, home: Path) -> str:
-    """What a command prints."""
-    done = subprocess.run(
-        [sys.executable, "-m", "roslings", *map(str, words)],
-        env={**os.environ, "HOME": str(home), "ROSLINGS_WS": str(home / "roslings_ws")},
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
+    """What a command prints, as soon as it can tell."""
+    command = [sys.executable, "-m", "roslings", *map(str, words)]
+    environment = {**os.environ, "HOME": str(home), "ROSLINGS_WS": str(home / "roslings_ws")}
+
+    def ask() -> subprocess.CompletedProcess[str]:
+        return subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+
+    done = until_told(ask, lambda done: done.returncode == INCONCLUSIVE)
     assert done.returncode == code, done.stdout + done.stderr
     return done.stdout + done.stderr
 

@@ -8,21 +8,16 @@ say the same words, so a student's course is this one with that lab written anew
 from __future__ import annotations
 
 import hashlib
-import os
 import re
 import shutil
-import tempfile
 import unicodedata
 from collections.abc import Iterator, Mapping
-from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from pydantic import Field, field_validator
 
-from ros2_on_pip.typed_paths import shown
-from roslings import course
 from roslings.course import Lab
 from roslings.course.contract import Contract, Plain, as_typed
 from roslings.course.files import (
@@ -34,8 +29,6 @@ from roslings.course.files import (
     read_yaml,
 )
 from roslings.course.mutants import Edit
-from roslings.workspace.errors import WorkspaceError
-from roslings.workspace.student import workspace_root
 
 FILE = "variants.yaml"
 VALUE = "{value}"
@@ -47,8 +40,6 @@ NOT_FOR_STUDENTS = (
 """Of a lab's folder: they hold answers."""
 _LEFT_OUT = (*NOT_FOR_STUDENTS, FILE, "__pycache__", ".*")
 """Of a student's own course: there is no second choice on top of the first."""
-_KEPT, _WHOSE = Path(".roslings/variants"), Path(".roslings/for")
-_LONGEST_NAME = 100
 _NO_LETTER = re.compile(r"[\W_]+")
 
 
@@ -58,16 +49,6 @@ class NoVariants(CourseError):
     def __init__(self, lab: Lab) -> None:
         super().__init__(
             f"The lab {lab.name!r} has one card for everybody: there is no labs/{lab.name}/{FILE}."
-        )
-
-
-class NoName(WorkspaceError):
-    """Nobody can be called so."""
-
-    def __init__(self) -> None:
-        super().__init__(
-            "A card is somebody's: that name has no letter and no digit, or is too long.",
-            "Give the number or the name that your teacher has in the class list: --for 1234",
         )
 
 
@@ -257,77 +238,3 @@ def chosen(lab: Lab, whose: str) -> Chosen:
     if found is None:
         raise NoVariants(lab)
     return Chosen(lab, found, found.chosen(lab.name, whose))
-
-
-# --- the card of this workspace's student -----------------------------------------------------
-
-
-def take_name(whose: str) -> None:
-    """From now on the cards of this workspace are those of `whose`. Raises NoName."""
-    if not key_of(whose) or len(whose) > _LONGEST_NAME or not whose.isprintable():
-        raise NoName
-    file = workspace_root() / _WHOSE
-    try:
-        file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_text(f"{whose}\n", "utf-8")
-    except OSError as error:
-        problem = f"{shown(file)} cannot be written: {error.strerror}."
-        raise WorkspaceError(
-            problem, "See whether the folder is yours and the disk has room."
-        ) from error
-
-
-def whose_cards() -> str:
-    """Whose the cards of this workspace are; empty where nobody has said it."""
-    with suppress(OSError, UnicodeDecodeError):
-        return (workspace_root() / _WHOSE).read_text("utf-8").strip()
-    return ""
-
-
-def own_lab(name: str, hidden: Path | None = None, whose: str | None = None) -> Lab:
-    """The lab `name` by the card of `whose`, else of this workspace's student, else everybody's.
-
-    From then on this process and those that it starts know that course. Raises CourseError; with
-    `whose` NoVariants, too.
-    """
-    lab, owner = course.lab(name, hidden), whose or whose_cards()
-    if whose or (owner and variants_of(lab)):
-        made = _kept(own := chosen(lab, owner))
-        os.environ["ROSLINGS_COURSE"] = str(made)
-        if not whose:
-            _forget_others(own.lab.name, made)
-    return course.lab(name, hidden)
-
-
-def told_of(name: str) -> Iterator[str]:
-    """Whose card of a lab this workspace has, and what is the student's own in it.
-
-    Asked before `own_lab`: a student's course has nothing to choose.
-    """
-    whose, lab = whose_cards(), course.lab(name)
-    if whose and variants_of(lab):
-        own = chosen(lab, whose)
-        yield f"Your card of {name!r} is that of {whose}. Its own words:"
-        yield from (f"  {word:9} {as_typed(value)}" for word, value in own.words.items())
-    elif whose:
-        yield f"The lab {name!r} has one card for everybody."
-
-
-def _kept(own: Chosen) -> Path:
-    """The student's course; made where it is not there, whole or not at all."""
-    folder = workspace_root() / _KEPT / f"{own.lab.name}-{own.digest()}"
-    if not folder.is_dir():
-        folder.parent.mkdir(parents=True, exist_ok=True)
-        made = Path(tempfile.mkdtemp(prefix="new-", dir=folder.parent))
-        own.make(made)
-        with suppress(OSError):  # another command was as fast
-            made.rename(folder)
-        shutil.rmtree(made, ignore_errors=True)
-    return folder
-
-
-def _forget_others(lab: str, folder: Path) -> None:
-    """Cards of before: another name, or a course that has changed."""
-    for other in folder.parent.glob(f"{lab}-????????????"):
-        if other != folder:
-            shutil.rmtree(other, ignore_errors=True)

@@ -9,15 +9,8 @@ from pathlib import Path
 import pytest
 
 from roslings.course import lab
-from roslings.variants import (
-    NoName,
-    NoVariants,
-    chosen,
-    own_lab,
-    take_name,
-    told_of,
-    whose_cards,
-)
+from roslings.own_card import NoName, own_lab, take_name, told_of, whose_cards
+from roslings.variants import NoVariants, chosen
 
 
 @pytest.fixture(autouse=True)

@@ -72,7 +72,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _lab(options: argparse.Namespace) -> Lab:
     """By the card of whose package it is."""
-    from roslings.variants import own_lab
+    from roslings.own_card import own_lab
 
     if options.as_stranger and not options.whose:
         return course.lab(options.lab)

@@ -91,7 +91,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _lab(options: argparse.Namespace) -> Lab:
     """By the student's own card; the course's solution is one of everybody's."""
-    from roslings.variants import own_lab
+    from roslings.own_card import own_lab
 
     if options.solution or (options.as_stranger and not options.whose):
         return course.lab(options.lab, options.hidden)

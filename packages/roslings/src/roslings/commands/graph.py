@@ -59,7 +59,7 @@ def _pictures_wanted(options: argparse.Namespace) -> list[Path]:
     """The file that was named, or those that a lab's card wants in the package."""
     if not options.lab:
         return [options.save] if options.save else []
-    from roslings.variants import own_lab
+    from roslings.own_card import own_lab
 
     lab = own_lab(options.lab)
     package = package_of(lab, options.path)

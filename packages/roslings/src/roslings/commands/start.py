@@ -19,10 +19,10 @@ def add_options(word: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Put a lab's starter into the workspace."""
-    from roslings.variants import own_lab, take_name, told_of
+    from roslings.own_card import own_lab, take_name, told_of
     from roslings.workspace.student import start as put
 
-    if options.whose:
+    if options.whose is not None:
         take_name(options.whose)
     told = list(told_of(options.lab))
     lab = own_lab(options.lab)

@@ -80,7 +80,7 @@ def _session(name: str, options: argparse.Namespace, keys: Keyboard) -> Session:
         from roslings_learn.commands.watch.drill import begun as drill_begun
 
         return drill_begun(name, keys)
-    from roslings.variants import own_lab
+    from roslings.own_card import own_lab
     from roslings_learn.commands.watch.lab import begun as lab_begun
 
     _insist_on_a_name(name)
