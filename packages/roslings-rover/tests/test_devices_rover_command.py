@@ -211,7 +211,7 @@ def test_a_ball_in_the_corner_stays_in_sight() -> None:
 def test_nothing_is_minus_nothing() -> None:
     """A rover that stands a hair south of the middle is at 0.00, and looks east at 0 degrees."""
     rover = Rover(pose=Pose(-0.001, -0.004, -0.001))
-    shown = "\n".join([*beside(RoverNode(rover)), position(RoverNode(rover))])
+    shown = "\n".join([*beside(DrivenRover(rover)), position(DrivenRover(rover))])
     assert "-0" not in shown and "heading       0 degrees" in shown
     rover.pose = Pose(-0.25, -1.0, math.radians(-90))
     assert position(RoverNode(rover)).startswith("x -0.25 m, y -1.00 m, heading -90 degrees")

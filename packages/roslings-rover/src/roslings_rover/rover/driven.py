@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from roslings_rover.models.differential_drive import Pose
 from roslings_rover.models.world import Ball
 from roslings_rover.rover.node import RoverNode
 
@@ -22,6 +23,15 @@ class DrivenRover(RoverNode):
     """The ball that it has touched, and not left since."""
     next_step: str = ""
     """What whoever has reached a ball does next."""
+    more_keys: str = ""
+    """What other keys do; at most 80 columns."""
+    about_parts: tuple[str, ...] = ()
+    """What there is to say of the parts that it is made of; at most 32 columns each."""
+
+    @property
+    def believed(self) -> Pose | None:
+        """Where somebody thinks that it is; None where nobody says it."""
+        return None
 
     def _open_timers(self) -> None:
         super()._open_timers()

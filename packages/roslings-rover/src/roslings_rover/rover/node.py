@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
-from roslings_rover.models.differential_drive import Motion, Pose
+from roslings_rover.models.differential_drive import Motion
 from roslings_rover.rover.ears import Ears, Sentence, hearing
 from roslings_rover.rover.rover import Rover
 
@@ -55,10 +55,6 @@ class RoverNode:
     """The keys of this terminal drive it."""
     listens: bool = False
     """It hears what others say, too."""
-    more_keys: str = ""
-    """What other keys do; at most 80 columns."""
-    about_parts: tuple[str, ...] = ()
-    """What there is to say of the parts that it is made of; at most 32 columns each."""
     _told_s: float = field(default=-math.inf, repr=False)
     _ears: Ears | None = field(default=None, repr=False)
     _parts: ExitStack = field(default_factory=ExitStack, repr=False)
@@ -93,11 +89,6 @@ class RoverNode:
         self._executor.shutdown()
         self._node.destroy_node()
         self._context.try_shutdown()
-
-    @property
-    def believed(self) -> Pose | None:
-        """Where somebody thinks that it is; None where nobody says it."""
-        return None
 
     @property
     def sentence(self) -> Sentence | None:

@@ -14,7 +14,7 @@ KEYS_PACE = "q and z: faster and slower. i, j, l and comma do as the arrows do."
 STOPPED = 0.005
 
 
-def beside(node: RoverNode) -> list[str]:
+def beside(node: DrivenRover) -> list[str]:
     """Where the rover is, and what it hears and says; at most 32 columns."""
     pose, motion = node.rover.pose, node.rover.motion
     return [
