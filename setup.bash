@@ -51,15 +51,16 @@ fi
 # robot of your own on the network, say SUBNET before you source this file.
 export ROS_AUTOMATIC_DISCOVERY_RANGE=${ROS_AUTOMATIC_DISCOVERY_RANGE:-LOCALHOST}
 
-# Nor with those of another person on this computer.
+# Nor with those of another person on this computer. Said once in each terminal.
+_roslings_known=${ROS_DOMAIN_ID-}
 . "$_roslings/packages/roslings-launcher/src/roslings_launcher/domain.sh"
-if [ -n "$_roslings_said" ]; then printf '%s\n' "$_roslings_said" >&2; fi
-unset _roslings_said
 
 case :$PATH: in
-    *":$_roslings:"*) ;;
+    *":$_roslings:"*) [ -z "$_roslings_known" ] || _roslings_said= ;;
     *) export PATH=$PATH:$_roslings ;;
 esac
+if [ -n "$_roslings_said" ]; then printf '%s\n' "$_roslings_said" >&2; fi
+unset _roslings_said _roslings_known
 # One line for whoever types it; a script that sources this file has nobody to tell.
 if [ -t 1 ] && { [ -n "${ROS_DISTRO-}" ] || [ -e "$_roslings/.venv/roslings" ]; }; then
     case $- in *i*) echo "ROS 2 ${ROS_DISTRO:-jazzy} is ready in this terminal." ;; esac

@@ -400,6 +400,7 @@ NEEDS = (
     Need("control group for memory", control_group("memory")),
     Need("root", root),
     Need("other users", other_users),
+    Need("useradd", runs("useradd", "--help")),
     Need("filter of system calls", bare(FILTERS_CALLS)),
     Need("keys of the kernel", bare(HAS_KEYS)),
     Need("Landlock", bare(CONFINES_FILES)),

@@ -26,6 +26,7 @@ NO_PATHS = {
     "ROSLINGS_GRADER": "a repository of an organisation, on GitHub",
     "ROSLINGS_ISOLATION": "the name of a wall",
     "ROSLINGS_MUTANTS_UNTIL": "seconds since 1970",
+    "ROSLINGS_OWN_DOMAIN": "the number of a ROS domain",
     "ROSLINGS_READY_S": "seconds",
     "ROSLINGS_RESULTS": "a result itself, for the reporter of GitHub Classroom",
     "ROSLINGS_SITE": "whether the site runs the lesson",

@@ -7,6 +7,7 @@ import os
 import re
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -14,9 +15,9 @@ from tiny_course import DAY, write_course
 
 from roslings_learn.jupyter.choosing import chosen_day, place_for
 from roslings_learn.jupyter.copies import Copies
-from roslings_learn.jupyter.errors import NoSuchDay, NotWritten
+from roslings_learn.jupyter.errors import NoHub, NoSuchDay, NotWritten
 from roslings_learn.jupyter.meanings import with_meanings
-from roslings_learn.jupyter.server import Place, command, write_kernel
+from roslings_learn.jupyter.server import Place, command, environment, open_lab, write_kernel
 from roslings_learn.jupyter.unrun import unrun
 from roslings_learn.lessons import Day, read_lessons
 from sources import python_path
@@ -149,24 +150,63 @@ def test_a_day_that_cannot_be_opened_is_told(copies: Copies) -> None:
 
 def test_what_the_server_is_told(copies: Copies) -> None:
     """The page, the port, no browser, and this computer alone."""
-    place = place_for("1", days_of(copies), copies, port=9911, browser=False)
-    words = command(place)
+    place, share = place_for("1", days_of(copies), copies, port=9911, browser=False), Path("share")
+    words = command(place, share)
     assert "--LabApp.default_url=/lab/tree/01-lamp/lesson.ipynb" in words
     assert f"--ServerApp.root_dir={copies.folder}" in words
     assert {"--ServerApp.port=9911", "--ServerApp.port_retries=0", "--no-browser"} <= set(words)
     assert Place(copies, None).page == "/lab/tree/Days.md"
-    assert "--no-browser" not in command(Place(copies, None))
+    assert "--no-browser" not in command(Place(copies, None), share)
+    assert "--LabApp.app_settings_dir=share/lab/settings" in words
+
+
+def test_what_a_server_of_jupyterhub_is_told(copies: Copies) -> None:
+    """The page; where to listen, and for whom, comes from JupyterHub itself."""
+    place = place_for(None, days_of(copies), copies, port=9911, browser=True)
+    words = command(replace(place, hub=True, ip="0.0.0.0"), Path("share"))
+    assert words[1:3] == ["-m", "jupyterhub.singleuser"]
+    assert "--ServerApp.default_url=/lab/tree/01-lamp/lesson.ipynb" in words
+    assert not [word for word in words if word.startswith(("--ServerApp.port", "--ServerApp.ip"))]
+    assert "--no-browser" not in words
+
+
+def test_hub_typed_by_a_person_is_refused(copies: Copies, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With what belongs into JupyterHub's configuration."""
+    monkeypatch.delenv("JUPYTERHUB_SERVICE_URL", raising=False)
+    with pytest.raises(NoHub, match=r'c\.Spawner\.cmd = \[".*/roslings", "lab", "--hub"\]'):
+        open_lab(Place(copies, None, hub=True))
 
 
 def test_the_kernel_is_the_one_of_this_place(tmp_path: Path) -> None:
     """Written at each start: a clone that was moved gets the new path."""
     for name in ("here", "moved here"):
-        write_kernel(tmp_path / name)
+        assert write_kernel(tmp_path / name, tmp_path / "ws") == tmp_path / name / "share/jupyter"
         note = tmp_path / name / "share" / "jupyter" / "kernels" / "roslings" / "kernel.json"
         assert json.loads(note.read_text())["argv"][0] == str(tmp_path / name / "bin" / "python")
     settings = tmp_path / "here" / "share" / "jupyter" / "lab" / "settings" / "overrides.json"
     news = json.loads(settings.read_text())["@jupyterlab/apputils-extension:notification"]
     assert news == {"fetchNews": "false", "checkForUpdates": False}
+
+
+def test_an_environment_of_others_is_left_as_it_is(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What is right is used; what cannot be written there lies in the workspace."""
+    prefix, own = tmp_path / "env", tmp_path / "ws/.roslings/jupyter"
+    right = write_kernel(prefix, tmp_path / "ws") / "kernels/roslings/kernel.json"
+    before = right.stat().st_mtime_ns
+    write_kernel(prefix, tmp_path / "ws")
+    assert right.stat().st_mtime_ns == before and not own.exists()
+    closed = tmp_path / "closed"
+    closed.mkdir()
+    (closed / "share").touch()
+    assert write_kernel(closed, tmp_path / "ws") == own
+    note = json.loads((own / "kernels/roslings/kernel.json").read_text())
+    assert note["argv"][0] == str(closed / "bin/python")
+    assert (own / "lab/settings/overrides.json").is_file()
+    monkeypatch.setenv("JUPYTER_PATH", "/theirs")
+    assert environment(own)["JUPYTER_PATH"] == f"{own}:/theirs"
+    assert environment(Path(sys.prefix) / "share/jupyter")["JUPYTER_PATH"] == "/theirs"
 
 
 def test_a_wrong_day_is_wrong_use(copies: Copies) -> None:

@@ -2,33 +2,19 @@
 
 from __future__ import annotations
 
-import json
-import os
-import re
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
+from explained import MOST, QUESTION, asked_about, first_that_fails, typed
 from roslings.course import Lab, lab
-from until_told import run_until_told
 
 pytestmark = pytest.mark.slow
 
-QUESTION = re.compile(r"^\d of 3   (\S+), line (\d+)\n\n((?:    [-+] .*\n)+)\n.*? is (\w+):", re.M)
 LABS = ["topics", "services"]
 OTHERS = ["nodes", "distance-sensor", "actions", "serial-bridge", "pi-camera", "bring-up",
           "black-box", "e-stop"]  # fmt: skip
-
-
-def typed(*words: str, ws: Path) -> subprocess.CompletedProcess[str]:
-    """A command of the course, in a workspace of its own."""
-    return run_until_told(
-        [sys.executable, "-m", "roslings", *words], env={**os.environ, "ROSLINGS_WS": str(ws)},
-        stdin=subprocess.DEVNULL,
-    )  # fmt: skip
 
 
 def package_of(asked: Lab, to: Path) -> Path:
@@ -41,31 +27,11 @@ def package_of(asked: Lab, to: Path) -> Path:
 )
 def test_its_answer_is_what_a_check_says(name: str, tmp_path: Path) -> None:
     """Each change, found by what was printed and made by hand: the same check fails first."""
-    asked = lab(name)
-    package = package_of(asked, tmp_path)
-    said = typed("explain", name, str(package), "--answers", ws=tmp_path / "ws")
-    assert said.returncode == 0, said.stderr
-    found = QUESTION.findall(said.stdout)
-    assert len(found) == 3 and len({failed for *_, failed in found}) == 3, said.stdout
-    for file, line, changed, failed in found:
-        copy = Path(shutil.copytree(package, tmp_path / f"line-{line}" / package.name))
-        make_by_hand(copy / file, int(line), changed)
-        told = typed("check", name, str(copy), "--json", "-", ws=tmp_path / "ws")
-        assert told.returncode == 1
-        checks = json.loads(told.stdout)["checks"]
-        assert next(each["id"] for each in checks if each["outcome"] == "fail") == failed
-
-
-def make_by_hand(file: Path, line: int, changed: str) -> None:
-    """As a person does who sees file, line, and lines with - and +."""
-    shown = [(each[4], each[6:]) for each in changed.splitlines()]
-    old, new = ([text for sign, text in shown if sign == kind] for kind in "-+")
-    lines = file.read_text("utf-8").splitlines()
-    there = lines[line - 1 : line - 1 + len(old)]
-    assert [each.strip() for each in there] == [each.strip() for each in old]
-    indent = " " * (len(there[0]) - len(there[0].lstrip()) - (len(old[0]) - len(old[0].lstrip())))
-    lines[line - 1 : line - 1 + len(old)] = [indent + each for each in new]
-    file.write_text("\n".join([*lines, ""]), "utf-8")
+    package = package_of(lab(name), tmp_path)
+    found = asked_about(name, package, tmp_path)
+    assert len(found) == MOST
+    for each in found:
+        assert first_that_fails(name, package, each, tmp_path) == each.failed
 
 
 def test_a_package_that_does_not_pass_is_told(tmp_path: Path) -> None:

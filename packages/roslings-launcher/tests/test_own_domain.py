@@ -94,6 +94,19 @@ def test_who_has_chosen_keeps_it(computer: Computer, variables: dict[str, str]) 
     assert computer.domain(OTHER, **variables) == f"|{kept}"
 
 
+def test_who_came_by_a_jupyterhub_is_never_alone(computer: Computer) -> None:
+    """The first of a class has a domain too, also in a container; who has chosen keeps it."""
+    assert computer.domain(JUPYTERHUB_USER="anna") == SAID
+    assert computer.domain(JUPYTERHUB_USER="anna", ROS_DOMAIN_ID="7") == "|7"
+
+
+def test_a_program_within_says_it_too(computer: Computer) -> None:
+    """A terminal of JupyterLab has the domain already, and nobody saw the line of the server."""
+    within = {"ROS_DOMAIN_ID": "96", "ROSLINGS_OWN_DOMAIN": "96"}
+    assert computer.domain(**within) == SAID
+    assert computer.domain(**within | {"ROS_DOMAIN_ID": "7"}) == "|7"
+
+
 def test_an_empty_choice_is_none(computer: Computer) -> None:
     """ROS takes it as 0; and without HOME there are only processes to look at."""
     local = {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
@@ -135,17 +148,33 @@ def test_a_real_neighbour_is_seen() -> None:
         neighbour.wait()
 
 
-def test_both_doors_tell_it(computer: Computer) -> None:
-    """`source setup.bash` in a terminal, once; what it exports is what `./roslings` then finds."""
+def sourced(computer: Computer, times: int, path: str = "", **variables: str) -> tuple[str, str]:
+    """The domain, and what was said, after so many times `source setup.bash` in one terminal."""
     (computer.folder / "seen").write_text(ALONE + OTHER)
     (computer.folder / "homes").touch()
     (computer.folder / "ls.sh").write_text(f'cat "{computer.folder}/seen"\n')
-    sourced = "".join(f"source {REAL}/setup.bash; " for _ in range(2))
+    line = f"source {REAL}/setup.bash; " * times
     done = subprocess.run(
-        ["bash", "-c", f"{sourced} echo $ROS_DOMAIN_ID; compgen -v | grep -c _roslings"],
+        ["bash", "-c", f"{line} echo $ROS_DOMAIN_ID; compgen -v | grep -c _roslings"],
         env={
-            "PATH": f"{computer.folder}:/usr/bin:/bin", "HOME": "/home/me", "ROS_DISTRO": "jazzy"
+            "PATH": f"{computer.folder}:/usr/bin:/bin{path}", "HOME": "/home/me",
+            "ROS_DISTRO": "jazzy", **variables,
         }, capture_output=True, text=True, check=False,
     )  # fmt: skip
-    assert done.stdout.split() == ["96", "0"]
-    assert done.stderr == SAID.partition("|")[0] + "\n"
+    domain, left = done.stdout.split()
+    assert left == "0"
+    return domain, done.stderr
+
+
+def test_both_doors_tell_it(computer: Computer) -> None:
+    """`source setup.bash` in a terminal, once; what it exports is what `./roslings` then finds."""
+    line = SAID.partition("|")[0] + "\n"
+    assert sourced(computer, 2) == ("96", line)
+    assert sourced(computer, 1, path=f":{REAL}") == ("96", line)
+
+
+def test_a_terminal_of_jupyterlab_tells_it_once(computer: Computer) -> None:
+    """JupyterLab was started with the domain; who chose another one is told nothing."""
+    line = SAID.partition("|")[0] + "\n"
+    assert sourced(computer, 2, ROS_DOMAIN_ID="96", ROSLINGS_OWN_DOMAIN="96") == ("96", line)
+    assert sourced(computer, 2, ROS_DOMAIN_ID="7", ROSLINGS_OWN_DOMAIN="96") == ("7", "")

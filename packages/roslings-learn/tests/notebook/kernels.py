@@ -104,7 +104,7 @@ def _specs(folder: Path) -> KernelSpecManager:
         python = prefix / "bin" / "python"
         python.write_text(f'#!/bin/sh\nexec "{sys.executable}" "$@"\n', encoding="utf-8")
         python.chmod(0o755)
-    write_kernel(prefix)
+    write_kernel(prefix, prefix)
     return KernelSpecManager(kernel_dirs=[str(prefix / "share" / "jupyter" / "kernels")])
 
 

@@ -21,6 +21,9 @@ def add_options(word: argparse.ArgumentParser) -> None:
         metavar="ADDRESS",
         help="who may open it; 0.0.0.0 in a container (default: this computer)",
     )
+    word.add_argument(
+        "--hub", action="store_true", help="as the server of one user: JupyterHub starts it so"
+    )
 
 
 def run(options: argparse.Namespace) -> int:
@@ -34,7 +37,7 @@ def run(options: argparse.Namespace) -> int:
     days = lessons.days
     copies = Copies(course.root(), workspace_root(), lessons.glossary)
     place = place_for(options.day, days, copies, options.port, not options.no_browser)
-    place = replace(place, ip=options.ip)
+    place = replace(place, ip=options.ip, hub=options.hub)
     for told in copies.copy_all(days):
         print(told)
     return open_lab(place)

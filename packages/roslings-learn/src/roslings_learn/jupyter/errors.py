@@ -25,3 +25,14 @@ class NotWritten(NoLessonToOpen):
         super().__init__(
             f"{day.name} has no notebook yet. To see the days that have one: ./roslings lab"
         )
+
+
+class NoHub(NoLessonToOpen):
+    """`--hub` was typed by a person."""
+
+    def __init__(self) -> None:
+        super().__init__(
+            "--hub is for JupyterHub, which starts this for each of its users. In a terminal, type"
+            " ./roslings lab. In the configuration of JupyterHub:\n"
+            '  c.Spawner.cmd = ["/opt/roslings/roslings", "lab", "--hub"]'
+        )

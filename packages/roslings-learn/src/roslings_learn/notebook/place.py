@@ -22,6 +22,9 @@ LOGS = {LOGS_ON_STDOUT: "1", "RCUTILS_LOGGING_BUFFERED_STREAM": "0"}
 ON_THE_SITE = "ROSLINGS_SITE"
 """Set where the website runs a lesson: the quiz has a page of its own there, for example."""
 
+OWN_DOMAIN = "ROSLINGS_OWN_DOMAIN"
+"""Set with ROS_DOMAIN_ID where nobody chose that one: see `domain.sh` of roslings-launcher."""
+
 _held: dict[int, socket.socket] = {}
 """The domain of this process, with its lease; empty until a cell first needs it."""
 
@@ -56,6 +59,7 @@ def _fill_in() -> None:
 def _lease(wanted: int) -> tuple[int, socket.socket]:
     held = lease(wanted)
     if held is not None:
+        _tell_who_came_by_a_hub(wanted)
         return wanted, held
     busy = domains_in_use()
     for domain in (each for each in SAFE_DOMAINS if each not in busy):
@@ -64,6 +68,12 @@ def _lease(wanted: int) -> tuple[int, socket.socket]:
             _tell(wanted, domain)
             return domain, held
     raise NoFreeDomain
+
+
+def _tell_who_came_by_a_hub(domain: int) -> None:
+    """Everybody else has seen the line in the terminal in which `./roslings lab` was typed."""
+    if "JUPYTERHUB_USER" in os.environ and os.environ.get(OWN_DOMAIN) == str(domain):
+        print(f"Several people use this computer, so your ROS_DOMAIN_ID is {domain}.")
 
 
 def _tell(wanted: int, domain: int) -> None:
