@@ -24,7 +24,7 @@ class Given:
 LEARN = "packages/roslings-learn/src/roslings_learn"
 ENGINE = "packages/roslings/src/roslings"
 SIX = (
-    Given("jupyterlab", "lab", f"{LEARN}/jupyter/server.py", r'return \[.*"-m", "jupyterlab"'),
+    Given("jupyterlab", "lab", f"{LEARN}/jupyter/server.py", r'if place.hub else "jupyterlab"'),
     Given("nbval", "test", "tests/lessons_as_tests.py", r"^class LessonFile\(IPyNbFile\):"),
     Given("nbval", "test", ".ci/run", r"\./roslings test days --nbval-lax"),
     Given("ros-jazzy-rclpy", "ros", f"{LEARN}/notebook/session.py", r"^ +rclpy\.init\($"),

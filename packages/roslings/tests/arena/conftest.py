@@ -13,6 +13,10 @@ from roslings.arena import Isolation, Sandbox, choose_isolation
 from skips import skip_without
 
 
+BROWSERS_OWN = "chromium --type="
+"""A browser that other tests have opened in this process starts helpers when it likes."""
+
+
 def children_of_this_process() -> set[str]:
     """Command lines of every living descendant."""
     parents: dict[int, int] = {}
@@ -27,7 +31,8 @@ def children_of_this_process() -> set[str]:
     found, fresh = set[int](), {os.getpid()}
     while fresh := {pid for pid, parent in parents.items() if parent in fresh}:
         found |= fresh
-    return {command_of(pid) for pid in found} - {""}
+    commands = {command_of(pid) for pid in found} - {""}
+    return {command for command in commands if BROWSERS_OWN not in command}
 
 
 def command_of(pid: int) -> str:
