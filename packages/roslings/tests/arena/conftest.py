@@ -12,7 +12,6 @@ import pytest
 from roslings.arena import Isolation, Sandbox, choose_isolation
 from skips import skip_without
 
-
 BROWSERS_OWN = "chromium --type="
 """A browser that other tests have opened in this process starts helpers when it likes."""
 
