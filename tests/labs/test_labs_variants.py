@@ -61,7 +61,7 @@ def test_card_task_hints_and_starter_say_the_same(
     for name, value in said.items():
         word = words(lab).words[name]
         at = Chosen(lab, words(lab), said)
-        before = at._value_of(name)
+        before = at.value_before(name)
         if isinstance(value, str) and "{" not in value:
             gone = rf"(?<![\w/]){re.escape(before)}(?![\w/])"
             assert re.search(gone, task + hints) is None
@@ -78,7 +78,7 @@ def test_no_sentence_says_a_number_of_the_card(lab: Lab, said: dict[str, variant
     prose = sections.sub("", lab.task.read_text("utf-8"))
     prose += (lab.folder / "hints.yaml").read_text("utf-8")
     for name, value in said.items():
-        before = Chosen(lab, words(lab), said)._value_of(name)
+        before = Chosen(lab, words(lab), said).value_before(name)
         if not isinstance(value, str):
             assert not re.search(rf"(?<![\w.]){before:g} ?(Hz|m/s)", prose), name
 

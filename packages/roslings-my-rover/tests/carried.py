@@ -181,7 +181,7 @@ def carried(
         process = subprocess.Popen(
             [sys.executable, "-m", "roslings", "my-rover", "--view", "lines",
              *(["--keys"] if keys else []), *words],
-            env=_environment(domain, workspace), cwd=workspace, text=True, start_new_session=True,
+            env=surroundings(domain, workspace), cwd=workspace, text=True, start_new_session=True,
             stdin=theirs, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
         )  # fmt: skip
         os.close(theirs)
@@ -200,7 +200,8 @@ def carried(
             os.close(ours)
 
 
-def _environment(domain: int, workspace: Path) -> Mapping[str, str]:
+def surroundings(domain: int, workspace: Path) -> Mapping[str, str]:
+    """A new terminal of this workspace's student."""
     kept = {k: os.environ[k] for k in ("PATH", "LD_LIBRARY_PATH", "LANG", "ROSLINGS_COURSE",
                                        "AMENT_PREFIX_PATH", "_ROS_WHEELS_BOOTSTRAP_COMPLETE")
             if k in os.environ}  # fmt: skip

@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from carried import _environment, carried, put, until
+from carried import carried, put, surroundings, until
 from test_my_rover_wins import carries, workspace
 
 from roslings.course import lab
@@ -126,7 +126,7 @@ def _commands() -> str:
 def typed(workspace: Path, *words: str) -> subprocess.CompletedProcess[str]:
     """The command to its end."""
     return subprocess.run(
-        [sys.executable, "-m", "roslings", "my-rover", *words], env=_environment(1, workspace),
+        [sys.executable, "-m", "roslings", "my-rover", *words], env=surroundings(1, workspace),
         stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False, cwd=workspace,
     )  # fmt: skip
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
-from carried import Carried, _environment, carried, put
+from carried import Carried, carried, put, surroundings
 
 from roslings.course import lab
 from roslings_my_rover.parts import (
@@ -67,7 +67,7 @@ def drives_to_a_point(rover: Carried) -> bool:
     """By an action, with nobody at the keys."""
     words = [sys.executable, "-m", "ros2_on_pip", "action", "send_goal", "/drive_to",
              "rover_interfaces/action/DriveTo", "{x: 1.5, y: 0.5, tolerance: 0.1}"]  # fmt: skip
-    environment = _environment(rover.domain, Path.cwd())
+    environment = surroundings(rover.domain, Path.cwd())
     with suppress(subprocess.TimeoutExpired):
         subprocess.run(
             words, env=environment, timeout=rover.patience_s, check=False, capture_output=True
@@ -231,7 +231,7 @@ def read_drive(bag: Path) -> str:
     """What the solution of day 9 says of it."""
     folder = lab("black-box").solution
     words = [sys.executable, "-m", "black_box.read_drive", str(bag)]
-    environment = _environment(0, bag.parent)
+    environment = surroundings(0, bag.parent)
     environment = {**environment, "PYTHONPATH": f"{folder}:{environment['PYTHONPATH']}"}
     done = subprocess.run(words, env=environment, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr

@@ -67,8 +67,6 @@ def run(
     Raises NoPart where there is nothing to carry, NoTerminal, NoWindow, and what a board, a
     camera or a build raises.
     """
-    if not choice.there:
-        raise NoPart
     with ExitStack() as stack:
         home = stack.enter_context(run_folder())
         with Progress() as progress:

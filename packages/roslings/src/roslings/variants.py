@@ -123,11 +123,6 @@ class Chosen:
     variants: Variants
     words: Mapping[str, Plain]
 
-    @property
-    def line(self) -> str:
-        """For its owner: `rate: 4.0; text: Hello {n}`."""
-        return "; ".join(f"{name}: {as_typed(value)}" for name, value in self.words.items())
-
     def card(self) -> dict[str, Any]:
         """The card's tree, with these words in it. Raises BadCourseFile."""
         tree: dict[str, Any] = read_tree(self.lab.folder / "card.yaml")
@@ -182,19 +177,19 @@ class Chosen:
     def _in_words(self, text: str) -> str:
         """Where a text says a name of the card, it says the student's."""
         for name, value in self.words.items():
-            before = self._value_of(name)
+            before = self.value_before(name)
             if isinstance(value, str) and isinstance(before, str):
                 alone = rf"(?<![\w/]){re.escape(before)}(?![\w/])"
                 text = re.sub(alone, lambda _, said=value: said, text)  # type: ignore[misc]
         return text
 
-    def _value_of(self, name: str) -> Any:
+    def value_before(self, name: str) -> Any:
         """What the card itself says; None where the word stands in sentences only."""
         alone = self.variants.words[name].alone
-        tree = read_tree(self.lab.folder / "card.yaml")
-        return (
-            self._at(tree, name, alone[0])[0][self._at(tree, name, alone[0])[1]] if alone else None
-        )
+        if not alone:
+            return None
+        part, key = self._at(read_tree(self.lab.folder / "card.yaml"), name, alone[0])
+        return part[key]
 
     def _put(self, tree: dict[str, Any], name: str, place: str, said: Plain) -> None:
         part, key = self._at(tree, name, place)
