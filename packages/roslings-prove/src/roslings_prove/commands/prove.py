@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 USUALLY_PROVEN = ("packages", "contract")
-PROVABLE = (*USUALLY_PROVEN, "generated", "rewritten", "variants")
+PROVABLE = (*USUALLY_PROVEN, "generated", "boundary", "rewritten", "variants")
 
 
 def add_options(word: argparse.ArgumentParser) -> None:
@@ -44,12 +44,16 @@ def add_options(word: argparse.ArgumentParser) -> None:
         help="make 100 wrong packages of the solution; 95 of 100 must be caught",
     )  # fmt: skip
     word.add_argument(
+        "--boundary", action="store_true",
+        help="let 60 things go wrong between its nodes and ROS; 98 of 100 must be caught",
+    )  # fmt: skip
+    word.add_argument(
         "--keep", metavar="DIR", type=Path,
-        help="with --generated: where results stay, so that an interrupted run goes on",
+        help="with --generated, --boundary: where results stay, so that an interrupted run goes on",
     )  # fmt: skip
     word.add_argument(
         "--so-far", action="store_true",
-        help="with --generated: grade nothing, and tell what is known",
+        help="with --generated, --boundary: grade nothing, and tell what is known",
     )  # fmt: skip
     word.add_argument(
         "--keep-kills", action="store_true",
@@ -112,7 +116,7 @@ def _prove_labs(options: argparse.Namespace) -> int:
         with Progress() as progress:
             graded = [line for part in parts for line in part(labs, Teller(progress), options.jobs)]
     except KeyboardInterrupt:
-        if options.generated:
+        if options.generated or options.boundary:
             print("\nWhat is graded is kept. The same command goes on from here.", file=sys.stderr)
         raise
     lines = [*seen, *graded]
@@ -209,6 +213,10 @@ def _proofs_of(name: str, options: argparse.Namespace) -> Callable[..., Iterable
         from roslings_prove.generated.run import proofs_for
 
         return proofs_for(options.keep, options.so_far, options.keep_kills)
+    if name == "boundary":
+        from roslings_prove.boundary.run import proofs_for as proofs_at_the_boundary
+
+        return proofs_at_the_boundary(options.keep, options.so_far)
     if name == "rewritten":
         from roslings_prove.rewritten import prove_rewritten
 

@@ -11,6 +11,7 @@ from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 
 from roslings.course import Lab
 from roslings_changes import candidates as changes
@@ -33,6 +34,10 @@ class Generated(Change):
         short = hashlib.sha256(self.changed.encode()).hexdigest()[:8]
         place = f"{self.file.rpartition('/')[2]}:{self.line}"
         return f"{self.lab.name}-{self.operator}-{place}-{short}"
+
+    def put_into(self, package: Path) -> None:
+        """Write the changed module."""
+        (package / self.file).write_text(self.after, "utf-8")
 
 
 def generated(lab: Lab) -> list[Generated]:

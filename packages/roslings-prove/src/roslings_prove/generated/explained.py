@@ -6,7 +6,9 @@
         +        self.publisher = self.create_publisher(String, 'chatter', 11)
       equivalent: The queue is never full.
 
-Instead of `equivalent`, `not_judged` names a line of the card's `not_judged`, word for word.
+`boundary.yaml` is the same for those that are made at the boundary to ROS; what goes wrong stands
+in place of the diff. Instead of `equivalent`, `not_judged` names a line of the card's `not_judged`,
+word for word.
 """
 
 from __future__ import annotations
@@ -19,9 +21,11 @@ from pydantic import Field, RootModel, model_validator
 from roslings.course import Lab
 from roslings.course.contract import Contract
 from roslings.course.files import BadCourseFile, read_yaml
-from roslings_prove.generated.choice import Generated
+from roslings_prove.generated.wrongness import Wrongness
 
 FILE = "generated.yaml"
+BOUNDARY = "boundary.yaml"
+FILES = (FILE, BOUNDARY)
 
 
 class Explanation(Contract):
@@ -49,9 +53,11 @@ class Explanations(RootModel[tuple[Explanation, ...]]):
     """All of a lab."""
 
 
-def explained(lab: Lab, packages: Collection[Generated]) -> dict[str, Explanation]:
+def explained(
+    lab: Lab, packages: Collection[Wrongness], name: str = FILE
+) -> dict[str, Explanation]:
     """Package's name to why it may survive. Raises BadCourseFile."""
-    file = lab.folder / FILE
+    file = lab.folder / name
     if not file.is_file():
         return {}
     known = {each.name: each for each in packages}
@@ -63,7 +69,7 @@ def explained(lab: Lab, packages: Collection[Generated]) -> dict[str, Explanatio
 
 
 def _problem(
-    entry: Explanation, known: Mapping[str, Generated], not_judged: Collection[str]
+    entry: Explanation, known: Mapping[str, Wrongness], not_judged: Collection[str]
 ) -> str:
     package = known.get(entry.package)
     if package is None:

@@ -8,18 +8,19 @@ from dataclasses import dataclass
 from enum import Enum
 from functools import cache
 from pathlib import Path
+from typing import Generic
 
 from roslings.course import Lab
 from roslings.course.labs import MUTANTS
 from roslings.grader import Clock
 from roslings_class.result import Result
 from roslings_class.version import ENGINE, engine_in
-from roslings_prove.generated.choice import Generated
-from roslings_prove.generated.explained import FILE
+from roslings_prove.generated.explained import FILES
+from roslings_prove.generated.wrongness import W
 
 NOT_GRADING = frozenset({"cli", "commands", "rqt_graph.py"})
 """What no grading comes to: a change there leaves results as they are."""
-NOT_JUDGING = frozenset({"solution", "starter", MUTANTS, "hints.yaml", FILE})
+NOT_JUDGING = frozenset({"solution", "starter", MUTANTS, "hints.yaml", *FILES})
 """The same in a lab's folder; the package itself is known by its content."""
 
 
@@ -33,10 +34,10 @@ class Fate(Enum):
 
 
 @dataclass(frozen=True)
-class Wrong:
-    """The solution with one generated change."""
+class Wrong(Generic[W]):
+    """The solution with one change."""
 
-    change: Generated
+    change: W
     clock: Clock = "auto"
     course: None = None
 
@@ -59,7 +60,7 @@ class Wrong:
         """The solution, changed."""
         package = folder / self.change.name / self.lab.card.package
         shutil.copytree(self.lab.solution, package)
-        (package / self.change.file).write_text(self.change.after, "utf-8")
+        self.change.put_into(package)
         return package.parent
 
     def problem(self, result: Result) -> str:

@@ -21,6 +21,7 @@ from roslings_prove.generated.kills import keep_kills
 from roslings_prove.generated.life import LIFE
 from roslings_prove.generated.packages import Fate, Wrong, fate_of
 from roslings_prove.generated.table import Line, Outcome, told
+from roslings_prove.generated.wrongness import W, Wrongness
 from roslings_prove.proofs.kept import kept_here
 from roslings_prove.prove import Proof, graded, mixed
 
@@ -31,7 +32,7 @@ class AlreadyProving(BatchError):
     """Another command keeps its results there."""
 
     def __init__(self, folder: Path) -> None:
-        problem = f"Another ./roslings prove --generated keeps its results in {folder} now."
+        problem = f"Another ./roslings prove keeps its results in {folder} now."
         super().__init__(problem, "Wait for it, or give another folder: --keep DIR")
 
 
@@ -70,33 +71,36 @@ def prove_generated(
     reasons = {lab.name: explained(lab, made[lab.name]) for lab in labs}
     packages = [Wrong(each) for lab in labs for each in made[lab.name]]
     if keeping.so_far:
-        results = _kept_in(keeping.folder)
-        yield _how_far(packages, results)
+        results = kept_in(keeping.folder)
+        yield how_far(packages, results)
     else:
-        results = _graded(packages, watcher, jobs, keeping.folder)
+        results = graded_in(packages, watcher, jobs, keeping.folder)
     known = {each.change: results[each.name] for each in packages if each.name in results}
     yield from told([_outcome(lab, known, reasons[lab.name]) for lab in labs])
     if keeping.kills:
         yield from _kept_kills(labs, known, keeping.folder, keeping.kills)
 
 
-def _graded(
-    packages: Collection[Wrong], watcher: Watcher, jobs: int | None, kept: Path
-) -> Mapping[str, Result]:
+def graded_in(
+    packages: Collection[Wrong[W]], watcher: Watcher, jobs: int | None, kept: Path,
+    life: str = LIFE,
+) -> Mapping[str, Result]:  # fmt: skip
+    """Package's name to what came of it; results stay in a folder. Raises AlreadyProving."""
     with alone_in(kept, AlreadyProving), run_folder() as scratch:
         return graded(
             mixed(packages), scratch, watcher, jobs, book=str(kept.absolute()),
-            keeps_evidence=True, life=LIFE,
+            keeps_evidence=True, life=life,
         )  # fmt: skip
 
 
-def _kept_in(folder: Path) -> Mapping[str, Result]:
+def kept_in(folder: Path) -> Mapping[str, Result]:
+    """What an earlier run has found."""
     folder.mkdir(parents=True, exist_ok=True)
     with gradebook(folder, BOOK) as book:
         return book.latest()
 
 
-def _how_far(packages: Collection[Wrong], results: Mapping[str, Result]) -> Proof:
+def how_far(packages: Collection[Wrong[W]], results: Mapping[str, Result]) -> Proof:
     """Nothing is proven by a part of them."""
     done = sum(each.name in results for each in packages)
     rest = "" if done == len(packages) else "only they are counted: run it without --so-far"
@@ -107,7 +111,9 @@ def _outcome(
     lab: Lab, known: Mapping[Generated, Result], reasons: Mapping[str, Explanation]
 ) -> Outcome:
     """Of those that were graded."""
-    fates = {each: fate_of(result) for each, result in known.items() if each.lab == lab}
+    fates: dict[Wrongness, Fate] = {
+        each: fate_of(result) for each, result in known.items() if each.lab == lab
+    }
     names = {each.name for each in fates}
     return Outcome(lab.name, fates, {name: why for name, why in reasons.items() if name in names})
 

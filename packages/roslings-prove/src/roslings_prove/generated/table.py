@@ -6,9 +6,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from operator import attrgetter
 
-from roslings_prove.generated.choice import Generated
-from roslings_prove.generated.explained import Explanation
+from roslings_prove.generated.explained import FILE, Explanation
 from roslings_prove.generated.packages import Fate
+from roslings_prove.generated.wrongness import Wrongness
 from roslings_prove.prove import Proof
 
 LEAST_RATE = 0.95
@@ -31,15 +31,18 @@ class Outcome:
     """What came of all generated packages of a lab."""
 
     lab: str
-    fates: Mapping[Generated, Fate]
+    fates: Mapping[Wrongness, Fate]
     explained: Mapping[str, Explanation]
+    least_rate: float = LEAST_RATE
+    file: str = FILE
+    """Where those that may survive are explained."""
 
     @property
     def made(self) -> int:
         """How many there are."""
         return len(self.fates)
 
-    def of(self, fate: Fate) -> list[Generated]:
+    def of(self, fate: Fate) -> list[Wrongness]:
         """The packages that nobody explains, and of which this came; by name."""
         found = [
             each for each, came in self.fates.items()
@@ -78,20 +81,20 @@ class Outcome:
         unclear = ", ".join(each.name for each in self.of(Fate.UNCLEAR))
         problem = f"run it again for: {unclear}" if unclear else ""
         yield Proof(f"{self.lab}: of each one something could be told", problem, is_open=True)
-        enough = self.kill_rate >= LEAST_RATE
+        enough = self.kill_rate >= self.least_rate
         problem = f"{self.kill_rate:.1%}: see the survivors above"
-        about = f"{self.lab}: {LEAST_RATE:.0%} of the others are caught"
+        about = f"{self.lab}: {self.least_rate:.0%} of the others are caught"
         yield Proof(about, "" if enough else problem, is_open=bool(unclear) and self._could_be())
 
     def _could_be(self) -> bool:
         """Whether enough are caught if all that are unclear turn out to be."""
         missed = len(self.of(Fate.SURVIVED))
-        return missed <= (1 - LEAST_RATE) * (self.made - len(self.explained))
+        return missed <= (1 - self.least_rate) * (self.made - len(self.explained))
 
     def _strangely_explained(self) -> Iterator[Proof]:
         for each in self.of(Fate.KILLED):
             if each.name in self.explained:
-                problem = "it is caught: take it out of generated.yaml"
+                problem = f"it is caught: take it out of {self.file}"
                 yield Proof(f"{each.name} is explained", problem)
 
 

@@ -1,0 +1,179 @@
+"""Which faults there are at a lab's boundary, from its card and the fields of its types."""
+
+from __future__ import annotations
+
+import hashlib
+import shutil
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+from roslings.course import Lab, NodeContract
+from roslings_prove.boundary import layer
+from roslings_prove.boundary.fields import Field, fields_of
+from roslings_prove.boundary.operators import AIMED, WORDS, of_field, of_flow
+
+LAYER = "boundary_layer"
+ODOMETRY = "nav_msgs/msg/Odometry"
+
+
+@dataclass(frozen=True)
+class Fault:
+    """One thing that goes wrong between a program and ROS."""
+
+    lab: Lab
+    executable: str
+    """The program that it is for; empty: each."""
+    kind: str
+    """Where: a message that is sent or heard, a request, a goal, a parameter, and so on."""
+    operator: str
+    at: str = ""
+    """The topic, service, action or parameter."""
+    field: str = ""
+    other: str = ""
+    """The field beside it; of a bag the name of the type."""
+
+    @property
+    def changed(self) -> str:
+        """What goes wrong, for people."""
+        where = " ".join(filter(None, (self.executable, self.kind, self.at, self.field)))
+        return f"{where}: {WORDS.get(self.operator, self.operator)}"
+
+    diff = changed
+
+    @cached_property
+    def name(self) -> str:
+        """Short, and the same as long as the fault is."""
+        words = (self.kind, self.at.strip("/"), self.field, self.operator)
+        place = "-".join(filter(None, words)).replace("/", ".").replace(" ", "-")
+        short = hashlib.sha256(f"{self.executable} {self.changed} {self.other}".encode())
+        return f"{self.lab.name}-{place}-{short.hexdigest()[:6]}"
+
+    @property
+    def place(self) -> tuple[str, str, str, str]:
+        """Places are to be met evenly."""
+        return self.executable, self.kind, self.at, self.field
+
+    @property
+    def is_aimed(self) -> bool:
+        """Of a kind that has found holes."""
+        return self.operator in AIMED
+
+    def put_into(self, package: Path) -> None:
+        """Let it go wrong in this package, whatever its code is."""
+        module = package / package.name
+        shutil.copyfile(layer.__file__, module / f"{LAYER}.py")
+        words = {
+            "executable": self.executable, "kind": self.kind, "operator": self.operator,
+            "at": self.at, "field": self.field, "other": self.other,
+        }  # fmt: skip
+        init = module / "__init__.py"
+        own = init.read_text("utf-8") if init.is_file() else ""
+        init.write_text(f"{own}\nfrom .{LAYER} import install\n\ninstall({words!r})\n", "utf-8")
+
+
+def neutral(lab: Lab) -> Fault:
+    """The layer in each place, with nothing that goes wrong."""
+    return Fault(lab, "", "everywhere", "neutral")
+
+
+def faults(lab: Lab) -> list[Fault]:
+    """All of a lab. Raises UnknownInterface where a type of its card is nowhere defined."""
+    found = [fault for node in lab.card.nodes for fault in _of_node(lab, node)]
+    return [*found, *_of_bags(lab)]
+
+
+def _of_node(lab: Lab, node: NodeContract) -> Iterator[Fault]:
+    program = node.executable
+    for kind, topics in (("sent", node.publishes), ("heard", node.subscribes)):
+        for topic in topics:
+            yield from _of_values(lab, program, kind, topic.topic, fields_of(lab, topic.type))
+            if "qos" in topic.model_fields_set:
+                for operator in sorted({"reliability", "durability"} & topic.qos.model_fields_set):
+                    yield Fault(lab, program, f"{kind} qos", operator, topic.topic)
+    yield from _of_services(lab, node)
+    yield from _of_actions(lab, node)
+    yield from _of_parameters(lab, node)
+    yield from _of_life(lab, node)
+
+
+def _of_services(lab: Lab, node: NodeContract) -> Iterator[Fault]:
+    for service in getattr(node, "serves", ()):
+        for part, kind in enumerate(("request", "response")):
+            found = fields_of(lab, service.type, part)
+            yield from _of_values(lab, node.executable, kind, service.service, found)
+    for service in getattr(node, "calls", ()):
+        found = fields_of(lab, service.type)
+        yield from _of_values(lab, node.executable, "asked", service.service, found)
+
+
+def _of_actions(lab: Lab, node: NodeContract) -> Iterator[Fault]:
+    for action in getattr(node, "performs", ()):
+        for part, kind in enumerate(("goal", "result", "feedback")):
+            found = fields_of(lab, action.type, part)
+            yield from _of_values(lab, node.executable, kind, action.action, found)
+        yield Fault(lab, node.executable, "cancel", "second_cancel_refused", action.action)
+    for action in getattr(node, "orders", ()):
+        found = fields_of(lab, action.type)
+        yield from _of_values(lab, node.executable, "ordered", action.action, found)
+
+
+def _of_parameters(lab: Lab, node: NodeContract) -> Iterator[Fault]:
+    for parameter in getattr(node, "parameters", ()):
+        bounded = parameter.least is not None or parameter.most is not None
+        refuses = bounded or parameter.read_only or parameter.not_above
+        floating = bounded and parameter.type == "double"
+        may = {
+            "other_default": True, "bound_ignored": refuses, "nan_let_in": floating,
+            "infinity_let_in": floating, "second_change_only": parameter.live,
+            "not_described": bounded,
+        }  # fmt: skip
+        for operator in filter(may.get, may):
+            yield Fault(lab, node.executable, "parameter", operator, parameter.name)
+
+
+def _of_life(lab: Lab, node: NodeContract) -> Iterator[Fault]:
+    yield Fault(lab, node.executable, "node", "extra_publisher")
+    yield Fault(lab, node.executable, "node", "extra_subscription")
+    yield Fault(lab, node.executable, "node", "ends_late")
+    yield Fault(lab, node.executable, "node", "exit_code")
+    yield Fault(lab, node.executable, "events", "ends_after")
+
+
+def _of_bags(lab: Lab) -> Iterator[Fault]:
+    reads = getattr(lab.card, "reads_bags", None)
+    if reads is None:
+        return
+    name = ODOMETRY.rpartition("/")[2]
+    for operator in of_flow("read", []):
+        yield Fault(lab, reads.executable, "read", operator, reads.odometry)
+    for fault in _of_fields(lab, reads.executable, "read", "", fields_of(lab, ODOMETRY)):
+        if fault.operator != "swapped":
+            yield Fault(lab, fault.executable, "read", fault.operator, "", fault.field, name)
+    yield Fault(lab, reads.executable, "node", "exit_code")
+
+
+def _of_values(lab: Lab, program: str, kind: str, at: str, fields: list[Field]) -> Iterator[Fault]:
+    for operator in of_flow(kind, fields):
+        yield Fault(lab, program, kind, operator, at)
+    yield from _of_fields(lab, program, kind, at, fields)
+
+
+def _of_fields(
+    lab: Lab, program: str, kind: str, at: str, fields: Iterable[Field]
+) -> Iterator[Fault]:
+    listed = list(fields)
+    for number, field in enumerate(listed):
+        beside = _beside(field, listed[number + 1 :])
+        for operator in of_field(kind, field):
+            if operator != "swapped":
+                yield Fault(lab, program, kind, operator, at, field.path)
+            elif beside:
+                yield Fault(lab, program, kind, operator, at, field.path, beside.path)
+
+
+def _beside(field: Field, later: Iterable[Field]) -> Field | None:
+    """The next one of its kind in the same message."""
+    like = (field.around, field.kind)
+    return next((each for each in later if (each.around, each.kind) == like), None)

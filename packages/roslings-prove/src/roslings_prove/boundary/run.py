@@ -1,0 +1,121 @@
+"""`./roslings prove LAB --boundary`: what goes wrong between a node and ROS must be seen."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from roslings import course
+from roslings.course import Lab
+from roslings_class.gradebook import Gradebook, gradebook
+from roslings_class.grading import unpacked
+from roslings_class.result import Result
+from roslings_class.scheduler import Watcher
+from roslings_class.worker_pool import GRADING
+from roslings_prove.boundary.choice import tried
+from roslings_prove.boundary.faults import Fault, neutral
+from roslings_prove.boundary.layer import MARK
+from roslings_prove.generated.explained import BOUNDARY, Explanation, explained
+from roslings_prove.generated.packages import Fate, Wrong, fate_of
+from roslings_prove.generated.run import BOOK, graded_in, how_far, kept_in
+from roslings_prove.generated.table import Line, Outcome, told
+from roslings_prove.generated.wrongness import Wrongness
+from roslings_prove.prove import Proof
+
+LEAST_RATE = 0.98
+Reasons = Mapping[str, Explanation]
+
+
+@dataclass(frozen=True)
+class Known:
+    """What came of the packages of a lab."""
+
+    lab: Lab
+    results: Mapping[Fault, Result]
+    idle: Collection[Fault]
+    """Those whose fault never acted: they are no wrong packages."""
+
+    def outcomes(self, reasons: Reasons) -> Iterator[Outcome]:
+        """Of all, and of those alone that are of kinds which have found holes."""
+        acted = [fault for fault in self.results if fault not in self.idle]
+        yield self._outcome(self.lab.name, acted, reasons)
+        aimed = [fault for fault in acted if fault.is_aimed]
+        yield self._outcome("  aimed ones alone", aimed, reasons)
+
+    def _outcome(self, name: str, faults: Collection[Fault], reasons: Reasons) -> Outcome:
+        fates: dict[Wrongness, Fate] = {fault: fate_of(self.results[fault]) for fault in faults}
+        names = {fault.name for fault in faults}
+        why = {name: reason for name, reason in reasons.items() if name in names}
+        return Outcome(name, fates, why, LEAST_RATE, BOUNDARY)
+
+
+def usual_place() -> Path:
+    """Beside the course; git does not see it."""
+    return course.root() / ".roslings" / "boundary"
+
+
+def proofs_for(
+    keep: Path | None, so_far: bool
+) -> Callable[[Sequence[Lab], Watcher, int | None], Iterator[Proof | Line]]:
+    """Proves labs as the command's options say."""
+    return partial(prove_boundary, keep=keep or usual_place(), so_far=so_far)
+
+
+def prove_boundary(
+    labs: Sequence[Lab], watcher: Watcher, jobs: int | None, keep: Path, so_far: bool
+) -> Iterator[Proof | Line]:
+    """What came of the faults of labs.
+
+    Raises BadCourseFile and UnknownInterface before anything is run, and AlreadyProving.
+    """
+    faults = {lab.name: tried(lab) for lab in labs}
+    reasons = {lab.name: explained(lab, faults[lab.name], BOUNDARY) for lab in labs}
+    whole = {lab.name: Wrong(neutral(lab)) for lab in labs}
+    packages = [*whole.values(), *(Wrong(each) for lab in labs for each in faults[lab.name])]
+    if so_far:
+        results = kept_in(keep)
+        yield how_far(packages, results)
+    else:
+        results = graded_in(packages, watcher, jobs, keep, GRADING)
+    yield from (_of_neutral(lab, results.get(whole[lab.name].name)) for lab in labs)
+    outcomes: list[Outcome] = []
+    for lab in labs:
+        known = _known(lab, faults[lab.name], results, keep)
+        outcomes += known.outcomes(reasons[lab.name])
+        yield Line(f"{lab.name}: {len(known.idle)} faults never acted, and are not counted")
+    yield from told(outcomes)
+
+
+def _of_neutral(lab: Lab, result: Result | None) -> Proof:
+    """A layer that changes something by itself proves nothing."""
+    about = f"{lab.name}: the layer without a fault has 100"
+    if result is None:
+        return Proof(about, "it was not graded yet", is_open=True)
+    fate = fate_of(result)
+    problems = {Fate.SURVIVED: "", Fate.UNCLEAR: "prove it again: it could not be told"}
+    return Proof(about, problems.get(fate, _failed(result)), is_open=fate is Fate.UNCLEAR)
+
+
+def _failed(result: Result) -> str:
+    checks = result.verdict.checks if result.verdict else ()
+    failed = ", ".join(each.id for each in checks if each.outcome == "fail")
+    return f"these checks fail: {failed}"
+
+
+def _known(lab: Lab, faults: Collection[Fault], results: Mapping[str, Result], keep: Path) -> Known:
+    graded = {fault: results[name] for fault in faults if (name := Wrong(fault).name) in results}
+    with gradebook(keep, BOOK) as book:
+        idle = [fault for fault, result in graded.items() if not _has_acted(book, result)]
+    return Known(lab, graded, idle)
+
+
+def _has_acted(book: Gradebook, result: Result) -> bool:
+    """Where the evidence says so; of what has none it is believed: it was refused or broke off."""
+    content = book.evidence(result)
+    return content is None or any(MARK in text for text in _texts(content))
+
+
+def _texts(content: bytes) -> Iterator[str]:
+    yield unpacked(content).model_dump_json()
