@@ -30,9 +30,10 @@ from roslings_prove.generated import choice, life
 from roslings_prove.generated import run as running
 from roslings_prove.generated.choice import Generated, chosen, generated
 from roslings_prove.generated.explained import FILE, explained
+from roslings_prove.generated.keeping import AlreadyProving
 from roslings_prove.generated.kills import kill_of
 from roslings_prove.generated.packages import Fate, Wrong, fate_of, judged_by
-from roslings_prove.generated.run import AlreadyProving, Keeping, prove_generated
+from roslings_prove.generated.run import Keeping, prove_generated
 from roslings_prove.generated.table import HEAD, Outcome, told
 from roslings_prove.proofs.digests import measuring
 from roslings_prove.proofs.kept import Folder, name_in

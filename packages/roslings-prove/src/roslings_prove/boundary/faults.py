@@ -13,6 +13,7 @@ from roslings.course import Lab, NodeContract
 from roslings_prove.boundary import layer
 from roslings_prove.boundary.fields import Field, fields_of
 from roslings_prove.boundary.operators import AIMED, WORDS, of_field, of_flow
+from roslings_prove.generated.explained import BOUNDARY
 
 LAYER = "boundary_layer"
 ODOMETRY = "nav_msgs/msg/Odometry"
@@ -48,7 +49,7 @@ class Fault:
         words = (self.kind, self.at.strip("/"), self.field, self.operator)
         place = "-".join(filter(None, words)).replace("/", ".").replace(" ", "-")
         short = hashlib.sha256(f"{self.executable} {self.changed} {self.other}".encode())
-        return f"{self.lab.name}-{place}-{short.hexdigest()[:6]}"
+        return f"{self.lab.name}-{BOUNDARY}-{place}-{short.hexdigest()[:6]}"
 
     @property
     def place(self) -> tuple[str, str, str, str]:

@@ -17,9 +17,9 @@ from roslings_class.worker_pool import GRADING
 from roslings_prove.boundary.choice import tried
 from roslings_prove.boundary.faults import Fault, neutral
 from roslings_prove.boundary.layer import MARK
-from roslings_prove.generated.explained import BOUNDARY, Explanation, explained
+from roslings_prove.generated.explained import Explanation, explained
+from roslings_prove.generated.keeping import BOOK, graded_in, how_far, kept_in
 from roslings_prove.generated.packages import Fate, Wrong, fate_of
-from roslings_prove.generated.run import BOOK, graded_in, how_far, kept_in
 from roslings_prove.generated.table import Line, Outcome, told
 from roslings_prove.generated.wrongness import Wrongness
 from roslings_prove.prove import Proof
@@ -42,13 +42,13 @@ class Known:
         acted = [fault for fault in self.results if fault not in self.idle]
         yield self._outcome(self.lab.name, acted, reasons)
         aimed = [fault for fault in acted if fault.is_aimed]
-        yield self._outcome("  aimed ones alone", aimed, reasons)
+        yield self._outcome("  aimed alone", aimed, reasons)
 
     def _outcome(self, name: str, faults: Collection[Fault], reasons: Reasons) -> Outcome:
         fates: dict[Wrongness, Fate] = {fault: fate_of(self.results[fault]) for fault in faults}
         names = {fault.name for fault in faults}
         why = {name: reason for name, reason in reasons.items() if name in names}
-        return Outcome(name, fates, why, LEAST_RATE, BOUNDARY)
+        return Outcome(name, fates, why, LEAST_RATE)
 
 
 def usual_place() -> Path:
@@ -71,7 +71,7 @@ def prove_boundary(
     Raises BadCourseFile and UnknownInterface before anything is run, and AlreadyProving.
     """
     faults = {lab.name: tried(lab) for lab in labs}
-    reasons = {lab.name: explained(lab, faults[lab.name], BOUNDARY) for lab in labs}
+    reasons = {lab.name: explained(lab, faults[lab.name], at_the_boundary=True) for lab in labs}
     whole = {lab.name: Wrong(neutral(lab)) for lab in labs}
     packages = [*whole.values(), *(Wrong(each) for lab in labs for each in faults[lab.name])]
     if so_far:

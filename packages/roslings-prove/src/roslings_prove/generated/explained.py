@@ -6,9 +6,9 @@
         +        self.publisher = self.create_publisher(String, 'chatter', 11)
       equivalent: The queue is never full.
 
-`boundary.yaml` is the same for those that are made at the boundary to ROS; what goes wrong stands
-in place of the diff. Instead of `equivalent`, `not_judged` names a line of the card's `not_judged`,
-word for word.
+What `--boundary` makes stands here, too: the name says so, and what goes wrong is told in place of
+the diff. Instead of `equivalent`, `not_judged` names a line of the card's `not_judged`, word for
+word.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ from roslings.course.files import BadCourseFile, read_yaml
 from roslings_prove.generated.wrongness import Wrongness
 
 FILE = "generated.yaml"
-BOUNDARY = "boundary.yaml"
-FILES = (FILE, BOUNDARY)
+BOUNDARY = "boundary"
+"""The word in the name of a package that is made at the boundary to ROS."""
 
 
 class Explanation(Contract):
@@ -54,18 +54,21 @@ class Explanations(RootModel[tuple[Explanation, ...]]):
 
 
 def explained(
-    lab: Lab, packages: Collection[Wrongness], name: str = FILE
+    lab: Lab, packages: Collection[Wrongness], *, at_the_boundary: bool = False
 ) -> dict[str, Explanation]:
     """Package's name to why it may survive. Raises BadCourseFile."""
-    file = lab.folder / name
+    file = lab.folder / FILE
     if not file.is_file():
         return {}
     known = {each.name: each for each in packages}
-    entries = read_yaml(file, Explanations).root
-    for number, entry in enumerate(entries):
+    own: dict[str, Explanation] = {}
+    for number, entry in enumerate(read_yaml(file, Explanations).root):
+        if entry.package.startswith(f"{lab.name}-{BOUNDARY}-") is not at_the_boundary:
+            continue
         if problem := _problem(entry, known, lab.card.not_judged):
             raise BadCourseFile(file, _line(file, number), problem)
-    return {entry.package: entry for entry in entries}
+        own[entry.package] = entry
+    return own
 
 
 def _problem(

@@ -15,12 +15,12 @@ from roslings.course.labs import MUTANTS
 from roslings.grader import Clock
 from roslings_class.result import Result
 from roslings_class.version import ENGINE, engine_in
-from roslings_prove.generated.explained import FILES
+from roslings_prove.generated.explained import FILE
 from roslings_prove.generated.wrongness import W
 
 NOT_GRADING = frozenset({"cli", "commands", "rqt_graph.py"})
 """What no grading comes to: a change there leaves results as they are."""
-NOT_JUDGING = frozenset({"solution", "starter", MUTANTS, "hints.yaml", *FILES})
+NOT_JUDGING = frozenset({"solution", "starter", MUTANTS, "hints.yaml", FILE})
 """The same in a lab's folder; the package itself is known by its content."""
 
 

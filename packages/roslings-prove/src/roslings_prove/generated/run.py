@@ -2,38 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
 from roslings import course
 from roslings.course import Lab
-from roslings.experiment.run_folder import run_folder
-from roslings_class.alone import alone_in
-from roslings_class.errors import BatchError
 from roslings_class.gradebook import gradebook
 from roslings_class.result import Result
 from roslings_class.scheduler import Watcher
 from roslings_prove.generated.choice import Generated, generated
 from roslings_prove.generated.explained import Explanation, explained
+from roslings_prove.generated.keeping import BOOK, graded_in, how_far, kept_in
 from roslings_prove.generated.kills import keep_kills
-from roslings_prove.generated.life import LIFE
 from roslings_prove.generated.packages import Fate, Wrong, fate_of
 from roslings_prove.generated.table import Line, Outcome, told
-from roslings_prove.generated.wrongness import W, Wrongness
+from roslings_prove.generated.wrongness import Wrongness
 from roslings_prove.proofs.kept import kept_here
-from roslings_prove.prove import Proof, graded, mixed
-
-BOOK = "labs"
-
-
-class AlreadyProving(BatchError):
-    """Another command keeps its results there."""
-
-    def __init__(self, folder: Path) -> None:
-        problem = f"Another ./roslings prove keeps its results in {folder} now."
-        super().__init__(problem, "Wait for it, or give another folder: --keep DIR")
+from roslings_prove.prove import Proof
 
 
 @dataclass(frozen=True)
@@ -79,32 +66,6 @@ def prove_generated(
     yield from told([_outcome(lab, known, reasons[lab.name]) for lab in labs])
     if keeping.kills:
         yield from _kept_kills(labs, known, keeping.folder, keeping.kills)
-
-
-def graded_in(
-    packages: Collection[Wrong[W]], watcher: Watcher, jobs: int | None, kept: Path,
-    life: str = LIFE,
-) -> Mapping[str, Result]:  # fmt: skip
-    """Package's name to what came of it; results stay in a folder. Raises AlreadyProving."""
-    with alone_in(kept, AlreadyProving), run_folder() as scratch:
-        return graded(
-            mixed(packages), scratch, watcher, jobs, book=str(kept.absolute()),
-            keeps_evidence=True, life=life,
-        )  # fmt: skip
-
-
-def kept_in(folder: Path) -> Mapping[str, Result]:
-    """What an earlier run has found."""
-    folder.mkdir(parents=True, exist_ok=True)
-    with gradebook(folder, BOOK) as book:
-        return book.latest()
-
-
-def how_far(packages: Collection[Wrong[W]], results: Mapping[str, Result]) -> Proof:
-    """Nothing is proven by a part of them."""
-    done = sum(each.name in results for each in packages)
-    rest = "" if done == len(packages) else "only they are counted: run it without --so-far"
-    return Proof(f"{done} of {len(packages)} packages are graded", rest, is_open=True)
 
 
 def _outcome(

@@ -34,8 +34,6 @@ class Outcome:
     fates: Mapping[Wrongness, Fate]
     explained: Mapping[str, Explanation]
     least_rate: float = LEAST_RATE
-    file: str = FILE
-    """Where those that may survive are explained."""
 
     @property
     def made(self) -> int:
@@ -94,7 +92,7 @@ class Outcome:
     def _strangely_explained(self) -> Iterator[Proof]:
         for each in self.of(Fate.KILLED):
             if each.name in self.explained:
-                problem = f"it is caught: take it out of {self.file}"
+                problem = f"it is caught: take it out of {FILE}"
                 yield Proof(f"{each.name} is explained", problem)
 
 
