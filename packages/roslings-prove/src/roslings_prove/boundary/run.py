@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
@@ -42,7 +42,7 @@ class Known:
         acted = [fault for fault in self.results if fault not in self.idle]
         yield self._outcome(self.lab.name, acted, reasons)
         aimed = [fault for fault in acted if fault.is_aimed]
-        yield self._outcome("  aimed alone", aimed, reasons)
+        yield replace(self._outcome("  aimed alone", aimed, reasons), is_part=True)
 
     def _outcome(self, name: str, faults: Collection[Fault], reasons: Reasons) -> Outcome:
         fates: dict[Wrongness, Fate] = {fault: fate_of(self.results[fault]) for fault in faults}

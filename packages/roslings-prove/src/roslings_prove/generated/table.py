@@ -34,6 +34,8 @@ class Outcome:
     fates: Mapping[Wrongness, Fate]
     explained: Mapping[str, Explanation]
     least_rate: float = LEAST_RATE
+    is_part: bool = False
+    """Of packages that another outcome tells of already."""
 
     @property
     def made(self) -> int:
@@ -71,6 +73,15 @@ class Outcome:
 
     def proofs(self) -> Iterator[Proof]:
         """What must hold."""
+        if not self.is_part:
+            yield from self._can_be_believed()
+        enough = self.kill_rate >= self.least_rate
+        problem = f"{self.kill_rate:.1%}: see the survivors above"
+        about = f"{self.lab}: {self.least_rate:.0%} of the others are caught"
+        is_open = bool(self.of(Fate.UNCLEAR)) and self._could_be()
+        yield Proof(about, "" if enough else problem, is_open=is_open)
+
+    def _can_be_believed(self) -> Iterator[Proof]:
         yield from self._strangely_explained()
         explained = len(self.explained)
         problem = f"{explained} of {self.made} are: close the holes instead"
@@ -79,10 +90,6 @@ class Outcome:
         unclear = ", ".join(each.name for each in self.of(Fate.UNCLEAR))
         problem = f"run it again for: {unclear}" if unclear else ""
         yield Proof(f"{self.lab}: of each one something could be told", problem, is_open=True)
-        enough = self.kill_rate >= self.least_rate
-        problem = f"{self.kill_rate:.1%}: see the survivors above"
-        about = f"{self.lab}: {self.least_rate:.0%} of the others are caught"
-        yield Proof(about, "" if enough else problem, is_open=bool(unclear) and self._could_be())
 
     def _could_be(self) -> bool:
         """Whether enough are caught if all that are unclear turn out to be."""
@@ -99,7 +106,7 @@ class Outcome:
 def told(outcomes: Sequence[Outcome]) -> Iterator[Line | Proof]:
     """Survivors with their diffs, what must hold, and the table last."""
     for outcome in outcomes:
-        for each in outcome.of(Fate.SURVIVED):
+        for each in () if outcome.is_part else outcome.of(Fate.SURVIVED):
             yield Line(f"\nNothing catches {each.name}\n{_cut(each.diff)}\n")
     for outcome in outcomes:
         yield from outcome.proofs()
