@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from roslings.report.palette import PALETTE, Scheme, colour_of
+from roslings_rover.palette import PALETTE, Scheme, colour_of
 
 THEME = {
     "color-brand-primary": "link",

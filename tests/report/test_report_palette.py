@@ -9,8 +9,8 @@ import pytest
 
 from roslings.course import root
 from roslings.report.html.document import STYLE
-from roslings.report.palette import PALETTE, Scheme, colour_of, filled_in, variables
 from roslings_learn.notebook.picture import svg_picture
+from roslings_rover.palette import PALETTE, Scheme, colour_of, filled_in, variables
 
 TEXT = ("ink", "soft", "good", "bad", "open", "link")
 GROUNDS = ("ground", "sheet", "node", "topic", "service", "action")

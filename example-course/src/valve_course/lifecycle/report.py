@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ros2_on_pip.markup import Markup, tag
 from roslings.evidence import Evidence, ExperimentSeen
-from roslings.report.html.markup import Markup, tag
 from valve_course.lifecycle.record import LifecycleSeen
 
 

@@ -9,8 +9,8 @@ from pathlib import Path
 
 from pydantic import BaseModel
 
+from ros2_on_pip.safe_text import harmless
 from ros2_on_pip.typed_paths import from_here
-from roslings.report.safe_text import harmless
 from roslings.verdict import CheckResult, Verdict
 from roslings_class.gradebook import Gradebook
 from roslings_class.grades import Grade

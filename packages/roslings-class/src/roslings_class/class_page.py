@@ -8,8 +8,8 @@ from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
+from ros2_on_pip.markup import Markup, prose, tag
 from roslings.course import Lab
-from roslings.report.html.markup import Markup, prose, tag
 from roslings.saving import asked_rates
 from roslings_class.changes import Regrading
 from roslings_class.class_table import everybody, page_link

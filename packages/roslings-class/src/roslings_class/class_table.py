@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from urllib.parse import quote
 
+from ros2_on_pip.markup import Markup, joined, tag
 from roslings.report.flow import one_line
-from roslings.report.html.markup import Markup, joined, tag
 from roslings_class.folders import PAGE, folder_of
 from roslings_class.grades import UNCLEAR, Grade
 from roslings_class.sorted_table import Column, sorted_table

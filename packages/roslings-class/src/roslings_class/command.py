@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from ros2_on_pip.safe_text import harmless
 from ros2_on_pip.typed_paths import from_here
 from roslings import course
 from roslings.arena import Isolation
@@ -16,7 +17,6 @@ from roslings.experiment import insist_on_wall
 from roslings.experiment.run_folder import LOCK, run_folder
 from roslings.experiment.walls import closed_places
 from roslings.report import Progress
-from roslings.report.safe_text import harmless
 from roslings.variants import chosen
 from roslings_class.alone import alone_in
 from roslings_class.capacity import Capacity

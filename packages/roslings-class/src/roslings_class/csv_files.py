@@ -15,9 +15,9 @@ import io
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
+from ros2_on_pip.safe_text import harmless
 from roslings.course import Lab
 from roslings.report.flow import one_line
-from roslings.report.safe_text import harmless
 from roslings.report.shown_checks import shown_checks
 from roslings.report.whole_file import write_whole
 from roslings_class.changes import Regrading

@@ -41,11 +41,11 @@ from pathlib import Path
 
 from pydantic import BaseModel
 
+from ros2_on_pip.safe_text import harmless
 from ros2_on_pip.typed_paths import from_here
 from roslings.course import Lab
 from roslings.hand_in.archives import SUFFIXES
 from roslings.report.markdown import escaped, markdown_of
-from roslings.report.safe_text import harmless
 from roslings.report.shown_checks import shown_checks
 from roslings.report.whole_file import write_whole
 from roslings.verdict import CheckResult

@@ -7,8 +7,8 @@ import textwrap
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 
+from ros2_on_pip.safe_text import harmless
 from roslings.report.flow import one_line
-from roslings.report.safe_text import harmless
 from roslings_class.gradebook import Gradebook
 from roslings_class.result import Result
 from roslings_class.scheduler import Standing

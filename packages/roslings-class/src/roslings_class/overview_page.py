@@ -10,8 +10,8 @@ from functools import partial
 from pathlib import Path
 from urllib.parse import quote
 
+from ros2_on_pip.markup import Markup, joined, tag
 from ros2_on_pip.typed_paths import from_here
-from roslings.report.html.markup import Markup, joined, tag
 from roslings_class.csv_files import Line, write_lines
 from roslings_class.folders import PAGE, folder_of
 from roslings_class.messages import few

@@ -10,8 +10,8 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 
+from ros2_on_pip.safe_text import harmless
 from ros2_on_pip.typed_paths import from_here
-from roslings.report.safe_text import harmless
 from roslings_class.errors import BadTable, BatchError
 from roslings_class.headings import CHANGED, other_language
 from roslings_class.platform_names import CANVAS, MOODLE, PlatformName, told_by_platform

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Generic, TypeVar
 
+from ros2_on_pip.markup import Markup, tag
 from roslings.report.html.document import POLICY, brand, style
-from roslings.report.html.markup import Markup, tag
 from roslings.report.whole_file import write_whole
 
 STYLE, SCRIPT = (Path(__file__).with_name(name) for name in ("class_page.css", "class_page.js"))

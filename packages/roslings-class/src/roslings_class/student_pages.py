@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
+from ros2_on_pip.markup import prose, tag
 from roslings.course import Lab
 from roslings.course.contract import as_typed
 from roslings.report import Refusal, write_check50, write_gradescope, write_json, write_junit
 from roslings.report.flow import paragraphs
 from roslings.report.html import OfClass
 from roslings.report.html.document import POLICY, brand, style
-from roslings.report.html.markup import prose, tag
 from roslings.report.shown_checks import shown_checks
 from roslings.report.whole_file import write_whole
 from roslings.saving import Graded

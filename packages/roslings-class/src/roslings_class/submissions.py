@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from datetime import datetime, tzinfo
 from pathlib import Path
 
+from ros2_on_pip.safe_text import harmless
 from roslings.hand_in.archives import SUFFIXES, is_archive, is_clutter
-from roslings.report.safe_text import harmless
 from roslings.workspace.errors import WorkspaceError
 from roslings.workspace.sources import sources
 from roslings_class.clock_times import as_time

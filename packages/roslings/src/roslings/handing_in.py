@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+from ros2_on_pip.safe_text import harmless
 from roslings.arena import CannotStart, NoFreeDomain, NoFreeUser
 from roslings.checking import any_seed, mistakes_told
 from roslings.course import Lab
@@ -17,7 +18,6 @@ from roslings.experiment.soaking import SOAKING
 from roslings.judge.demands import lifetime_s
 from roslings.judge.grader_mistakes import GraderBroke
 from roslings.judge.words import describe_end
-from roslings.report.safe_text import harmless
 from roslings.workspace.errors import WorkspaceError
 from roslings.workspace.inspect import inspect_package
 

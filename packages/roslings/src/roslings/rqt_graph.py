@@ -16,7 +16,7 @@ from ros2_on_pip.problem import Problem
 from ros2_on_pip.words import OK, Parser
 
 if TYPE_CHECKING:
-    from roslings.evidence import GraphSeen
+    from ros2_on_pip.graph.seen import Graph
 
 PICTURE = "rosgraph.png"
 """The name that the save button of the real rqt_graph offers."""
@@ -69,13 +69,13 @@ def run(options: argparse.Namespace) -> int:
     return OK
 
 
-def seen_graph() -> GraphSeen:
+def seen_graph() -> Graph:
     """The whole graph, without our own node."""
     from ros2_on_pip.discovery import Eye
-    from roslings.probe.graph import read_graph
+    from ros2_on_pip.graph.seen import graph_seen_by
 
     with Eye() as eye:
-        return read_graph(eye.settle().node)
+        return graph_seen_by(eye.settle())
 
 
 def has_screen() -> bool:
@@ -89,7 +89,7 @@ def free_name(path: Path) -> Path:
     return next((name for name in names if not name.exists()), path)
 
 
-def draw(graph: GraphSeen, place: Path, everything: bool) -> None:
+def draw(graph: Graph, place: Path, everything: bool) -> None:
     """Write the picture. Raises NoMatplotlib, CannotSave."""
     from roslings.report import CannotWrite, draw_graph
     from roslings.report.graph_picture import NotAPng
@@ -102,7 +102,7 @@ def draw(graph: GraphSeen, place: Path, everything: bool) -> None:
         raise CannotSave(str(fault)) from fault
 
 
-def show(graph: GraphSeen, everything: bool) -> bool:
+def show(graph: Graph, everything: bool) -> bool:
     """Show the picture in a window until it is closed; False where no window can be opened."""
     with tempfile.TemporaryDirectory() as folder:
         place = Path(folder) / PICTURE

@@ -8,8 +8,8 @@ import random
 import pytest
 import written_graphs as written
 
-from roslings.report.graph_layout import Box, Edge, layout
-from roslings.report.graph_plan import Plan, plan_of
+from ros2_on_pip.graph.layout import Box, Edge, layout
+from ros2_on_pip.graph.plan import Plan, plan_of
 
 EPSILON = 1e-6
 

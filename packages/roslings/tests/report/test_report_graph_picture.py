@@ -9,13 +9,15 @@ import pytest
 import written_graphs as written
 from PIL import Image, ImageChops
 
+from ros2_on_pip.graph.labels import labels_of
+from ros2_on_pip.graph.line import INK, WARNING
+from ros2_on_pip.graph.shape import shape_of
+from ros2_on_pip.graph.words import describe_graph
 from roslings.evidence import GraphSeen
-from roslings.report import CannotWrite, describe_graph, draw_graph
-from roslings.report.graph_labels import labels_of
+from roslings.report import CannotWrite, draw_graph
 from roslings.report.graph_picture import NotAPng
-from roslings.report.graph_shape import shape_of
 from roslings.report.graph_sheet import NODE_FILL, TOPIC_FILL
-from roslings.report.lettering import INK, WARNING, Lettering
+from roslings.report.lettering import Lettering
 
 GRAPHS = {
     "empty": written.empty(),

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 import written_graphs as written
 
+from ros2_on_pip.graph.words import describe_graph, graph_text
 from roslings.evidence import GraphSeen
-from roslings.report import describe_graph, graph_text
 
 GRAPHS = {
     "empty": written.empty(),

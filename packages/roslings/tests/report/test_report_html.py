@@ -14,12 +14,12 @@ from written_evidence import evidence, messages, process, steady, talking
 from written_graphs import STRING, graph
 from written_verdicts import HINTS, TOO_SLOW, failing, left_open, too_slow, verdict
 
+from ros2_on_pip.markup import prose, tag
 from ros2_on_pip.rates import measure_rate
 from roslings.evidence import Evidence, ExperimentSeen, LogLine, Qos, Segment, Spoken, Tick
 from roslings.report.html import Asked, OfClass, Own, html_of
 from roslings.report.html.interval_plot import BOTTOM, TOP, interval_plot
 from roslings.report.html.intervals import watched
-from roslings.report.html.markup import prose, tag
 from roslings.report.html.slips import marked
 from roslings.report.typed import Typed
 from roslings.verdict import Verdict

@@ -32,7 +32,7 @@ def modules_after(code: str) -> set[str]:
         ("from roslings.report import Progress", set()),
         ("from roslings.report import print_verdict", {"rich", "pydantic"}),
         ("from roslings.report import write_json", {"pydantic"}),
-        ("from roslings.report import draw_graph, graph_text, describe_graph", {"pydantic"}),
+        ("from roslings.report import draw_graph", set()),
     ],
 )
 def test_each_name_brings_only_what_it_needs(code: str, heavy: set[str]) -> None:

@@ -7,7 +7,7 @@ from difflib import SequenceMatcher
 from itertools import zip_longest
 from pathlib import Path
 
-from roslings.report.safe_text import harmless
+from ros2_on_pip.safe_text import harmless
 
 GAP = " | "
 OTHER_GAP = " > "

@@ -18,10 +18,10 @@ def graph_picture() -> Picture:
     """The picture that `show_graph` shows."""
     settle_in()
     from ros2_on_pip.discovery import Eye
-    from roslings.probe.graph import read_graph
-    from roslings.report import describe_graph
-    from roslings.report.html.graph_svg import graph_svg
+    from ros2_on_pip.graph.drawing import graph_svg
+    from ros2_on_pip.graph.seen import graph_seen_by
+    from ros2_on_pip.graph.words import describe_graph
 
     with Eye() as eye:
-        seen = read_graph(eye.settle().node)
+        seen = graph_seen_by(eye.settle())
     return svg_picture(graph_svg(seen), describe_graph(seen))

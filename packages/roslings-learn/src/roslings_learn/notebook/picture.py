@@ -13,30 +13,29 @@ import sys
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from roslings.report.palette import colour_of, filled_in
+from ros2_on_pip.graph.drawing import STYLE as GRAPH_STYLE
+from roslings_rover.palette import colour_of, filled_in
 
 STYLE = (
     "max-width:100%;height:auto;background:#fff;border-radius:8px;padding:4px;"
     f"border:1px solid {colour_of('edge')}"
 )
-INK = filled_in("""
+INK = filled_in(
+    GRAPH_STYLE
+    + """
 text {
   fill: var(--ink);
   font-family: ui-monospace, "DejaVu Sans Mono", Menlo, Consolas, monospace;
 }
 .plot text { fill: var(--soft); font: 12px system-ui, sans-serif; }
-.graph .bold { font-weight: 700; } .graph .warn { fill: var(--bad); }
-.node { fill: var(--node); stroke: var(--node-edge); stroke-width: 1.4; }
-.doubled { stroke: var(--bad); }
-.topic { fill: var(--topic); stroke: var(--topic-edge); stroke-width: 1.4; }
-.arrow { fill: none; stroke: var(--arrow); stroke-width: 1.4; } .head { fill: var(--arrow); }
 .grid { stroke: var(--grid); } .axis { stroke: var(--soft); }
 .trace { fill: none; stroke: var(--dot); stroke-width: 1; opacity: .45; }
 .dots { stroke: var(--dot); stroke-width: 6; stroke-linecap: round; }
 .columns { stroke: var(--dot); stroke-width: 1.2; }
 .gap { stroke: var(--bad); stroke-dasharray: 2 4; } .beyond { fill: var(--bad); }
 .lost { fill: none; stroke: var(--bad); stroke-width: 2.4; }
-""")
+"""
+)
 """The colours of the lessons' own drawings: nodes blue, topics green."""
 
 

@@ -15,8 +15,8 @@ def add_options(word: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Show what changed since the starter."""
+    from ros2_on_pip.safe_text import harmless
     from roslings.own_card import own_lab
-    from roslings.report.safe_text import harmless
     from roslings.workspace.student import diff as changes
 
     lines = changes(own_lab(options.lab))

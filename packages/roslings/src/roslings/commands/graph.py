@@ -12,7 +12,7 @@ from ros2_on_pip.typed_paths import from_here
 from roslings.workspace.student import package_of
 
 if TYPE_CHECKING:
-    from roslings.evidence import GraphSeen
+    from ros2_on_pip.graph.seen import Graph
 
 
 def add_options(word: argparse.ArgumentParser) -> None:
@@ -33,8 +33,8 @@ def add_options(word: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Show the running graph, or save a picture of it."""
+    from ros2_on_pip.graph.words import graph_text
     from ros2_on_pip.surroundings import prepare
-    from roslings.report import graph_text
     from roslings.rqt_graph import seen_graph
 
     files = _pictures_wanted(options)
@@ -74,7 +74,7 @@ def _nothing_to_draw() -> int:
     return FAILED
 
 
-def _saved(seen: GraphSeen, file: Path, options: argparse.Namespace) -> bool:
+def _saved(seen: Graph, file: Path, options: argparse.Namespace) -> bool:
     """Draw the picture; its folder is made where it is missing."""
     from roslings.report import draw_graph
     from roslings.report.graph_picture import NotAPng

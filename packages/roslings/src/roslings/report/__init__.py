@@ -1,4 +1,4 @@
-"""One verdict in, many shapes out: terminal, JSON, HTML; the ROS graph in words and pictures.
+"""One verdict in, many shapes out: terminal, JSON, HTML; the ROS graph as a PNG.
 
 Nothing here knows how a verdict was measured. rich, pydantic and matplotlib are imported when a
 name is first used, so that `./roslings --help` stays quick.
@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from roslings.report.evidence_folder import CannotKeepThere
     from roslings.report.gradescope import write_gradescope
     from roslings.report.graph_picture import draw_graph
-    from roslings.report.graph_words import describe_graph, graph_text
     from roslings.report.json_file import BadVerdictFile, read_json, write_json
     from roslings.report.junit import write_junit
     from roslings.report.prairielearn import write_prairielearn
@@ -34,9 +33,7 @@ __all__ = [
     "NoSuchCheck",
     "Progress",
     "Refusal",
-    "describe_graph",
     "draw_graph",
-    "graph_text",
     "print_verdict",
     "read_evidence",
     "read_json",
@@ -58,9 +55,7 @@ _HOMES = {
     "NoSuchCheck": "terminal",
     "Progress": "progress",
     "Refusal": "refusal",
-    "describe_graph": "graph_words",
     "draw_graph": "graph_picture",
-    "graph_text": "graph_words",
     "print_verdict": "terminal",
     "read_json": "json_file",
     "write_check50": "check50",

@@ -6,10 +6,10 @@ import json
 from pathlib import Path
 from typing import Any
 
+from ros2_on_pip.safe_text import harmless
 from roslings import __version__
 from roslings.report.junit import lines_of
 from roslings.report.refusal import Refusal
-from roslings.report.safe_text import harmless
 from roslings.report.wall_words import held
 from roslings.report.whole_file import write_whole
 from roslings.verdict import CheckResult, Verdict

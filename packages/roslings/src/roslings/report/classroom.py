@@ -11,10 +11,10 @@ import json
 from pathlib import Path
 from typing import Any
 
+from ros2_on_pip.safe_text import harmless
 from roslings.report.junit import lines_of
 from roslings.report.not_graded import INCONCLUSIVE, NO_GRADE
 from roslings.report.refusal import Refusal
-from roslings.report.safe_text import harmless
 from roslings.report.shown_checks import shown_checks
 from roslings.report.whole_file import write_whole
 from roslings.verdict import CheckResult, Verdict

@@ -9,10 +9,10 @@ import json
 from pathlib import Path
 from typing import Any
 
+from ros2_on_pip.safe_text import harmless
 from roslings.report.markdown import markdown_of
 from roslings.report.not_graded import INCONCLUSIVE, NO_GRADE
 from roslings.report.refusal import Refusal
-from roslings.report.safe_text import harmless
 from roslings.report.wall_words import held
 from roslings.report.whole_file import write_whole
 from roslings.verdict import CheckResult, Verdict

@@ -9,13 +9,11 @@ import io
 from pathlib import Path
 from typing import Any
 
-from roslings.evidence import GraphSeen
-from roslings.report.graph_shape import shape_of
-from roslings.report.graph_words import describe_graph, graph_text
-from roslings.report.safe_text import harmless
+from ros2_on_pip.graph.seen import Graph
+from ros2_on_pip.graph.shape import shape_of
+from ros2_on_pip.graph.words import describe_graph
+from ros2_on_pip.safe_text import harmless
 from roslings.report.whole_file import already_there, make_folder_of, write_whole
-
-__all__ = ["NotAPng", "describe_graph", "draw_graph", "graph_text"]
 
 DPI = 150.0
 MOST_PIXELS = 30_000.0
@@ -30,7 +28,7 @@ class NotAPng(Exception):
 
 
 def draw_graph(
-    graph: GraphSeen,
+    graph: Graph,
     path: Path,
     *,
     title: str | None = None,
@@ -51,7 +49,7 @@ def draw_graph(
     write_whole(path, picture, overwrite=overwrite)
 
 
-def _png(graph: GraphSeen, title: str | None, show_hidden: bool) -> bytes:
+def _png(graph: Graph, title: str | None, show_hidden: bool) -> bytes:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 

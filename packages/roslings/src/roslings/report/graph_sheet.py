@@ -12,14 +12,15 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Ellipse, PathPatch, Polygon, Rectangle
 from matplotlib.path import Path as Curve
 
-from roslings.report.graph_labels import SMALL, Label, edges_of, labels_of
-from roslings.report.graph_layout import Box
-from roslings.report.graph_plan import HEAD_HALF, HEAD_LENGTH, Arrow, Point, plan_of
-from roslings.report.graph_shape import GraphShape
-from roslings.report.graph_words import NEXT, NOTHING
-from roslings.report.lettering import WARNING, Lettering, Line
-from roslings.report.palette import colour_of
-from roslings.report.safe_text import harmless, wrapped
+from ros2_on_pip.graph.labels import SMALL, Label, edges_of, labels_of
+from ros2_on_pip.graph.layout import Box
+from ros2_on_pip.graph.line import WARNING, Line
+from ros2_on_pip.graph.plan import HEAD_HALF, HEAD_LENGTH, Arrow, Point, plan_of
+from ros2_on_pip.graph.shape import GraphShape
+from ros2_on_pip.graph.words import NEXT, NOTHING
+from ros2_on_pip.safe_text import harmless, wrapped
+from roslings.report.lettering import Lettering
+from roslings_rover.palette import colour_of
 
 MARGIN = 24.0
 LEAST_WIDTH = 340.0

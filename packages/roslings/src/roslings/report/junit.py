@@ -6,8 +6,8 @@ import re
 from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
+from ros2_on_pip.safe_text import harmless
 from roslings.report.refusal import Refusal
-from roslings.report.safe_text import harmless
 from roslings.report.wall_words import held
 from roslings.report.whole_file import write_whole
 from roslings.verdict import CheckResult, Verdict

@@ -5,17 +5,16 @@ Importing this module imports matplotlib only when a `Lettering` is made.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING, Any
+
+from ros2_on_pip.graph.line import Line
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.font_manager import FontProperties
     from matplotlib.ft2font import FT2Font
 
-# Both have a contrast of at least 7:1 on every ground that we draw (WCAG 2.2, 1.4.6).
-INK, WARNING = "#111827", "#7f0000"
 # matplotlib brings the first one itself; the others are for letters that it lacks.
 FAMILIES = (
     "DejaVu Sans",
@@ -27,21 +26,6 @@ FAMILIES = (
     "FreeSans",
 )
 MEASURING_DPI = 72.0  # a pixel is a point
-
-
-@dataclass(frozen=True)
-class Line:
-    """One line of text; `size` in points."""
-
-    text: str
-    size: float = 11.0
-    colour: str = INK
-    bold: bool = False
-
-    @property
-    def height(self) -> float:
-        """Points from this line's top to the next one's."""
-        return self.size * 1.3
 
 
 class Lettering:

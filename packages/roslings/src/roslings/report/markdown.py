@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from roslings.report.safe_text import harmless
+from ros2_on_pip.safe_text import harmless
 from roslings.verdict import CheckResult
 
 _SIGNS = re.compile(r"([\\`*_{}\[\]()<>#+\-.!|~&$^])")

@@ -12,8 +12,8 @@ from rich.padding import Padding
 from rich.panel import Panel
 from rich.text import Text
 
+from ros2_on_pip.safe_text import can_show, cut_to, filled, harmless, in_encoding, wrapped
 from roslings.report.lesson_link import link_of
-from roslings.report.safe_text import can_show, cut_to, filled, harmless, in_encoding, wrapped
 from roslings.report.typed import Typed
 
 MARKS = {"pass": "✓", "fail": "✗", "skip": "○", "inconclusive": "?"}

@@ -7,7 +7,7 @@ import time
 from types import TracebackType
 from typing import TYPE_CHECKING
 
-from roslings.report.safe_text import can_show, cut_to, harmless, in_encoding
+from ros2_on_pip.safe_text import can_show, cut_to, harmless, in_encoding
 
 if TYPE_CHECKING:
     from rich.console import Console

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from roslings.report.safe_text import harmless
+from ros2_on_pip.safe_text import harmless
 
 
 @dataclass(frozen=True)

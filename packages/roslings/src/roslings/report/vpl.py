@@ -10,10 +10,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
+from ros2_on_pip.safe_text import harmless
 from roslings.report.junit import lines_of
 from roslings.report.not_graded import INCONCLUSIVE, NO_GRADE
 from roslings.report.refusal import Refusal
-from roslings.report.safe_text import harmless
 from roslings.report.shown_checks import shown_checks
 from roslings.report.wall_words import held
 from roslings.report.whole_file import write_whole

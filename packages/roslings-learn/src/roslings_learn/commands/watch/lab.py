@@ -90,7 +90,7 @@ class LabSession(Session):
         return [Offer("g", "graph", self._show_graph, bool(self._graph), "No node has run yet.")]
 
     def _show_graph(self) -> None:
-        from roslings.report import graph_text
+        from ros2_on_pip.graph.words import graph_text
 
         if self._graph:
             print(f"\n{graph_text(self._graph)}", flush=True)

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 
+from ros2_on_pip.markup import Markup, tag
 from ros2_on_pip.rates import NS_PER_S
 from roslings.capabilities.actions.record import ActionsSeen, GoalSeen
 from roslings.evidence import Evidence, ExperimentSeen
-from roslings.report.html.markup import Markup, tag
 from roslings.report.html.scale import time_text
 from roslings.report.html.timeline_svg import Bar, Line, Look, counted, fields_text, table, timeline
 

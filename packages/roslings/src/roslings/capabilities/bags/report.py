@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ros2_on_pip.markup import Markup, tag
 from roslings.capabilities.bags.record import BagGiven, BagsSeen
 from roslings.evidence import Evidence
-from roslings.report.html.markup import Markup, tag
 from roslings.report.html.timeline_svg import table
 
 BAG = ("what", "in the bag")

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ros2_on_pip.markup import Markup, tag
 from roslings.capabilities.camera.record import CameraSeen, PictureKept
 from roslings.evidence import Evidence
-from roslings.report.html.markup import Markup, tag
 
 WIDE_ENOUGH = 480
 """Small pictures are shown larger, by a whole number, up to this many CSS pixels."""

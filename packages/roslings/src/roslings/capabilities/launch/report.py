@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ros2_on_pip.markup import Markup, tag
 from roslings.capabilities.launch.record import LABEL, LaunchSeen
 from roslings.evidence import Evidence, ExperimentSeen
-from roslings.report.html.markup import Markup, tag
 from roslings.report.html.timeline_svg import table
 
 HEAD = ("program", "ran so often", "when it was killed")

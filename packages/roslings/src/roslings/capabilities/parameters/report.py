@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from ros2_on_pip.markup import Markup, tag
 from roslings.capabilities.parameters.record import (
     GIVEN_BY_ROS,
     ParameterSet,
@@ -12,7 +13,6 @@ from roslings.capabilities.parameters.record import (
     ParameterTrial,
 )
 from roslings.evidence import Evidence, ExperimentSeen
-from roslings.report.html.markup import Markup, tag
 from roslings.report.html.timeline_svg import fields_text, table
 
 MOST_ROWS = 60

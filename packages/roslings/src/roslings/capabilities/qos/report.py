@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from ros2_on_pip.markup import Markup, tag
 from ros2_on_pip.rates import NS_PER_S
 from roslings.capabilities.qos.record import HostsSeen, JoinSeen, MoveSeen, QosSeen, StopSeen
 from roslings.evidence import Evidence, ExperimentSeen
-from roslings.report.html.markup import Markup, tag
 from roslings.report.html.scale import time_text
 from roslings.report.html.timeline_svg import Bar, Line, counted, fields_text, table, timeline
 

@@ -6,9 +6,9 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from ros2_on_pip.markup import Markup, joined, tag
 from roslings.capabilities.robot.record import RobotSeen, WaySeen
 from roslings.evidence import Evidence, ExperimentSeen, MessageSeen
-from roslings.report.html.markup import Markup, joined, tag
 
 ODOMETRY = "nav_msgs/msg/Odometry"
 MOST_POINTS = 400

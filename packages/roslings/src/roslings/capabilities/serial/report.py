@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from ros2_on_pip.markup import Markup, joined, tag
 from roslings.capabilities.serial.record import BoardSeen, CableLine, SerialSeen
 from roslings.evidence import Evidence, ExperimentSeen
-from roslings.report.html.markup import Markup, joined, tag
 from roslings.report.html.timeline_svg import cut
 from roslings_rover.models.board_lines import BadLine, unframed
 

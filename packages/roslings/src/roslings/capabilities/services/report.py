@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import groupby
 
+from ros2_on_pip.markup import Markup, tag
 from ros2_on_pip.rates import NS_PER_S
 from roslings.capabilities.services.record import CallSeen, ServicesSeen
 from roslings.evidence import Evidence, ExperimentSeen
-from roslings.report.html.markup import Markup, tag
 from roslings.report.html.scale import time_text
 from roslings.report.html.timeline_svg import Bar, Line, counted, fields_text, table, timeline
 

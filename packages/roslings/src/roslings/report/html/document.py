@@ -7,15 +7,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from ros2_on_pip.graph.drawing import STYLE as GRAPH_STYLE
+from ros2_on_pip.markup import Markup, joined, tag
 from roslings.capability import capabilities
 from roslings.evidence import Evidence
 from roslings.report.html import seen_part, verdict_part
 from roslings.report.html.intervals import Asked, watched
-from roslings.report.html.markup import Markup, joined, tag
-from roslings.report.palette import variables
 from roslings.report.typed import Typed
 from roslings.report.whole_file import write_whole
 from roslings.verdict import Verdict
+from roslings_rover.palette import variables
 
 STYLE = Path(__file__).with_name("style.css")
 MARK = Path(__file__).with_name("roslings.svg")
@@ -85,7 +86,7 @@ def style(more: str = "") -> Markup:
 
     `color-scheme` stands in it, and not only in the head: so the pictures on the page know, too.
     """
-    return tag("style", Markup(variables() + STYLE.read_text("utf-8") + more))
+    return tag("style", Markup(variables() + STYLE.read_text("utf-8") + GRAPH_STYLE + more))
 
 
 def brand(*beside: Markup) -> Markup:

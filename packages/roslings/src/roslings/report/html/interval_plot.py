@@ -7,8 +7,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
+from ros2_on_pip.markup import Markup, joined, tag
 from roslings.report.html.intervals import Asked, Interval, Watched
-from roslings.report.html.markup import Markup, joined, tag
 from roslings.report.html.scale import Axis, Unit, time_text, unit_for
 
 LEFT, RIGHT, TOP, BOTTOM = 62.0, 14.0, 26.0, 42.0

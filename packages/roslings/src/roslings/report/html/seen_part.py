@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from ros2_on_pip.graph.drawing import graph_pictures
+from ros2_on_pip.graph.words import describe_graph
+from ros2_on_pip.markup import Markup, joined, tag
 from ros2_on_pip.rates import Rate
 from roslings.evidence import Evidence, ExperimentSeen, GraphSeen, ProcessSeen, Spoken
 from roslings.matching import own_endpoints
-from roslings.report.graph_words import describe_graph
-from roslings.report.html.graph_svg import graph_pictures
 from roslings.report.html.interval_plot import describe, interval_plot, legend
 from roslings.report.html.intervals import Watched, unheard
-from roslings.report.html.markup import Markup, joined, tag
 from roslings.report.html.scale import rate_text, time_text
 from roslings.report.node_logs import NodeLog, logs_of
 from roslings.verdict import CheckResult, Verdict

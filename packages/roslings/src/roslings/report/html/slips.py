@@ -6,8 +6,8 @@ import difflib
 import re
 from collections.abc import Iterator
 
+from ros2_on_pip.markup import Markup, joined, prose, tag
 from ros2_on_pip.near_names import SIMILAR
-from roslings.report.html.markup import Markup, joined, prose, tag
 
 NAME = re.compile(r"(?<![\w/])(/[\w/]+|'[^'\n]{3,}'|\"[^\"\n]{3,}\")")
 

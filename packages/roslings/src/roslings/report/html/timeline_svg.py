@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from roslings.report.html.markup import Markup, joined, tag
+from ros2_on_pip.markup import Markup, joined, tag
 from roslings.report.html.scale import Axis, unit_for
 
 ROW, FOOT, MARGIN = 26.0, 34.0, 14.0

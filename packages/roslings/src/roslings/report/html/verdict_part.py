@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 
+from ros2_on_pip.markup import Markup, joined, prose, tag
 from roslings.report.check_lines import LOG_LINES, points_of
 from roslings.report.groups import by_reason, of_outcome
 from roslings.report.hint_page import STEPS, first_failed
-from roslings.report.html.markup import Markup, joined, prose, tag
 from roslings.report.html.slips import marked
 from roslings.report.log_lines import helpful
 from roslings.report.typed import Typed

@@ -5,7 +5,7 @@ from __future__ import annotations
 import html
 import re
 
-from roslings.report.safe_text import harmless
+from ros2_on_pip.safe_text import harmless
 
 _CODE = re.compile(r"`([^`\n]+)`")
 VOID = frozenset({"meta", "line", "rect", "ellipse", "path", "br", "img", "input"})

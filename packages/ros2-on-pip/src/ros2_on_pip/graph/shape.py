@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
+from collections.abc import Iterable
 from dataclasses import dataclass
 
-from roslings.evidence import Endpoint, GraphSeen
+from ros2_on_pip.graph.seen import Endpoint, Graph
 
 # Topics that rclpy gives every node, and their types (rcl's logging, ROS 2's parameters).
 INFRASTRUCTURE = {
@@ -47,7 +48,7 @@ class GraphShape:
         return tuple(node for node in self.nodes if node.name not in busy)
 
 
-def shape_of(graph: GraphSeen, *, show_hidden: bool = False) -> GraphShape:
+def shape_of(graph: Graph, *, show_hidden: bool = False) -> GraphShape:
     """The shape of `graph`; with `show_hidden` also /rosout, /parameter_events and hidden names.
 
     A name is hidden in ROS where a part of it begins with `_`, e.g. the command line's daemon.
@@ -84,7 +85,7 @@ def _is_hidden_name(name: str) -> bool:
     return "/_" in name
 
 
-def _topics(endpoints: list[Endpoint]) -> tuple[TopicShape, ...]:
+def _topics(endpoints: Iterable[Endpoint]) -> tuple[TopicShape, ...]:
     by_topic: dict[str, list[Endpoint]] = defaultdict(list)
     for end in endpoints:
         by_topic[end.topic].append(end)
@@ -99,5 +100,5 @@ def _topics(endpoints: list[Endpoint]) -> tuple[TopicShape, ...]:
     )
 
 
-def _nodes_of(endpoints: list[Endpoint], kind: str) -> tuple[str, ...]:
+def _nodes_of(endpoints: Iterable[Endpoint], kind: str) -> tuple[str, ...]:
     return tuple(sorted({end.node for end in endpoints if end.kind == kind}))

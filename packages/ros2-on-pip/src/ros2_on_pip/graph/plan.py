@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from roslings.report.graph_layout import Box, Edge, Layout, Route, layout
+from ros2_on_pip.graph.layout import Box, Edge, Layout, Route, layout
 
 ASPECT = 1.4  # width by height of what fits a screen or a page well
 WIDE = 900.0  # what is no wider than this is read from left to right

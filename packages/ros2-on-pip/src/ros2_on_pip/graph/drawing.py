@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import unicodedata
 from collections.abc import Iterator, Mapping
 
-from roslings.evidence import GraphSeen
-from roslings.report.graph_labels import Label, edges_of, labels_of
-from roslings.report.graph_layout import Box
-from roslings.report.graph_plan import Arrow, Plan, plan_down, plan_of
-from roslings.report.graph_shape import shape_of
-from roslings.report.graph_words import describe_graph
-from roslings.report.html.markup import Markup, joined, tag
-from roslings.report.lettering import WARNING, Line
+from ros2_on_pip.graph.labels import Label, edges_of, labels_of
+from ros2_on_pip.graph.layout import Box
+from ros2_on_pip.graph.line import WARNING, Line
+from ros2_on_pip.graph.plan import Arrow, Plan, plan_down, plan_of
+from ros2_on_pip.graph.seen import Graph
+from ros2_on_pip.graph.shape import shape_of
+from ros2_on_pip.graph.words import describe_graph
+from ros2_on_pip.markup import Markup, joined, tag
 
 MARGIN = 8.0
 SCALE = 1.3
@@ -19,6 +20,15 @@ CELL = 0.61
 """Width of a letter in a monospaced font, as a part of its height: at most, of the usual ones."""
 NARROW = 330.0
 SHADOW = 5.0
+STYLE = """
+.graph text { fill: var(--ink); }
+.graph .bold { font-weight: 700; } .graph .warn { fill: var(--bad); }
+.node { fill: var(--node); stroke: var(--node-edge); stroke-width: 1.4; }
+.doubled { stroke: var(--bad); }
+.topic { fill: var(--topic); stroke: var(--topic-edge); stroke-width: 1.4; }
+.arrow { fill: none; stroke: var(--arrow); stroke-width: 1.4; } .head { fill: var(--arrow); }
+"""
+"""How a page shows it, whose style has these variables."""
 
 
 class MonospacedRuler:
@@ -26,12 +36,16 @@ class MonospacedRuler:
 
     def width(self, line: Line) -> float:
         """Points that the line takes."""
-        from rich.cells import cell_len
-
-        return cell_len(line.text) * CELL * line.size
+        return sum(map(_cells, line.text)) * CELL * line.size
 
 
-def graph_svg(graph: GraphSeen) -> Markup:
+def _cells(sign: str) -> int:
+    if unicodedata.combining(sign):
+        return 0
+    return 2 if unicodedata.east_asian_width(sign) in "WF" else 1
+
+
+def graph_svg(graph: Graph) -> Markup:
     """The graph from left to right, as an `svg` element alone."""
     labels = labels_of(shape := shape_of(graph))
     ruler = MonospacedRuler()
@@ -39,7 +53,7 @@ def graph_svg(graph: GraphSeen) -> Markup:
     return _drawing(plan_of(boxes, edges_of(shape)), labels, describe_graph(graph))
 
 
-def graph_pictures(graph: GraphSeen) -> Markup:
+def graph_pictures(graph: Graph) -> Markup:
     """The graph from left to right; for narrow screens, where that is wide, also downwards."""
     ruler = MonospacedRuler()
     shape = shape_of(graph)

@@ -6,10 +6,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Protocol
 
-from roslings.report.graph_layout import Box, Edge
-from roslings.report.graph_shape import GraphShape, NodeShape, TopicShape
-from roslings.report.lettering import INK, WARNING, Line
-from roslings.report.safe_text import harmless, wrapped
+from ros2_on_pip.graph.layout import Box, Edge
+from ros2_on_pip.graph.line import INK, WARNING, Line
+from ros2_on_pip.graph.shape import GraphShape, NodeShape, TopicShape
+from ros2_on_pip.safe_text import harmless, wrapped
 
 LONGEST_NAME = 30
 SMALL = 9.0

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from roslings.evidence import GraphSeen
-from roslings.report.graph_shape import GraphShape, NodeShape, TopicShape, shape_of
-from roslings.report.safe_text import filled, harmless, wrapped
+from ros2_on_pip.graph.seen import Graph
+from ros2_on_pip.graph.shape import GraphShape, NodeShape, TopicShape, shape_of
+from ros2_on_pip.safe_text import filled, harmless, wrapped
 
 WIDTH = 80
 NOTHING = "Nothing runs: no node was seen."
 NEXT = "Start a node in another terminal, then look again."
 
 
-def graph_text(graph: GraphSeen, *, show_hidden: bool = False) -> str:
+def graph_text(graph: Graph, *, show_hidden: bool = False) -> str:
     """The graph in lines of at most 80 columns, ASCII where the names are; ends without newline."""
     shape = shape_of(graph, show_hidden=show_hidden)
     if not shape.nodes:
@@ -24,7 +24,7 @@ def graph_text(graph: GraphSeen, *, show_hidden: bool = False) -> str:
     return "\n".join(lines)
 
 
-def describe_graph(graph: GraphSeen, *, show_hidden: bool = False) -> str:
+def describe_graph(graph: Graph, *, show_hidden: bool = False) -> str:
     """The graph in sentences: the text alternative of its picture."""
     shape = shape_of(graph, show_hidden=show_hidden)
     if not shape.nodes:
