@@ -8,6 +8,7 @@ from pathlib import Path
 
 from nicegui import ui
 
+from ros2_on_pip.graph.drawing import STYLE as GRAPH_STYLE
 from ros2_on_pip.problem import Problem
 from roslings_desk.bag_bar import BagBar
 from roslings_desk.bag_player import BagPlayer
@@ -15,6 +16,7 @@ from roslings_desk.controls import Notice, Text, button, part, told
 from roslings_desk.hub import Hub
 from roslings_desk.saving import HERE, LAST_S, save
 from roslings_desk.tab import OpenTab, Tab
+from roslings_rover.palette import variables
 
 STYLE = Path(__file__).with_name("style.css")
 
@@ -28,7 +30,7 @@ def build(
     """
     tab = tabs[name]()
     ui.page_title(f"{tab.title} - roslings desk")
-    ui.add_css(STYLE.read_text("utf-8"))
+    ui.add_css(variables() + STYLE.read_text("utf-8") + GRAPH_STYLE)
     with part("header"):
         Text("h1", "roslings desk")
         _ways(name, tabs)

@@ -29,6 +29,7 @@ from roslings_desk.hub import Heard, Hub
 GROUP = "roslings.desk_tab"
 BUILT_IN = {
     "rover": "roslings_desk.tabs.rover:RoverTab",
+    "graph": "roslings_desk.tabs.graph:GraphTab",
     "topics": "roslings_desk.tabs.topics:TopicsTab",
     "plot": "roslings_desk.tabs.plot:PlotTab",
     "services": "roslings_desk.tabs.services:ServicesTab",

@@ -10,8 +10,8 @@ from ros2_on_pip.graph.layout import Box
 from ros2_on_pip.graph.line import WARNING, Line
 from ros2_on_pip.graph.plan import Arrow, Plan, plan_down, plan_of
 from ros2_on_pip.graph.seen import Graph
-from ros2_on_pip.graph.shape import shape_of
-from ros2_on_pip.graph.words import describe_graph
+from ros2_on_pip.graph.shape import GraphShape, shape_of
+from ros2_on_pip.graph.words import sentences_of
 from ros2_on_pip.markup import Markup, joined, tag
 
 MARGIN = 8.0
@@ -47,10 +47,15 @@ def _cells(sign: str) -> int:
 
 def graph_svg(graph: Graph) -> Markup:
     """The graph from left to right, as an `svg` element alone."""
-    labels = labels_of(shape := shape_of(graph))
+    return shape_svg(shape_of(graph))
+
+
+def shape_svg(shape: GraphShape) -> Markup:
+    """The same of what is left of a graph."""
+    labels = labels_of(shape)
     ruler = MonospacedRuler()
     boxes = {key: label.box(ruler) for key, label in labels.items()}
-    return _drawing(plan_of(boxes, edges_of(shape)), labels, describe_graph(graph))
+    return _drawing(plan_of(boxes, edges_of(shape)), labels, sentences_of(shape))
 
 
 def graph_pictures(graph: Graph) -> Markup:
@@ -60,7 +65,7 @@ def graph_pictures(graph: Graph) -> Markup:
     labels = labels_of(shape)
     boxes = {key: label.box(ruler) for key, label in labels.items()}
     edges = edges_of(shape)
-    words = describe_graph(graph)
+    words = sentences_of(shape)
     across = plan_of(boxes, edges)
     if across.width <= NARROW / SCALE:
         return _picture(across, labels, words, None)

@@ -18,7 +18,7 @@ def graph_text(graph: Graph, *, show_hidden: bool = False) -> str:
     shape = shape_of(graph, show_hidden=show_hidden)
     if not shape.nodes:
         return f"{NOTHING}\n{NEXT}"
-    lines = [_counts(shape), "", *_node_lines(shape), *_topic_lines(shape)]
+    lines = [counts_of(shape), "", *_node_lines(shape), *_topic_lines(shape)]
     if shape.hidden:
         lines += ["", *_listed("Not shown: ", shape.hidden)]
     return "\n".join(lines)
@@ -26,13 +26,18 @@ def graph_text(graph: Graph, *, show_hidden: bool = False) -> str:
 
 def describe_graph(graph: Graph, *, show_hidden: bool = False) -> str:
     """The graph in sentences: the text alternative of its picture."""
-    shape = shape_of(graph, show_hidden=show_hidden)
+    return sentences_of(shape_of(graph, show_hidden=show_hidden))
+
+
+def sentences_of(shape: GraphShape) -> str:
+    """What is left of a graph, in sentences."""
     if not shape.nodes:
         return NOTHING
     return harmless(" ".join(_sentences(shape)))
 
 
-def _counts(shape: GraphShape) -> str:
+def counts_of(shape: GraphShape) -> str:
+    """How many nodes and topics there are."""
     nodes = sum(node.count for node in shape.nodes)
     return f"{_number(nodes, 'node')}, {_number(len(shape.topics), 'topic')}"
 
@@ -56,12 +61,13 @@ def _topic_lines(shape: GraphShape) -> Iterator[str]:
     if shape.topics:
         yield from ("", "Topics")
     for topic in shape.topics:
-        yield from _indented(f"{topic.name}   {_types(topic)}", 2)
+        yield from _indented(f"{topic.name}   {types_of(topic)}", 2)
         yield from _listed("    from  ", topic.publishers or ("nobody publishes here",))
         yield from _listed("    to    ", topic.subscribers or ("nobody listens here",))
 
 
-def _types(topic: TopicShape) -> str:
+def types_of(topic: TopicShape) -> str:
+    """The type of a topic, or that it has several."""
     if len(topic.types) > 1:
         return f"{len(topic.types)} types that do not match: {', '.join(topic.types)}"
     return topic.types[0]
@@ -77,7 +83,7 @@ def _indented(text: str, indent: int) -> list[str]:
 
 
 def _sentences(shape: GraphShape) -> Iterator[str]:
-    yield f"A ROS graph with {_counts(shape).replace(', ', ' and ')}."
+    yield f"A ROS graph with {counts_of(shape).replace(', ', ' and ')}."
     for node in shape.nodes:
         if node.count > 1:
             yield f"{node.count} nodes run under the name {node.name}."
@@ -88,7 +94,7 @@ def _sentences(shape: GraphShape) -> Iterator[str]:
 
 
 def _topic_sentence(topic: TopicShape) -> str:
-    name = f"{topic.name} ({_types(topic)})"
+    name = f"{topic.name} ({types_of(topic)})"
     if not topic.publishers:
         return f"Nobody publishes on {name}; {_verb(topic.subscribers, 'subscribe')} to it."
     said = f"{_verb(topic.publishers, 'publish')} on {name}"
