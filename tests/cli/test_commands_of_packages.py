@@ -7,6 +7,7 @@ from importlib.metadata import entry_points
 
 import pytest
 
+from roslings_desk.book_names import WINDOWS
 from roslings_launcher.cli.table import GROUP, ORDER, Command, commands
 from roslings_launcher.virtual import COMMANDS
 from sources import ROOT
@@ -33,6 +34,8 @@ def test_each_command_is_there(command: Command) -> None:
 def test_programs_on_the_path_are_commands() -> None:
     """An environment of the course has a small program for each."""
     assert set(COMMANDS) <= commands().keys()
+    windows = {name for name in commands() if name.startswith("rqt")}
+    assert windows <= set(COMMANDS) and windows <= set(WINDOWS)
 
 
 def test_a_package_offers_what_it_brings() -> None:

@@ -1,4 +1,4 @@
-"""`rqt_graph`, typed alone: a picture of what runs."""
+"""`rqt_graph`, typed alone: a picture of what runs, where no desk opens instead."""
 
 from __future__ import annotations
 
@@ -12,6 +12,10 @@ from skips import imported
 from sources import code_of
 
 START = code_of("roslings_launcher") / "start.py"
+WITHOUT_A_DESK = (
+    "import runpy, sys; sys.modules['nicegui'] = None; sys.argv[:1] = [];"
+    " runpy.run_path(sys.argv[0], run_name='__main__')"
+)
 
 
 def test_rqt_graph_saves_a_picture_where_there_is_no_screen(stage: Shell, tmp_path: Path) -> None:
@@ -20,7 +24,8 @@ def test_rqt_graph_saves_a_picture_where_there_is_no_screen(stage: Shell, tmp_pa
     environment = {k: v for k, v in stage.environment.items() if "DISPLAY" not in k}
     for name in ("rosgraph.png", "rosgraph_2.png"):
         done = subprocess.run(
-            [sys.executable, START, "rqt_graph"], env=environment | {"PATH": "/usr/bin:/bin"},
+            [sys.executable, "-c", WITHOUT_A_DESK, START, "rqt_graph"],
+            env=environment | {"PATH": "/usr/bin:/bin"},
             cwd=tmp_path, capture_output=True, text=True, check=False,
         )  # fmt: skip
         assert done.stdout == f"The picture of the graph is in {tmp_path / name}\n", done.stderr

@@ -73,7 +73,8 @@ def environment(domain: int, home: Path) -> dict[str, str]:
     """A new terminal: nothing of the test's own environment but what Python needs."""
     kept = {k: os.environ[k] for k in ("PATH", "LD_LIBRARY_PATH", "LANG") if k in os.environ}
     own = {"ROS_DOMAIN_ID": str(domain), "HOME": str(home), "PYTHONPATH": python_path()}
-    return kept | own | {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+    quiet = {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST", "BROWSER": "true"}  # opens nothing
+    return kept | own | quiet
 
 
 @contextmanager

@@ -140,6 +140,12 @@ class Choice(Field):
         self.offer(options)
         self.control.on("change", lambda event: self._take(str(event.args)), js_handler=VALUE)
 
+    def choose(self, value: str) -> None:
+        """Choose it, as somebody does in the page; what is to be done then is the caller's."""
+        self.value, there = value, self._options
+        self._options = []
+        self.offer(there)
+
     def offer(self, options: Iterable[str]) -> None:
         """Another list; what was chosen stays chosen, also where it is not there any more."""
         new = list(options)
@@ -170,14 +176,18 @@ class Spoken(Text):
         super().__init__("p", "", "spoken", role="status")
 
 
-def tell(notice: Notice, act: Callable[[], Any]) -> None:
-    """Do it, and say in `notice` what cannot be done."""
+def problem_of(act: Callable[[], Any]) -> str:
+    """Do it; the words of what cannot be done, else nothing."""
     try:
         act()
     except Problem as problem:
-        notice.say(str(problem))
-    else:
-        notice.say("")
+        return str(problem)
+    return ""
+
+
+def tell(notice: Notice, act: Callable[[], Any]) -> None:
+    """Do it, and say in `notice` what cannot be done."""
+    notice.say(problem_of(act))
 
 
 def told(notice: Notice, act: Callable[[], Any]) -> Callable[[], Awaitable[None]]:

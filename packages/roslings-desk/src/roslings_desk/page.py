@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from nicegui import ui
 
 from ros2_on_pip.graph.drawing import STYLE as GRAPH_STYLE
-from ros2_on_pip.problem import Problem
 from roslings_desk.bag_bar import BagBar
 from roslings_desk.bag_player import BagPlayer
-from roslings_desk.controls import Notice, Text, button, part, told
+from roslings_desk.controls import Notice, Text, button, part, problem_of, told
 from roslings_desk.hub import Hub
 from roslings_desk.saving import HERE, LAST_S, save
 from roslings_desk.tab import OpenTab, Tab
@@ -22,11 +21,15 @@ STYLE = Path(__file__).with_name("style.css")
 
 
 def build(
-    hub: Hub, name: str, tabs: dict[str, Callable[[], Tab]], bag: BagPlayer | None = None
+    hub: Hub,
+    name: str,
+    tabs: dict[str, Callable[[], Tab]],
+    bag: BagPlayer | None = None,
+    shown: Sequence[str] = (),
 ) -> None:
     """The page of the tab `name`. What the tab opened ends when the browser is gone.
 
-    With a `bag` its line stands above each tab.
+    With a `bag` its line stands above each tab. `shown` is what the tab shows at once.
     """
     tab = tabs[name]()
     ui.page_title(f"{tab.title} - roslings desk")
@@ -41,7 +44,7 @@ def build(
         BagBar(bag)
     with part("div", "tab"):
         Text("h2", tab.title)
-        _open(hub, tab)
+        _open(OpenTab(hub, shown), tab)
 
 
 def _ways(here: str, tabs: dict[str, Callable[[], Tab]]) -> None:
@@ -63,25 +66,15 @@ def _show_saving(hub: Hub) -> None:
     said = Text("p", "", "spoken", aria_live="polite")
 
 
-def _open(hub: Hub, tab: Tab) -> None:
+def _open(open_tab: OpenTab, tab: Tab) -> None:
     notice = Notice()
-    open_tab = OpenTab(hub)
     client = ui.context.client
     client.on_delete(open_tab.close)
 
     def act() -> None:
-        notice.say(_problem_of(tab.refresh))
+        notice.say(problem_of(tab.refresh))
 
-    if problem := _problem_of(lambda: tab.show(open_tab)):
+    if problem := problem_of(lambda: tab.show(open_tab)):
         notice.say(problem)
     else:
         ui.timer(tab.every_s, act)
-
-
-def _problem_of(act: Callable[[], None]) -> str:
-    """Do it; the words of what cannot be done, else nothing."""
-    try:
-        act()
-    except Problem as problem:
-        return str(problem)
-    return ""

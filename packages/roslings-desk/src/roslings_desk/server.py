@@ -18,6 +18,7 @@ from roslings_desk.bag_player import BagPlayer, playing
 from roslings_desk.door import door
 from roslings_desk.guard import ENTRANCE, Guard
 from roslings_desk.hub import Hub
+from roslings_desk.shown import TAKE_WORDS
 
 HOST = "127.0.0.1"
 FIRST_TAB = "rover"
@@ -40,6 +41,16 @@ class NoSuchTab(Problem):
         super().__init__(f"The desk has no tab '{name}'. It has: {', '.join(there)}")
 
 
+class NoWords(Problem):
+    """The tab takes no words."""
+
+    def __init__(self, tab: str, words: Sequence[str]) -> None:
+        super().__init__(
+            f"The tab '{tab}' takes no words, so '{' '.join(words)}' is left over."
+            f" These take some: {', '.join(TAKE_WORDS)}"
+        )
+
+
 @dataclass(frozen=True)
 class Wish:
     """How the desk is to be opened."""
@@ -50,16 +61,23 @@ class Wish:
     browser: bool = True
     allowed: Sequence[str] = ()
     """Hosts by which a proxy or a container reaches it, as a browser names them: `host:port`."""
+    shown: Sequence[str] = ()
+    """What the tab shows at once: a topic, a node, a topic with a field."""
     bag: Path | None = None
     """It is played for the pages, in place of what runs on this computer."""
 
 
 def run(wish: Wish) -> None:
-    """Serve until Ctrl-C. Raises PortTaken, NoSuchTab, and what Eye and BagPlayer raise."""
+    """Serve until Ctrl-C.
+
+    Raises PortTaken, NoSuchTab, NoWords, and what Eye and BagPlayer raise.
+    """
     from roslings_desk.tab import tabs
 
     if wish.tab not in (there := tabs()):
         raise NoSuchTab(wish.tab, list(there))
+    if wish.shown and wish.tab not in TAKE_WORDS:
+        raise NoWords(wish.tab, wish.shown)
     bag: AbstractContextManager[BagPlayer | None]
     bag = playing(wish.bag) if wish.bag else nullcontext()
     with _own_storage(), _listening(wish.port) as listener, bag as player, Hub() as hub:
@@ -92,7 +110,7 @@ def _serve(wish: Wish, listener: socket.socket, hub: Hub, bag: BagPlayer | None)
     from roslings_desk.application import application
 
     port = listener.getsockname()[1]
-    guard = Guard(application(hub, bag), port, wish.allowed)
+    guard = Guard(application(hub, bag, {wish.tab: wish.shown}), port, wish.allowed)
     config = uvicorn.Config(
         guard, log_level="warning", access_log=False, server_header=False,
         timeout_graceful_shutdown=LEAVES_WITHIN_S,

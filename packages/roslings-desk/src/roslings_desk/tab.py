@@ -17,7 +17,7 @@ the entry points of an installed package. Its page is /battery.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from functools import partial
 from importlib import import_module
@@ -44,8 +44,10 @@ BUILT_IN = {
 class OpenTab:
     """A tab that a page shows. What it listens to, and what it opened, ends when it is closed."""
 
-    def __init__(self, hub: Hub) -> None:
+    def __init__(self, hub: Hub, shown: Sequence[str] = ()) -> None:
         self.hub = hub
+        self.shown = shown
+        """What was typed behind the tab's name: `./roslings desk image /image`."""
         self.ends = ExitStack()
         """What is to be ended with the tab."""
         self._heard: list[Heard] = []

@@ -12,7 +12,10 @@ from roslings_launcher import __version__
 from roslings_launcher.errors import Trouble, disk_full
 from roslings_launcher.sources import OFFERS, offers, seen_by_python
 
-COMMANDS = ("ros2", "rqt_graph", "rqt", "rqt_console", "rqt_plot", "rviz2")
+COMMANDS = (
+    "ros2", "rqt", "rqt_console", "rqt_graph", "rqt_image_view", "rqt_plot", "rqt_publisher",
+    "rqt_reconfigure", "rqt_topic", "rviz2",
+)  # fmt: skip
 _COMMAND = """#!/bin/sh
 # `{name}` of roslings, for machines where the real one is not installed.
 exec {script} {name} "$@"

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from ros2_on_pip.cli import STOPPED, explained
 from ros2_on_pip.handover import hand_over
 from ros2_on_pip.problem import Problem
+from ros2_on_pip.windows import window_of
 from ros2_on_pip.words import OK, Parser
 
 if TYPE_CHECKING:
@@ -57,7 +58,12 @@ def _parser() -> Parser:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Look at the graph, then show or save it. Raises NoMatplotlib, CannotSave."""
+    """Look at the graph, then show or save it. Raises NoMatplotlib, CannotSave.
+
+    Where another package opens a window of its own in place of rqt_graph's, that one is opened.
+    """
+    if options.save is None and (window := window_of("rqt_graph")):
+        return window.open([])
     graph = seen_graph()
     if not graph.nodes:
         print("No node runs, so the picture is empty. Start a node first.", file=sys.stderr)

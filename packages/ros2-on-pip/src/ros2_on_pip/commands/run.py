@@ -50,7 +50,7 @@ def complete_executables(parsed_args: argparse.Namespace, **_: Any) -> list[str]
 
 
 def run(options: argparse.Namespace) -> int:
-    """`ros2 run PACKAGE EXECUTABLE ...`; does not come back."""
+    """`ros2 run PACKAGE EXECUTABLE ...`; comes back from a window in place of another one only."""
     from ros2_on_pip.packages import PackageNotFound, executable
     from ros2_on_pip.programs import command_of, environment_of
     from ros2_on_pip.well_known import answer_for
@@ -58,6 +58,10 @@ def run(options: argparse.Namespace) -> int:
     try:
         program = executable(options.package_name, options.executable_name)
     except PackageNotFound:
+        from ros2_on_pip.windows import window_of  # only now: it asks what is installed
+
+        if window := window_of(options.package_name):
+            return window.open(options.argv)
         answer_for(options.package_name)
         raise
     command = [*shlex.split(options.prefix or ""), *command_of(program), *options.argv]

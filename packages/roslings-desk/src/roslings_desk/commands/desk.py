@@ -12,6 +12,13 @@ def add_options(word: argparse.ArgumentParser) -> None:
     """What it takes."""
     word.add_argument("tab", metavar="TAB", nargs="?", default="rover",
                       help="the tab that opens: rover, topics, ... (default: rover)")  # fmt: skip
+    word.add_argument(
+        "shown",
+        metavar="WORD",
+        nargs="*",
+        default=[],
+        help="what it shows at once: plot /odom/twist/twist/linear/x, image /image",
+    )
     word.add_argument("--bag", metavar="BAG", type=Path,
                       help="show what a bag holds, with Pause and any place in it")  # fmt: skip
     word.add_argument("--port", metavar="N", type=int, default=0, help="default: any free one")
@@ -29,5 +36,5 @@ def run(options: argparse.Namespace) -> int:
 
     prepare()
     hosts = tuple(options.allow_host)
-    run(Wish(options.tab, options.port, not options.no_browser, hosts, options.bag))
+    run(Wish(options.tab, options.port, not options.no_browser, hosts, options.shown, options.bag))
     return OK

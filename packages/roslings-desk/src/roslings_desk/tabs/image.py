@@ -5,6 +5,7 @@ from __future__ import annotations
 from roslings_desk.controls import Choice, Notice, Spoken, Text, button, part, told
 from roslings_desk.hub import Heard
 from roslings_desk.pictures import picture_of
+from roslings_desk.shown import topic_of
 from roslings_desk.tab import OpenTab
 
 TYPES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage")
@@ -31,14 +32,28 @@ class ImageTab:
         self._bright = Text("p", "", "value")
         self._count = Text("p", "Choose a topic.", "hint")
         self._spoken = Spoken()
+        self._wanted = topic_of(open_tab.shown)
         self._picture = part("img", "picture", alt="No picture yet", src=NOTHING, hidden=True)
 
     def refresh(self) -> None:
         """Draw the newest picture, where it is another one. Raises BadPicture."""
         topics = self._open.hub.topics()
-        self._topic.offer(seen.name for seen in topics if set(seen.types) & set(TYPES))
+        there = [seen.name for seen in topics if set(seen.types) & set(TYPES)]
+        self._topic.offer(there)
+        if self._wanted:
+            self._open_wanted(there)
         if self._heard and self._heard.count != self._drawn:
             self._draw(self._heard)
+
+    def _open_wanted(self, there: list[str]) -> None:
+        """What was typed behind the tab's name, as soon as it is there; unless one is chosen."""
+        if self._topic.value:
+            self._wanted = ""
+        elif self._wanted in there:
+            self._topic.choose(self._wanted)
+            self._choose()
+        else:
+            self._count.say(f"No node has a topic {self._wanted} with pictures yet.")
 
     def _choose(self) -> None:
         """Raises SeveralTypes."""

@@ -9,6 +9,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from nicegui import background_tasks
+
 from ros2_on_pip.discovery import NodeVanished
 from ros2_on_pip.parameters import (
     BOOL,
@@ -36,6 +38,7 @@ from roslings_desk.controls import (
     part,
     told,
 )
+from roslings_desk.shown import topic_of
 from roslings_desk.tab import OpenTab
 
 EVENTS = "/parameter_events"
@@ -99,6 +102,7 @@ class ParametersTab:
             button("Undo the last change", told(self._trouble, self._undo))
         self._said = Text("p", "Choose a node.", "hint", role="status")
         self._list = part("div", "parameters")
+        self._wanted = topic_of(open_tab.shown)
         self._choice.on_change(told(self._trouble, self._choose))
 
     def refresh(self) -> None:
@@ -106,6 +110,8 @@ class ParametersTab:
         services = self._hub.eye.services(hidden=False)
         nodes = [name.rpartition("/")[0] for name in services if name.endswith(f"/{SERVICE}")]
         self._choice.offer(nodes)
+        if self._wanted:
+            self._open_wanted(nodes)
         self._hear()
         if self._node and self._node not in nodes:
             raise NodeVanished(self._node)
@@ -120,6 +126,16 @@ class ParametersTab:
                     row.take(plain(changed.value))
 
     # --- the chosen node -------------------------------------------------------------------
+
+    def _open_wanted(self, nodes: Sequence[str]) -> None:
+        """What was typed behind the tab's name, as soon as it is there; unless one is chosen."""
+        if self._choice.value:
+            self._wanted = ""
+        elif self._wanted in nodes:
+            self._choice.choose(self._wanted)
+            background_tasks.create(told(self._trouble, self._choose)(), name=self._wanted)
+        else:
+            self._said.say(f"No node is called {self._wanted} yet.")
 
     async def _choose(self) -> None:
         """Raises NoAnswer, CallFailed."""

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 import time
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 from nicegui import ui
@@ -14,7 +15,18 @@ from nicegui import ui
 from ros2_on_pip.field_types import FLOATS, INTEGERS, read_type
 from ros2_on_pip.interfaces import class_of
 from ros2_on_pip.problem import Problem
-from roslings_desk.controls import Choice, Notice, Spoken, Text, TextField, button, part, tell, told
+from roslings_desk.controls import (
+    Choice,
+    Notice,
+    Spoken,
+    Text,
+    TextField,
+    button,
+    part,
+    problem_of,
+    tell,
+    told,
+)
 from roslings_desk.hub import Heard
 from roslings_desk.tab import OpenTab
 
@@ -110,6 +122,7 @@ class PlotTab:
 
     def __init__(self) -> None:
         self._curves: list[Curve] = []
+        self._awaited: list[str] = []
         self._paused = False
 
     def show(self, open_tab: OpenTab) -> None:
@@ -126,6 +139,8 @@ class PlotTab:
             self._pause = button("Pause", self._turn, aria_pressed="false")
             button("Take all away", self._clear)
             button("Say the values", self._say)
+        self._waiting = Text("p", "", "hint")
+        self._awaited = [each for word in open_tab.shown for each in curves_in(word)]
         self._spoken = Spoken()
         self._chart = ui.echart(_options([])).classes("curves")
         self._chart.props["role"] = "img"
@@ -156,10 +171,15 @@ class PlotTab:
     def _add(self) -> None:
         """Raises NoTopic, NoNumber, TooMany, SeveralTypes, UnknownInterface."""
         topic, path = self._topic.value, self._other.value.strip() or self._field.value
+        self._add_curve(topic, path)
+
+    def _add_curve(self, topic: str, path: str) -> None:
         type_name = self._open.hub.type_of(topic)
         if not type_name:
             raise NoTopic
-        if number_at(class_of(type_name, "msg")(), path, only_type=True) is None:
+        message = class_of(type_name, "msg")()
+        path = path or next(numbers_in(message), "")
+        if number_at(message, path, only_type=True) is None:
             raise NoNumber(path, type_name)
         if len(self._curves) >= MOST_CURVES:
             raise TooMany
@@ -167,8 +187,19 @@ class PlotTab:
         self._curves.append(Curve(heard, path, seen=heard.count))
         self._show_rows()
 
+    def _add_awaited(self, there: Sequence[str]) -> None:
+        """What was typed behind the tab's name, as soon as a node has the topic."""
+        for word in list(self._awaited):
+            if found := topic_and_path(word, there):
+                self._awaited.remove(word)
+                if problem := problem_of(partial(self._add_curve, *found)):
+                    self._trouble.say(problem)
+        waiting = f"No node has such a topic yet: {', '.join(self._awaited)}"
+        self._waiting.say(waiting if self._awaited else "")
+
     def _clear(self) -> None:
         self._curves.clear()
+        self._awaited.clear()
         self._open.leave_all()
         self._show_rows()
         self._draw()
@@ -187,7 +218,9 @@ class PlotTab:
 
     def refresh(self) -> None:
         """Draw what has come, unless it is paused."""
-        self._topic.offer(seen.name for seen in self._open.hub.topics())
+        there = [seen.name for seen in self._open.hub.topics()]
+        self._topic.offer(there)
+        self._add_awaited(there)
         for curve in self._curves:
             curve.read()
         if self._curves and not self._paused:
@@ -249,6 +282,21 @@ def _options(curves: list[Curve], now_s: float = 0.0) -> dict[str, Any]:
 
 
 # --- fields ------------------------------------------------------------------------------------
+
+
+def curves_in(word: str) -> list[str]:
+    """One word of `rqt_plot` may name several fields: `/pose/x:y` is `/pose/x` and `/pose/y`."""
+    place, _, fields = f"/{word.strip('/')}".rpartition("/")
+    return [f"{place}/{each}" for each in fields.split(":") if each]
+
+
+def topic_and_path(word: str, there: Iterable[str]) -> tuple[str, str] | None:
+    """`/odom/twist/linear/x` as a topic that is there and the path of a field; None without one."""
+    topics = [topic for topic in there if word.startswith(f"{topic}/") or word == topic]
+    if not topics:
+        return None
+    topic = max(topics, key=len)
+    return topic, word[len(topic) + 1 :].replace("/", ".")
 
 
 def numbers_in(message: Any, place: str = "") -> Iterator[str]:

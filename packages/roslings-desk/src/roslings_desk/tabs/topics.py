@@ -13,6 +13,7 @@ from roslings_desk.controls import Names, Notice, Text, TextField, button, part,
 from roslings_desk.form import Form
 from roslings_desk.hub import Heard, TopicSeen
 from roslings_desk.publisher import Publisher
+from roslings_desk.shown import topic_of
 from roslings_desk.tab import OpenTab
 
 MOST_ROWS = 100
@@ -43,8 +44,9 @@ class TopicsTab:
                 self._names = Names("All topics", COLUMNS, self._choose_seen)
                 self._show_other()
             self._side = part("section", "column", aria_label="The chosen topic")
+        self._awaited = topic_of(open_tab.shown)
         with self._side:
-            Text("p", "Choose a topic. It is listened to as long as you look at it.", "hint")
+            Text("p", _first_words(self._awaited), "hint")
 
     def _show_other(self) -> None:
         """For a topic that nobody has yet."""
@@ -63,6 +65,10 @@ class TopicsTab:
         found = [seen for seen in there if self._wanted.value.lower() in seen.name.lower()]
         self._count.say(_counted(len(there), len(found)))
         self._names.show([_row(seen) for seen in found[:MOST_ROWS]], self._chosen)
+        if self._awaited and (self._awaited in {seen.name for seen in there} or self._chosen):
+            if not self._chosen:
+                self._choose_seen(self._awaited)
+            self._awaited = ""
         if self._heard:
             self._follow({seen.name: seen for seen in there}.get(self._chosen), self._heard)
 
@@ -148,6 +154,12 @@ class TopicsTab:
             button("Publish once", told(trouble, once))
             button("Publish at this rate", told(trouble, again))
             button("Stop publishing", told(trouble, end))
+
+
+def _first_words(awaited: str) -> str:
+    if awaited:
+        return f"No node has a topic {awaited} yet. It is shown here as soon as one has it."
+    return "Choose a topic. It is listened to as long as you look at it."
 
 
 def _row(seen: TopicSeen) -> tuple[str, ...]:
