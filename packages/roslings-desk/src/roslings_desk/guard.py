@@ -67,23 +67,14 @@ class Guard:
         """Let pass, let in by the key, or refuse."""
         if scope["type"] not in ("http", "websocket"):
             await self.app(scope, receive, send)
-        elif not self._comes_from_here(scope):
-            await _refuse(scope, send)
+        elif not comes_from(scope, self._hosts(), self._origins()):
+            await refuse(scope, send)
         elif scope["type"] == "http" and scope["path"] == ENTRANCE:
             await self._let_in(scope, send)
-        elif not self._has_pass(scope):
-            await _refuse(scope, send)
+        elif not has_pass(scope, self.cookie, self._pass):
+            await refuse(scope, send)
         else:
-            await self.app(scope, receive, self._with_headers(send))
-
-    def _comes_from_here(self, scope: Scope) -> bool:
-        """One Host, and it is ours; an Origin, where there is one, is ours too."""
-        hosts, origins = _values(scope, b"host"), _values(scope, b"origin")
-        if len(hosts) != 1 or hosts[0] not in self._hosts():
-            return False
-        if not origins:  # a browser always names it to a websocket
-            return bool(scope["type"] == "http")
-        return len(origins) == 1 and origins[0] in self._origins()
+            await self.app(scope, receive, with_headers(send, self._hosts()))
 
     def _hosts(self) -> list[str]:
         return [f"127.0.0.1:{self.port}", f"localhost:{self.port}", *self.allowed]
@@ -92,38 +83,67 @@ class Guard:
         own = [f"http://{host}" for host in self._hosts()]
         return [*own, *(f"https://{host}" for host in self.allowed)]
 
-    def _has_pass(self, scope: Scope) -> bool:
-        return _same(_cookies(scope).get(self.cookie, ""), self._pass)
-
     async def _let_in(self, scope: Scope, send: Send) -> None:
         asked = parse_qs(scope["query_string"].decode("latin-1"))
-        if scope["method"] != "GET" or not _same(asked.get("key", [""])[0], self.key):
-            await _refuse(scope, send)
+        if scope["method"] != "GET" or not same(asked.get("key", [""])[0], self.key):
+            await refuse(scope, send)
             return
         tab = asked.get("tab", [""])[0]
-        page = ENTERED.format(path=f"/{tab}" if tab.isascii() and tab.isidentifier() else "/")
-        cookie = f"{self.cookie}={self._pass}; Path=/; HttpOnly; SameSite=Strict"
-        headers = [(b"set-cookie", cookie.encode()), (b"cache-control", b"no-store")]
-        await _answer(send, 200, b"text/html; charset=utf-8", page, headers)
+        path = f"/{tab}" if tab.isascii() and tab.isidentifier() else "/"
+        await let_in(send, path, self.cookie, self._pass)
 
-    def _with_headers(self, send: Send) -> Send:
-        async def sending(message: Scope) -> None:
-            if message["type"] == "http.response.start":
-                message["headers"] = [*message["headers"], *ALWAYS, self._policy()]
-            await send(message)
 
-        return sending
+# --- what each guard does ----------------------------------------------------------------------
 
-    def _policy(self) -> Header:
-        """No request to another host, whatever the page holds. Vue makes its templates by eval."""
-        sockets = " ".join(f"{kind}://{host}" for host in self._hosts() for kind in ("ws", "wss"))
-        rules = (
-            "default-src 'self' 'unsafe-inline' 'unsafe-eval' data: blob:",
-            f"connect-src 'self' {sockets}",
-            "form-action 'none'",
-            "frame-ancestors 'self' http://127.0.0.1:* http://localhost:*",
-        )
-        return (b"content-security-policy", "; ".join(rules).encode())
+
+def comes_from(scope: Scope, own_hosts: Sequence[str], own_origins: Sequence[str]) -> bool:
+    """One Host, and it is ours; an Origin, where there is one, is ours too."""
+    hosts, origins = _values(scope, b"host"), _values(scope, b"origin")
+    if len(hosts) != 1 or hosts[0] not in own_hosts:
+        return False
+    if not origins:  # a browser always names it to a websocket
+        return bool(scope["type"] == "http")
+    return len(origins) == 1 and origins[0] in own_origins
+
+
+def has_pass(scope: Scope, cookie: str, right: str) -> bool:
+    """Whether it carries the cookie with the right value."""
+    return same(_cookies(scope).get(cookie, ""), right)
+
+
+async def let_in(send: Send, path: str, cookie: str, its_value: str) -> None:
+    """Set the cookie, and lead on to a page."""
+    said = f"{cookie}={its_value}; Path=/; HttpOnly; SameSite=Strict"
+    await answer_page(send, ENTERED.format(path=path), [(b"set-cookie", said.encode())])
+
+
+async def answer_page(send: Send, page: str, headers: Sequence[Header] = ()) -> None:
+    """A page that is kept nowhere."""
+    lines = [*headers, (b"cache-control", b"no-store")]
+    await _answer(send, 200, b"text/html; charset=utf-8", page, lines)
+
+
+def with_headers(send: Send, hosts: Sequence[str]) -> Send:
+    """What sends the same, with what a browser is told of each page."""
+
+    async def sending(message: Scope) -> None:
+        if message["type"] == "http.response.start":
+            message["headers"] = [*message["headers"], *ALWAYS, _policy(hosts)]
+        await send(message)
+
+    return sending
+
+
+def _policy(hosts: Sequence[str]) -> Header:
+    """No request to another host, whatever the page holds. Vue makes its templates by eval."""
+    sockets = " ".join(f"{kind}://{host}" for host in hosts for kind in ("ws", "wss"))
+    rules = (
+        "default-src 'self' 'unsafe-inline' 'unsafe-eval' data: blob:",
+        f"connect-src 'self' {sockets}",
+        "form-action 'none'",
+        "frame-ancestors 'self' http://127.0.0.1:* http://localhost:*",
+    )
+    return (b"content-security-policy", "; ".join(rules).encode())
 
 
 def _values(scope: Scope, name: bytes) -> list[str]:
@@ -138,17 +158,17 @@ def _cookies(scope: Scope) -> dict[str, str]:
     return {name: morsel.value for name, morsel in read.items()}
 
 
-def _same(one: str, other: str) -> bool:
+def same(one: str, other: str) -> bool:
     """In a time that does not tell how much of it is right."""
     return hmac.compare_digest(one.encode("utf-8", "replace"), other.encode())
 
 
-async def _refuse(scope: Scope, send: Send) -> None:
+async def refuse(scope: Scope, send: Send, why: str = REFUSED) -> None:
     """403: uvicorn makes that of a websocket that is closed before it was accepted, too."""
     if scope["type"] == "websocket":
         await send({"type": "websocket.close", "code": POLICY_VIOLATED})
     else:
-        await _answer(send, 403, b"text/plain; charset=utf-8", REFUSED, [])
+        await _answer(send, 403, b"text/plain; charset=utf-8", why, [])
 
 
 async def _answer(

@@ -47,6 +47,18 @@ def build(
         _open(OpenTab(hub, shown), tab)
 
 
+def build_for_phone(hub: Hub, tab: Tab) -> None:
+    """The page for a telephone: one tab, no way to another."""
+    ui.page_title(f"{tab.title} - roslings desk")
+    ui.add_css(variables() + STYLE.read_text("utf-8"))
+    with part("header"):
+        Text("h1", "roslings desk")
+        Text("p", f"ROS domain {hub.eye.domain}", "domain")
+    with part("div", "tab for-phone"):
+        Text("h2", tab.title)
+        _open(OpenTab(hub), tab)
+
+
 def _ways(here: str, tabs: dict[str, Callable[[], Tab]]) -> None:
     with part("nav", aria_label="Tabs"):
         for name in tabs:

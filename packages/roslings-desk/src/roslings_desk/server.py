@@ -1,4 +1,4 @@
-"""Serves the desk on 127.0.0.1 until Ctrl-C."""
+"""Serves the desk on 127.0.0.1 until Ctrl-C; where that is asked for, also for one telephone."""
 
 from __future__ import annotations
 
@@ -16,8 +16,10 @@ from pathlib import Path
 from ros2_on_pip.problem import Problem
 from roslings_desk.bag_player import BagPlayer, playing
 from roslings_desk.door import door
-from roslings_desk.guard import ENTRANCE, Guard
+from roslings_desk.guard import ENTRANCE, App, Guard
 from roslings_desk.hub import Hub
+from roslings_desk.phone import Doors, PhoneGuard, listening_for_phone, own_address
+from roslings_desk.qr_code import qr_lines
 from roslings_desk.shown import TAKE_WORDS
 
 HOST = "127.0.0.1"
@@ -63,14 +65,27 @@ class Wish:
     """Hosts by which a proxy or a container reaches it, as a browser names them: `host:port`."""
     shown: Sequence[str] = ()
     """What the tab shows at once: a topic, a node, a topic with a field."""
+    phone: bool = False
+    """One telephone of the network may drive."""
+    phone_address: str = ""
+    """Of this computer, for the telephone; empty: the one of its network."""
     bag: Path | None = None
     """It is played for the pages, in place of what runs on this computer."""
+
+
+@dataclass(frozen=True)
+class Sockets:
+    """Where it listens: on this computer, and for a telephone where that is wanted."""
+
+    own: socket.socket
+    phone: socket.socket | None
 
 
 def run(wish: Wish) -> None:
     """Serve until Ctrl-C.
 
-    Raises PortTaken, NoSuchTab, NoWords, and what Eye and BagPlayer raise.
+    Raises PortTaken, NoSuchTab, NoWords, NoNetwork, NotOurAddress, and what Eye and BagPlayer
+    raise.
     """
     from roslings_desk.tab import tabs
 
@@ -80,8 +95,8 @@ def run(wish: Wish) -> None:
         raise NoWords(wish.tab, wish.shown)
     bag: AbstractContextManager[BagPlayer | None]
     bag = playing(wish.bag) if wish.bag else nullcontext()
-    with _own_storage(), _listening(wish.port) as listener, bag as player, Hub() as hub:
-        _serve(wish, listener, hub, player)
+    with _own_storage(), _sockets(wish) as sockets, bag as player, Hub() as hub:
+        _serve(wish, sockets, hub, player)
 
 
 @contextmanager
@@ -90,6 +105,16 @@ def _own_storage() -> Iterator[None]:
     with tempfile.TemporaryDirectory(prefix="roslings-desk-") as folder:
         os.environ["NICEGUI_STORAGE_PATH"] = folder
         yield
+
+
+@contextmanager
+def _sockets(wish: Wish) -> Iterator[Sockets]:
+    with _listening(wish.port) as own:
+        if not wish.phone:
+            yield Sockets(own, None)
+            return
+        with listening_for_phone(wish.phone_address or own_address()) as phone:
+            yield Sockets(own, phone)
 
 
 @contextmanager
@@ -104,25 +129,37 @@ def _listening(port: int) -> Iterator[socket.socket]:
         yield listener
 
 
-def _serve(wish: Wish, listener: socket.socket, hub: Hub, bag: BagPlayer | None) -> None:
+def _serve(wish: Wish, sockets: Sockets, hub: Hub, bag: BagPlayer | None) -> None:
     import uvicorn
 
     from roslings_desk.application import application
 
-    port = listener.getsockname()[1]
-    guard = Guard(application(hub, bag, {wish.tab: wish.shown}), port, wish.allowed)
+    port = sockets.own.getsockname()[1]
+    app = application(hub, bag, {wish.tab: wish.shown}, phone=sockets.phone is not None)
+    guard = Guard(app, port, wish.allowed)
+    phone = _phone_guard(app, sockets.phone)
     config = uvicorn.Config(
-        guard, log_level="warning", access_log=False, server_header=False,
+        Doors(guard, phone) if phone else guard, log_level="warning", access_log=False,
+        server_header=False,
         timeout_graceful_shutdown=LEAVES_WITHIN_S,
     )  # fmt: skip
     with door(f"http://{HOST}:{port}{ENTRANCE}?key={guard.key}&tab={wish.tab}") as file:
         try:
             _end_kindly()
             _tell(wish, file)
-            uvicorn.Server(config).run(sockets=[listener])
+            if phone:
+                _tell_of_phone(phone)
+            uvicorn.Server(config).run(sockets=list(filter(None, (sockets.own, sockets.phone))))
         except KeyboardInterrupt:
             with suppress(OSError):  # its terminal may be gone
                 print("\nThe desk is closed.", flush=True)
+
+
+def _phone_guard(app: App, listener: socket.socket | None) -> PhoneGuard | None:
+    if listener is None:
+        return None
+    address, port = listener.getsockname()
+    return PhoneGuard(app, address, port, _say_phone)
 
 
 def _end_kindly() -> None:
@@ -144,3 +181,18 @@ def _tell(wish: Wish, file: Path) -> None:
     sys.stdout.flush()
     if wish.browser:
         webbrowser.open(file.as_uri())
+
+
+def _tell_of_phone(phone: PhoneGuard) -> None:
+    """The code, and that the network can now reach it."""
+    print("Scan this with one telephone of your network. It then drives the rover, until you close")
+    print("the desk. The code is good for the first one that comes:")
+    for line in qr_lines(phone.url, sys.stdout.encoding, sys.stdout.isatty()):
+        print(line)
+    print(f"For it the desk listens at {phone.host}, where all of your network reach it. What it")
+    print("says is not encrypted: use it only in a network that you trust.", flush=True)
+
+
+def _say_phone(address: str) -> None:
+    with suppress(OSError):
+        print(f"A telephone has come in, from {address}. No other one can.", flush=True)

@@ -24,6 +24,17 @@ def add_options(word: argparse.ArgumentParser) -> None:
     word.add_argument("--port", metavar="N", type=int, default=0, help="default: any free one")
     word.add_argument("--no-browser", action="store_true", help="open no browser by itself")
     word.add_argument(
+        "--phone",
+        action="store_true",
+        help="show a QR code: one telephone of your network drives, until you end it",
+    )
+    word.add_argument(
+        "--phone-address",
+        metavar="ADDRESS",
+        default="",
+        help="with --phone: the address of this computer, where it has several",
+    )
+    word.add_argument(
         "--allow-host", metavar="HOST:PORT", action="append", default=[],
         help="a proxy or a container leads to it by this host; the key is asked for all the same",
     )  # fmt: skip
@@ -35,6 +46,9 @@ def run(options: argparse.Namespace) -> int:
     from roslings_desk.server import Wish, run
 
     prepare()
-    hosts = tuple(options.allow_host)
-    run(Wish(options.tab, options.port, not options.no_browser, hosts, options.shown, options.bag))
+    run(Wish(
+        tab=options.tab, port=options.port, browser=not options.no_browser,
+        allowed=tuple(options.allow_host), shown=options.shown, phone=options.phone,
+        phone_address=options.phone_address, bag=options.bag,
+    ))  # fmt: skip
     return OK
