@@ -1,4 +1,4 @@
-"""Saves as a bag what the desk has heard in the last seconds."""
+"""Saves as a bag what the desk has heard in the last seconds, and the robot's way as a GIF."""
 
 from __future__ import annotations
 
@@ -13,6 +13,9 @@ from ros2_on_pip.rosbag2.errors import BagError
 from ros2_on_pip.rosbag2.metadata import Topic
 from ros2_on_pip.rosbag2.writing import BagWriter, Plan
 from roslings_desk.hub import Heard, Message
+from roslings_desk.map_gif import can_draw, gif_of
+from roslings_desk.odometry import ODOM, ODOMETRY, pose_in
+from roslings_rover.rover.rover import Moment
 
 LAST_S = 20.0
 NAME = "desk_%Y-%m-%d_%H-%M-%S"
@@ -33,7 +36,7 @@ class NothingHeard(Problem):
 class CannotSave(Problem):
     """The bag cannot be written."""
 
-    def __init__(self, error: BagError) -> None:
+    def __init__(self, error: Exception) -> None:
         super().__init__(f"The bag cannot be written: {error}")
 
 
@@ -46,13 +49,15 @@ class Saved:
     """Messages of each topic."""
     cut_s: dict[str, float]
     """Topics that came so fast that only their last seconds were kept."""
+    map_words: str = ""
+    """Where the GIF is, or why there is none; nothing where no robot was heard."""
 
     @property
     def words(self) -> str:
         """Where it is, what is in it, and how it is shown again."""
         topics = ", ".join(f"{name}: {count}" for name, count in self.counts.items())
         cut = "".join(f" Of {name} only the last {s:.1f} s." for name, s in self.cut_s.items())
-        return f"Saved in {self.folder}. Messages: {topics}.{cut}"
+        return f"Saved in {self.folder}. Messages: {topics}.{cut}{self.map_words}"
 
 
 def save(heard: Sequence[Heard], place: Path) -> Saved:
@@ -68,12 +73,31 @@ def save(heard: Sequence[Heard], place: Path) -> Saved:
         _write(folder, kept, now_ns - round(now_s * 1e9))
     except BagError as error:
         raise CannotSave(error) from error
+    words = _save_map(folder, kept)
     cut_s = {
         each.topic: now_s - messages[0].came_s
         for each, messages in kept.items()
         if messages[0].number > 1 and messages[0] is each.after(0)[0]
     }
-    return Saved(folder, {each.topic: len(messages) for each, messages in kept.items()}, cut_s)
+    counts = {each.topic: len(messages) for each, messages in kept.items()}
+    return Saved(folder, counts, cut_s, words)
+
+
+def _save_map(folder: Path, kept: dict[Heard, list[Message]]) -> str:
+    """Beside the bag, where the robot said where it was. Raises CannotSave."""
+    heard = next((each for each in kept if (each.topic, each.type_name) == (ODOM, ODOMETRY)), None)
+    places = [(m.came_s, pose_in(heard.read(m))) for m in kept[heard]] if heard else []
+    way = [Moment(came_s, pose) for came_s, pose in places if pose]
+    if not way:
+        return ""
+    if not can_draw():
+        return " No GIF of the map: matplotlib is not installed here."
+    file = folder.with_name(f"{folder.name}.gif")
+    try:
+        file.write_bytes(gif_of(way))
+    except OSError as error:
+        raise CannotSave(error) from error
+    return f" The map: {file}"
 
 
 def _new(place: Path) -> Path:

@@ -25,6 +25,7 @@ from roslings_desk.controls import (
 )
 from roslings_desk.driver import Driver
 from roslings_desk.hub import Heard
+from roslings_desk.odometry import ODOM, ODOMETRY, pose_in
 from roslings_desk.publisher import Publisher
 from roslings_desk.tab import OpenTab
 from roslings_rover.models.differential_drive import Body, Pose
@@ -32,7 +33,7 @@ from roslings_rover.models.world import default_world
 from roslings_rover.rover.moving_map import moving_map, place_under
 from roslings_rover.rover.rover import PATH_STEP_M, TURN_STEP_RAD, Moment
 
-ODOM, CMD_VEL, GOAL_POSE = "/odom", "/cmd_vel", "/goal_pose"
+CMD_VEL, GOAL_POSE = "/cmd_vel", "/goal_pose"
 """The last one is where rviz2 publishes a goal that was clicked."""
 POSE_STAMPED = "geometry_msgs/msg/PoseStamped"
 CLICKED = (
@@ -70,7 +71,7 @@ class RoverTab:
     def show(self, open_tab: OpenTab) -> None:
         """The map, and beside it what drives."""
         self._hub = open_tab.hub
-        self._odom: Heard = open_tab.hear(ODOM, "nav_msgs/msg/Odometry")
+        self._odom: Heard = open_tab.hear(ODOM, ODOMETRY)
         self._driver = open_tab.ends.enter_context(Driver(self._hub, CMD_VEL))
         self._goals = open_tab.ends.enter_context(Publisher(self._hub, GOAL_POSE, POSE_STAMPED))
         self._goals.announce()
@@ -214,17 +215,6 @@ def _metres(typed: str) -> float:
     if not math.isfinite(metres):
         raise NoPlace(typed)
     return metres
-
-
-def pose_in(odometry: Any) -> Pose | None:
-    """Where a nav_msgs/msg/Odometry says that the robot is; None where a number is not finite."""
-    place = odometry.pose.pose
-    z, w = place.orientation.z, place.orientation.w
-    pose = Pose(place.position.x, place.position.y, 2 * math.atan2(z, w))
-    numbers = (pose.x_m, pose.y_m, pose.heading_rad)
-    if not all(map(math.isfinite, numbers)):
-        return None
-    return Pose(pose.x_m, pose.y_m, math.remainder(pose.heading_rad, math.tau))
 
 
 def position(pose: Pose) -> str:

@@ -6,6 +6,7 @@ import math
 from pathlib import Path
 from typing import Any
 
+from roslings_rover.models.differential_drive import Pose
 from roslings_rover.models.world import Ball, Box, Circle, World
 from roslings_rover.rover.rover import Rover
 
@@ -48,9 +49,13 @@ def draw_world(world: World, axes: Any) -> None:
 
 def draw_rover(rover: Rover, axes: Any) -> list[Any]:
     """Draw the rover, with a line that shows where it looks; returns what can be removed again."""
+    return draw_body(rover.pose, rover.body.radius_m, axes)
+
+
+def draw_body(pose: Pose, radius_m: float, axes: Any) -> list[Any]:
+    """The same of a rover that is somewhere."""
     from matplotlib.patches import Circle as Disc
 
-    pose, radius_m = rover.pose, rover.body.radius_m
     nose_x, nose_y = pose.ahead(2 * radius_m)
     disc = axes.add_patch(Disc((pose.x_m, pose.y_m), radius_m, color=ROVER, zorder=4))
     nose = axes.plot([pose.x_m, nose_x], [pose.y_m, nose_y], color=ROVER, linewidth=3, zorder=4)
