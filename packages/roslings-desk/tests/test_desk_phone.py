@@ -21,6 +21,7 @@ from roslings_desk import phone
 from roslings_desk.qr_code import BLACK_ON_WHITE, HALVES, qr_lines
 from skips import imported
 
+Axe = imported("axe_playwright_python.sync_playwright").Axe
 expect = imported("playwright.sync_api").expect
 expect.set_options(timeout=120_000)
 ADDRESS = "127.0.0.2"
@@ -175,12 +176,14 @@ def test_a_telephone_drives_and_stops(browser: Any, shared: Desk) -> None:
         heard = nodes.hear(Twist, "/cmd_vel")
         page = browser.new_page(viewport={"width": 390, "height": 800})
         page.goto(scanned(shared.lines))
+        assert Axe().run(page).response["violations"] == []
         page.get_by_role("button", name="Drive with this telephone").click()
         page.wait_for_url("**/phone")
         expect(page.get_by_role("heading", name="Rover", level=2)).to_be_visible()
         assert page.get_by_role("navigation").count() == 0
         assert page.get_by_role("button", name="Save the last").count() == 0
         assert page.evaluate("document.documentElement.scrollWidth") <= 390
+        assert Axe().run(page).response["violations"] == []
         expect(page.locator("#state")).not_to_contain_text("nothing drives")
         page.get_by_role("button", name="Ahead").click()
         until(lambda: any(each.linear.x > 0 for each in heard), "a drive")

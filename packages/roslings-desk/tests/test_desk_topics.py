@@ -162,3 +162,20 @@ def test_a_type_that_is_not_installed_is_told(page: Any, name: str, kind: str, s
     page.get_by_label("Type", exact=True).fill(kind)
     page.get_by_role("button", name="Choose this one").click()
     expect(page.get_by_role("alert").filter(has_text=said)).to_be_visible()
+
+
+def test_a_page_that_slept_is_made_anew_when_it_wakes(
+    page: Any, nodes: Nodes, context: Any
+) -> None:
+    """The desk has let it go, and what it listened to; then it shows what is there now."""
+    says(nodes, "/news", "hello")
+    page.get_by_role("button", name="/news").click()
+    expect(value(page)).to_have_text("data: hello")
+    session = context.new_cdp_session(page)
+    session.send("Debugger.enable")
+    session.send("Debugger.pause")  # its script stands still, as on a computer that sleeps
+    until(lambda: not nodes.listeners("/news"), "the end of the subscription")
+    says(nodes, "/later", "good morning")
+    session.send("Debugger.disable")
+    page.get_by_role("button", name="/later").click()
+    expect(value(page)).to_have_text("data: good morning")
