@@ -10,11 +10,13 @@ from pathlib import Path
 
 import pytest
 from program import Program, environment, run, running
+from rich.text import Text
 from rosbags.highlevel import AnyReader
 
 from ros2_on_pip.domain_lease import leased_domain
 from roslings_rover.remembered import has_reached_a_ball, remember_the_ball
 from roslings_rover.rover import Ball, Box, Circle, Motion, Pose, Rover, World
+from roslings_rover.rover.displays import Terminal
 from roslings_rover.rover.driven import LEAVES_M, DrivenRover
 from roslings_rover.rover.node import RoverNode
 from roslings_rover.rover.text_map import ASCII, UNICODE, text_map
@@ -292,3 +294,22 @@ def test_a_notebook_sees_the_map_and_ends_the_node(
             assert rover.pose.x_m == 0.0
     assert "rover" not in [thread.name for thread in threading.enumerate()]
     assert os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] == "LOCALHOST"
+
+
+@pytest.mark.parametrize(("columns", "lines"), [(60, 22), (80, 24), (200, 60)])
+def test_a_small_terminal_cuts_nothing_off(
+    monkeypatch: pytest.MonkeyPatch, columns: int, lines: int
+) -> None:
+    """Parts that need more lines than the map, and a long notice: all within the terminal."""
+    monkeypatch.setenv("COLUMNS", str(columns))
+    monkeypatch.setenv("LINES", str(lines))
+    parts = tuple(f"no part {number} yet: day {number}" for number in range(8))
+    notice = "a part ended. It said: " + " ".join(["burnt"] * 9)
+    terminal = Terminal()
+    terminal.show(DrivenRover(Rover(), about_parts=parts, notice=notice))
+    shown = terminal._live.get_renderable()
+    assert isinstance(shown, Text)
+    rows = shown.plain.splitlines()
+    assert len(rows) <= lines and max(len(row.rstrip()) for row in rows) <= columns
+    assert all(any(part in row for row in rows) for part in parts)
+    assert notice in " ".join(rows[-3:])

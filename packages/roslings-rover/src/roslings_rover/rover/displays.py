@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 import sys
+import textwrap
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, Literal, Protocol, TextIO
@@ -12,7 +13,7 @@ from typing import Any, Literal, Protocol, TextIO
 from roslings_rover.errors import DeviceTrouble
 from roslings_rover.models.world import colour_of
 from roslings_rover.rover.driven import DrivenRover
-from roslings_rover.rover.text_map import ASCII, UNICODE, Cell, cells
+from roslings_rover.rover.text_map import ASCII, FLOOR, UNICODE, Cell, cells
 from roslings_rover.rover.words import (
     FIRST_COMMAND,
     KEYS_PACE,
@@ -204,12 +205,29 @@ class Terminal:
         columns, lines = self._console.size
         wide = max(columns - SIDE_COLUMNS, 20)
         drawn = cells(node.rover, wide, lines - 3, self._letters, heard(node), node.believed)
+        rows = _as_high(drawn, len(beside(node)[: lines - 3]))
         text = Text(no_wrap=True, overflow="crop")
-        for row, words in zip(drawn, _filled(beside(node), len(drawn)), strict=True):
+        for row, words in zip(rows, _filled(beside(node), len(rows)), strict=True):
             _append_row(text, row)
             text.append(f"  {words}\n")
-        text.append("\n".join(["", *below(node)]), style="bold" if node.notice else "")
+        told = "\n".join(_within(below(node), columns))
+        text.append(told, style="bold" if node.notice else "")
         self._live.update(text, refresh=True)
+
+
+def _as_high(drawn: list[list[Cell]], lines: int) -> list[list[Cell]]:
+    """The map, with empty lines below it where the words beside it need them."""
+    return [*drawn, *[[FLOOR] * len(drawn[0])] * (lines - len(drawn))]
+
+
+def _within(words: list[str], columns: int) -> list[str]:
+    """Three lines within the terminal's width: a long one goes on where one is empty."""
+    lines = [
+        piece
+        for line in words
+        for piece in textwrap.wrap(line, columns, break_on_hyphens=False) or [""]
+    ]
+    return ["", *lines] if len(lines) <= 2 else lines[:3]
 
 
 def _filled(words: list[str], lines: int) -> list[str]:
