@@ -168,9 +168,12 @@ class Carried:
         return code
 
 
+READY = r"^The rovers? (is|are) ready|^roslings:|^No part"
+
+
 @contextmanager
 def carried(
-    workspace: Path, *words: str, keys: bool = False, domain: int | None = None
+    workspace: Path, *words: str, keys: bool = False, domain: int | None = None, ready: str = READY
 ) -> Iterator[Carried]:
     """The rover of this workspace, as soon as it is ready; nothing of it is left afterwards.
 
@@ -187,7 +190,7 @@ def carried(
         os.close(theirs)
         try:
             with Carried(process, ours, domain) as found:
-                found.wait_for(r"^The rover is ready|^roslings:|^No part")
+                found.wait_for(ready)
                 yield found
         finally:
             if process.poll() is None:
@@ -198,6 +201,44 @@ def carried(
                     os.killpg(process.pid, signal.SIGKILL)
             process.wait()
             os.close(ours)
+
+
+@contextmanager
+def goal(rover: Carried, x_m: float, y_m: float) -> Iterator[subprocess.Popen[str]]:
+    """`ros2 action send_goal`, which ends when the rover's pilot says that it is there."""
+    words = [sys.executable, "-m", "ros2_on_pip", "action", "send_goal", "/drive_to",
+             "rover_interfaces/action/DriveTo",
+             f"{{x: {x_m}, y: {y_m}, tolerance: 0.1}}"]  # fmt: skip
+    process = subprocess.Popen(
+        words, env=surroundings(rover.domain, Path.cwd()), text=True,
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+    )  # fmt: skip
+    try:
+        yield process
+    finally:
+        process.kill()
+        process.communicate()
+
+
+def reached(process: subprocess.Popen[str]) -> bool:
+    """Whether the goal has ended well, as the command told it."""
+    assert process.stdout
+    return process.poll() == 0 and "SUCCEEDED" in process.stdout.read()
+
+
+def pid_of(workspace: Path, program: str) -> int:
+    """A program of a part, as it was built for this workspace."""
+    (line,) = [
+        line for line in commands().splitlines()
+        if str(workspace) in line and re.search(rf"/{program}(\s|$)", line)
+    ]  # fmt: skip
+    return int(line.split()[0])
+
+
+def commands() -> str:
+    """All that runs on this computer: a line each, its pid first."""
+    words = ["ps", "-ww", "-eo", "pid,args"]
+    return subprocess.run(words, capture_output=True, text=True, check=True).stdout
 
 
 def surroundings(domain: int, workspace: Path) -> Mapping[str, str]:

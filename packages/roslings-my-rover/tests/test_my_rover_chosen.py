@@ -100,6 +100,21 @@ def test_a_kept_package_that_was_spoiled_is_kept_anew(workspace: Path) -> None:
     assert word_in(best_package(own)) == "second"
 
 
+def test_a_package_that_was_renamed_since_is_carried_as_it_was(workspace: Path) -> None:
+    """The best one is kept under its lab's name; today there is none of that name."""
+    own = lab("nodes")
+    package = built(workspace, "nodes", "good")
+    checked(own, package, 80)
+    file = package / "package.xml"
+    name = f"<name>{own.outline.package}</name>"
+    file.write_text(file.read_text("utf-8").replace(name, "<name>my_first_one</name>"), "utf-8")
+    package.rename(package.with_name("my_first_one"))
+    (best,) = chosen().there
+    assert (word_in(best.package), best.remark) == ("good", "80 of 100")
+    assert chosen(todays=True).there == ()
+    assert chosen(todays=True).absent[0].line == "no voice yet: day 2"
+
+
 def test_only_the_days_that_are_asked_for(workspace: Path) -> None:
     """Later parts are neither there nor missed."""
     for name in ("nodes", "distance-sensor", "services"):

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
+import math
 import re
 import shutil
 import subprocess
 import sys
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
-from carried import Carried, carried, put, surroundings
+from carried import Carried, carried, goal, put, reached, surroundings
 
 from roslings.course import lab
 from roslings_my_rover.parts import (
@@ -27,6 +27,7 @@ from roslings_my_rover.parts import (
     VOICE,
     Part,
 )
+from roslings_rover.models.world import default_world
 
 pytestmark = pytest.mark.slow
 CHANCE_S = 25.0
@@ -65,13 +66,8 @@ def drives_slowly(rover: Carried) -> bool:
 
 def drives_to_a_point(rover: Carried) -> bool:
     """By an action, with nobody at the keys."""
-    words = [sys.executable, "-m", "ros2_on_pip", "action", "send_goal", "/drive_to",
-             "rover_interfaces/action/DriveTo", "{x: 1.5, y: 0.5, tolerance: 0.1}"]  # fmt: skip
-    environment = surroundings(rover.domain, Path.cwd())
-    with suppress(subprocess.TimeoutExpired):
-        subprocess.run(
-            words, env=environment, timeout=rover.patience_s, check=False, capture_output=True
-        )
+    with goal(rover, 1.5, 0.5) as there:
+        rover.sees(lambda: there.poll() is not None)
     x_m, y_m, _, _ = rover.pose
     return abs(x_m - 1.5) < 0.25 and abs(y_m - 0.5) < 0.25
 
@@ -198,17 +194,76 @@ def test_without_the_part_it_is_not(workspace: Path, win: Win) -> None:
         assert not win.seen(rover), rover.heard
 
 
-def test_all_parts_in_one_rover(workspace: Path) -> None:
-    """It drives to a point, stops for the button, goes on, and survives a pulled cable."""
+def near(rover: Carried, x_m: float, y_m: float, within_m: float = 0.3) -> bool:
+    """Whether it really is there."""
+    return math.dist(rover.pose[:2], (x_m, y_m)) < within_m
+
+
+def stands_before_the_ball(rover: Carried) -> bool:
+    """It looks at the ball, and stands as near as the sonar's part lets it."""
+    (ball,) = default_world().balls
+    x_m, y_m, heading_deg, moves = rover.pose
+    way_m = math.dist((x_m, y_m), (ball.x_m, ball.y_m))
+    bearing_deg = math.degrees(math.atan2(ball.y_m - y_m, ball.x_m - x_m)) - heading_deg
+    return not moves and way_m < 0.6 and abs(math.remainder(bearing_deg, 360)) < 10
+
+
+def test_all_days_in_one_rover(workspace: Path) -> None:
+    """All parts at once: past the box, through the stop and the pulled cable, and to the ball.
+
+    The point (3, 5) lies behind the box, and (1, 0.8) before the ball. Day 1 only chats; day 9
+    tells the metres afterwards.
+    """
+    from geometry_msgs.msg import Twist
+    from std_srvs.srv import SetBool
+
     carries(workspace, *PARTS)
-    with carried(workspace, keys=True) as rover:
-        assert stops_at_the_button(rover), rover.heard
-        rover.press(" ")
-        rover.wait_for("stop is released")
-        assert goes_through_its_cable(rover), rover.heard
+    with carried(workspace, "--bag", keys=True) as rover:
+        rover.wait_for_service(SetBool, "/press")
+        said = rover.hear(Twist, "/cmd_vel")
+        with goal(rover, 3.0, 5.0) as past_the_box:
+            assert rover.sees(lambda: len(said) > 20), rover.heard
+            assert rover.pose[:2] == (0, 0)  # it begins stopped, whatever the pilot says
+            rover.press(" ")
+            assert rover.sees(lambda: rover.pose[1] > 1), rover.heard
+            rover.press(" ")
+            assert rover.sees(lambda: not rover.pose[3]), rover.heard
+            stood, before = rover.pose, len(said)
+            assert rover.sees(lambda: len(said) > before + 20), rover.heard
+            assert near(rover, *stood[:2], within_m=0.05) and not rover.pose[3]
+            rover.press(" ")
+            assert rover.sees(lambda: past_the_box.poll() is not None), rover.heard
+            assert reached(past_the_box)
+        assert rover.sees(lambda: near(rover, 3.0, 5.0)), rover.heard
+        with goal(rover, 0.0, 1.0) as back:
+            assert rover.sees(lambda: rover.pose[1] < 4), rover.heard
+            rover.press("p")
+            rover.wait_for("The cable is pulled")
+            assert rover.sees(lambda: not rover.pose[3]), rover.heard
+            assert rover.pose[1] > 1.5  # in the middle of its way
+            rover.press("p")
+            rover.wait_for("The cable is plugged in")
+            assert rover.sees(lambda: back.poll() is not None), rover.heard
+            assert reached(back)
+        with goal(rover, 1.0, 0.8) as before_the_ball:
+            assert rover.sees(lambda: before_the_ball.poll() is not None), rover.heard
+            assert reached(before_the_ball)
+        assert rover.sees(lambda: near(rover, 1.0, 0.8, 0.6)), rover.heard
+        assert not stands_before_the_ball(rover)
+        rover.press("f")
+        rover.wait_for("It follows the ball")
+        assert rover.sees(lambda: stands_before_the_ball(rover)), rover.heard
+        rover.press("f")
+        rover.wait_for("It no longer follows the ball")
         assert says_its_status(rover)
         assert rover.interrupt() == 0
-        assert re.search(r"^It went \d\.\d\d m\.$", rover.heard, re.M)
+        assert " ended" not in rover.heard, rover.heard
+        went_m = float(re.findall(r"^It went ([\d.]+) m\.$", rover.heard, re.M)[0])
+    told = read_drive(workspace / "my_rover_bag")
+    metres = float(re.findall(r"^distance: ([\d.]+) m$", told, re.M)[0])
+    assert metres == pytest.approx(went_m, rel=0.06) and went_m > 10, told
+    assert float(re.findall(r"^top speed: ([\d.]+) m/s$", told, re.M)[0]) < 0.6, told
+    assert re.search(r"^topic /rover/motors: \d{3,} messages", told, re.M), told
 
 
 def test_the_program_of_day_9_tells_the_metres_of_the_drive(workspace: Path) -> None:

@@ -10,10 +10,11 @@ import pytest
 
 from roslings.course import lab
 from roslings_my_rover.parts import CABLE, EYES, GUARD, LIMITER, PARTS, PILOT, SONAR, Part
-from roslings_my_rover.wiring import CHECKED, ENTRANCE, LIMITED, MOTORS, Wiring, wired
+from roslings_my_rover.wiring import CHECKED, ENTRANCE, LIMITED, MOTORS, Wiring, new_mark, wired
 
 SETS = [frozenset(some) for n in range(len(PARTS) + 1) for some in combinations(PARTS, n)]
 LINKS = {ENTRANCE, LIMITED, CHECKED, MOTORS}
+MARK = "_1a2b3c"
 OF_CARDS = {
     (LIMITER, "speed_limiter"): ("cmd_vel_in", "cmd_vel"),
     (GUARD, "guard"): ("cmd_vel_raw", "cmd_vel"),
@@ -22,9 +23,9 @@ OF_CARDS = {
 """What each stage hears and says by its card."""
 
 
-def stages(parts: frozenset[Part]) -> Iterator[tuple[str, str | None]]:
+def stages(parts: frozenset[Part], mark: str = "") -> Iterator[tuple[str, str | None]]:
     """From which link to which each stage leads; None: to the wheels."""
-    wiring = wired(parts, "port", "device")
+    wiring = wired(parts, "port", "device", mark)
     for (part, program), (hears, says) in OF_CARDS.items():
         if part in parts:
             names = dict(wiring.programs[program].remaps)
@@ -53,6 +54,40 @@ def test_each_command_has_one_way_to_the_wheels(size: int) -> None:
         while (link := leads[way[-1]]) is not None:
             way.append(link)
         assert len(way) == len(found), f"{parts}: {found}"
+
+
+@pytest.mark.parametrize("size", range(len(PARTS) + 1))
+def test_a_rover_that_runs_has_links_that_nobody_knows(size: int) -> None:
+    """But for the entrance: the same way to the wheels, under names with the rover's mark."""
+    for parts in (each for each in SETS if len(each) == size):
+        known, marked = list(stages(parts)), list(stages(parts, MARK))
+        assert marked == [tuple(map(_marked, each)) for each in known], parts
+        links = {link for stage in known for link in stage if link} - {ENTRANCE}
+        assert {*wired(parts, mark=MARK).robot.links} == {(link, link + MARK) for link in links}
+
+
+def _marked(link: str | None) -> str | None:
+    return link if link in (None, ENTRANCE) else f"{link}{MARK}"
+
+
+def test_each_rover_has_a_mark_of_its_own() -> None:
+    """That makes a name of ROS, and that nobody can guess."""
+    marks = {new_mark() for _ in range(100)}
+    assert len(marks) == 100 and all(mark[1:].isalnum() and mark[0] == "_" for mark in marks)
+
+
+def test_what_is_said_steadily_is_promised_by_a_card() -> None:
+    """A program that keeps to its card is never called silent."""
+    told = {
+        "distance_subscriber": "one message for each distance",
+        "serial_bridge": "where the rover is",
+    }
+    for each in wired(PARTS, mark=MARK).robot.steady:
+        part = next(part for part in PARTS if each.program in part.programs)
+        says = {said.topic: said for said in lab(part.lab).card.node(each.program).publishes}
+        said = says["/cmd_vel" if each.topic == MOTORS else each.topic]
+        assert said.type == each.kind
+        assert said.rate or told[each.program] in said.about, each
 
 
 def test_what_a_part_does_the_robot_does_not() -> None:

@@ -16,12 +16,12 @@ from roslings.arena import Installed, Launch, Process
 from roslings_my_rover import follow, relay
 from roslings_my_rover.installing import Built
 from roslings_my_rover.parts import Part
-from roslings_my_rover.wiring import Link, Wiring, wired
+from roslings_my_rover.wiring import Link, Wiring, new_mark, wired
 
 RELAY, FOLLOWER, RECORDER = "relay", "follower", "recorder"
 RECORDED = ("/odom", "/cmd_vel", "/rover/motors", "/obstacle", "/robot_status", "/ball")
 """What the bag of a drive holds: what was wanted, what was done, and why."""
-LONGEST_LINE = 60
+LONGEST_LINE = 80
 RECORDS_WITHIN_S = 20.0
 
 
@@ -37,8 +37,8 @@ class Ended:
     def line(self) -> str:
         """What the map says of it, at most 80 columns."""
         words = self.last_line.strip()
-        short = words if len(words) <= LONGEST_LINE else f"{words[: LONGEST_LINE - 3]}..."
-        return f"{self.program} ended. It said: {short}" if short else f"{self.program} ended."
+        line = f"{self.program} ended. It said: {words}" if words else f"{self.program} ended."
+        return line if len(line) <= LONGEST_LINE else f"{line[: LONGEST_LINE - 3]}..."
 
 
 @dataclass
@@ -63,6 +63,8 @@ class Crew:
     follows: bool = False
     bag: Path | None = None
     """A new folder for what was said; None: nothing is kept."""
+    mark: str = field(default_factory=new_mark)
+    """Behind the names of its links."""
     ended: list[Ended] = field(default_factory=list)
     _running: dict[str, _Running] = field(default_factory=dict)
 
@@ -75,7 +77,7 @@ class Crew:
     @property
     def wiring(self) -> Wiring:
         """As it is with the parts that are there now."""
-        return wired(self.parts, self.port, self.device)
+        return wired(self.parts, self.port, self.device, self.mark)
 
     def look(self) -> list[Ended]:
         """Those that have ended since the last look; the others are wired without them."""
@@ -94,6 +96,11 @@ class Crew:
         for name, link in wanted.items():
             if name not in self._running:
                 self._running[name] = self._started(name, link)
+
+    def follow(self, follows: bool) -> None:
+        """Let it follow the ball from now on, or no longer."""
+        self.follows = follows
+        self.start()
 
     def end(self) -> None:
         """All of them, the last one first."""

@@ -1,4 +1,4 @@
-"""The keys of my rover: driving as always, Space for the stop, p for the cable."""
+"""The keys of my rover: driving as always, Space for the stop, p for the cable, f for the ball."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from typing import Any
 from ros2_on_pip.keyboard import Keys, NoKeys, keys_of
 from roslings_rover.rover.keys import Driver, NoTerminal, keyboard_node
 
-SPACE, CABLE = " ", "p"
-TOLD = "Space is the stop of day 10, p the cable of day 6; q and z: faster and slower."
+SPACE, CABLE, BALL = " ", "p", "f"
+TOLD = "Space: stop (day 10), p: cable (6), f: ball (7), q and z: faster and slower."
 
 
 class OwnKeys(Driver):
@@ -50,7 +50,10 @@ class Button:
 
 @contextmanager
 def hands(
-    wanted: bool, tell: Callable[[str], None], pull: Callable[[], None]
+    wanted: bool,
+    tell: Callable[[str], None],
+    pull: Callable[[], None],
+    follow: Callable[[], None],
 ) -> Iterator[Callable[[], None]]:
     """What looks for keys in this terminal, where they are wanted. Raises NoTerminal."""
     if not wanted:
@@ -58,7 +61,7 @@ def hands(
         return
     try:
         with keys_of() as keys, keyboard_node() as node:
-            button = Button(node, tell)
-            yield OwnKeys(node, keys, {SPACE: button.toggle, CABLE: pull}).look
+            own = {SPACE: Button(node, tell).toggle, CABLE: pull, BALL: follow}
+            yield OwnKeys(node, keys, own).look
     except NoKeys as error:
         raise NoTerminal(error) from error

@@ -11,7 +11,7 @@ from roslings.arena import Installed, Place
 from roslings.arena.kernel import cores
 from roslings.experiment.run_folder import run_folder
 from roslings.workspace.shared_build import shared_build
-from roslings.workspace.student import workspace_root
+from roslings.workspace.student import stage, workspace_root
 from roslings_my_rover.chosen import Chosen
 
 BUILDS = Path(".roslings/my_rover")
@@ -52,11 +52,21 @@ def build_all(
     built, broken = list[Built](), list[Broken]()
     with ThreadPoolExecutor(cores()) as pool:
         made = [(each, pool.submit(_build, each, home)) for each in parts]
-        for each, future in made:
-            tell(f"Building {each.part.name} ({each.lab.name})")
-            found = future.result()
-            (built if isinstance(found, Built) else broken).append(found)  # type: ignore[arg-type]
+        try:
+            for each, future in made:
+                tell(f"Building {each.part.name} ({each.lab.name})")
+                found = future.result()
+                (built if isinstance(found, Built) else broken).append(found)  # type: ignore[arg-type]
+        except BaseException:  # Ctrl-C: only what is being built comes to its end
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
     return built, broken
+
+
+def _under_its_name(each: Chosen, room: Path) -> Path:
+    """The package, in a folder that has its name: a student may have renamed the folder."""
+    name = each.lab.outline.package
+    return each.package if each.package.name == name else stage(each.package, room / "own" / name)
 
 
 def _build(each: Chosen, home: Path) -> Built | Broken:
@@ -64,9 +74,8 @@ def _build(each: Chosen, home: Path) -> Built | Broken:
     builds = workspace_root() / BUILDS
     builds.mkdir(parents=True, exist_ok=True)
     with run_folder() as room:
-        seen, installed = shared_build(
-            builds, each.package, room, place, each.lab.card.builds_within_s
-        )
+        source = _under_its_name(each, room)
+        seen, installed = shared_build(builds, source, room, place, each.lab.card.builds_within_s)
     if installed is None:
         last = next((line for line in reversed(seen.output) if line.strip()), "colcon failed")
         return Broken(each, f"it does not build. {last.strip()}")

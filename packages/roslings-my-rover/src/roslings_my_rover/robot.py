@@ -4,17 +4,22 @@ from __future__ import annotations
 
 import math
 import time
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
-from roslings_my_rover.wiring import LINKS, Robot
+from ros2_on_pip.interfaces import class_of
+from roslings_my_rover.mirror import Mirror
+from roslings_my_rover.silence import Silence, Silent
+from roslings_my_rover.wiring import ENTRANCE, LINKS, ODOMETRY, OWNED, STATUS, Robot, Steady
 from roslings_rover.models.differential_drive import Pose
 from roslings_rover.rover.driven import DrivenRover
 from roslings_rover.rover.ears import LONGEST_SENTENCE, SENTENCE_LASTS_S, Sentence
 
 SPEED_OF_SOUND_M_S = 343.0
 ECHO_EVERY_S = 0.1
-STATUS = "/robot_status"
+MIRRORS_LOOK_EVERY_S = 0.2
+__all__ = ["STATUS", "MyRover"]
 
 
 @dataclass
@@ -29,6 +34,8 @@ class MyRover(DrivenRover):
     _status: Sentence | None = None
     _status_s: float = -math.inf
     _links: list[Any] = field(default_factory=list, repr=False)
+    _mirrors: list[Mirror] = field(default_factory=list, repr=False)
+    _silence: Silence = field(default_factory=lambda: Silence(time.monotonic), repr=False)
 
     @property
     def sentence(self) -> Sentence | None:
@@ -40,8 +47,13 @@ class MyRover(DrivenRover):
         """Where the student's bridge thinks that the rover is; None where no bridge says it."""
         return self._believed if self.wiring.believes else None
 
+    def silent(self, plugged: bool) -> tuple[Silent, ...]:
+        """Whose messages are missing now."""
+        return self._silence.look(plugged)
+
     def connect(self, wiring: Robot) -> None:
-        """Follow another wiring from now on."""
+        """Follow another wiring from now on; programs may have been started anew for it."""
+        self._silence.expect(wiring.steady)
         if wiring != self.wiring or not self._links:
             self.wiring = wiring
             self._close_links()
@@ -70,6 +82,9 @@ class MyRover(DrivenRover):
             self._links.append(node.create_subscription(Twist, wiring.hears, self._hear, 10))
         if wiring.believes:
             self._links.append(node.create_subscription(Odometry, "odom", self._take_odom, 10))
+        self._links += [self._listening(each) for each in wiring.steady if not each.by_cable]
+        self._silence.expect(wiring.steady)
+        self._mirrors = [Mirror(node, shown, link) for shown, link in wiring.links if shown != link]
         self._odom = node.create_publisher(Odometry, "odom", 10) if wiring.says_odom else None
         self._pictures = (
             node.create_publisher(Image, "camera/image_raw", qos_profile_sensor_data)
@@ -78,17 +93,35 @@ class MyRover(DrivenRover):
         )
         self._echo = node.create_publisher(Float64, "sonar_echo", 10) if wiring.says_echo else None
 
+    def _listening(self, steady: Steady) -> Any:
+        """A subscription that only notes that something came; what asks for least gets all."""
+        from rclpy.qos import qos_profile_sensor_data
+
+        return self._node.create_subscription(
+            class_of(steady.kind, "msg"), steady.link or steady.topic,
+            lambda _: self._silence.hear(steady.topic), qos_profile_sensor_data, raw=True,
+        )  # fmt: skip
+
     def _close_links(self) -> None:
         for each in self._links:
             self._node.destroy_subscription(each)
         self._links.clear()
+        for mirror in self._mirrors:
+            mirror.close()
         for publisher in (self._odom, self._pictures, self._echo):
             if publisher is not None:
                 self._node.destroy_publisher(publisher)
 
     def _open_timers(self) -> None:
         super()._open_timers()
-        self._timers.append(self._node.create_timer(ECHO_EVERY_S, self._say_echo))
+        self._timers += [
+            self._node.create_timer(ECHO_EVERY_S, self._say_echo),
+            self._node.create_timer(MIRRORS_LOOK_EVERY_S, self._look_at_mirrors),
+        ]
+
+    def _look_at_mirrors(self) -> None:
+        for mirror in self._mirrors:
+            mirror.look()
 
     def _step(self) -> None:
         """Where the board turns the wheels, it also lets the time go on."""
@@ -113,15 +146,27 @@ class MyRover(DrivenRover):
     def _look_for_twins(self) -> None:
         """A command that comes from two is no command of either."""
         super()._look_for_twins()
-        self._clash = next(filter(None, map(self._clash_on, LINKS)), "")
+        if self._clash and self.notice == self._clash:
+            self.notice = ""
+        owned = (*self.wiring.links, *zip(OWNED, OWNED, strict=True))
+        found = (*map(self._held_off, LINKS), *map(self._clash_on, owned))
+        self._clash = next(filter(None, found), "")
         self.notice = self.notice or self._clash
 
-    def _clash_on(self, link: str) -> str:
-        there = self._node.get_publishers_info_by_topic(link)
-        if len(there) < 2:
+    def _held_off(self, link: str) -> str:
+        """Who says something under the name that people know: nobody in the rover hears it."""
+        if any(link == name for _, name in self.wiring.links):
             return ""
-        names = " and ".join(sorted({f"/{each.node_name}" for each in there}))
-        return f"{names} both say {link}. End what does not belong there."
+        own, there = self._node.get_name(), self._node.get_publishers_info_by_topic(link)
+        names = _listed(each.node_name for each in there if each.node_name != own)
+        return names and f"Held off: {names} on {link}. Let it speak on {ENTRANCE}."
+
+    def _clash_on(self, link: tuple[str, str]) -> str:
+        shown, topic = link
+        names = {each.node_name for each in self._node.get_publishers_info_by_topic(topic)}
+        if len(names) < 2:
+            return ""
+        return f"{_listed(names)} both say {shown}. End what does not belong there."
 
     def _say_echo(self) -> None:
         """The seconds until the echo came back; NaN where none was understood."""
@@ -144,3 +189,9 @@ class MyRover(DrivenRover):
         heading = 2 * math.atan2(turn.z, turn.w)
         if all(map(math.isfinite, (place.x, place.y, heading))):
             self._believed = Pose(place.x, place.y, heading)
+        self._silence.hear(ODOMETRY)
+
+
+def _listed(names: Iterable[str]) -> str:
+    """`/guard and /tester`, each once."""
+    return " and ".join(sorted({f"/{name}" for name in names}))

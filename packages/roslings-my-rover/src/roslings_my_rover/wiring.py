@@ -3,14 +3,18 @@
 A command goes in at /cmd_vel, then through limiter, relay and guard to the motors; each link has
 one publisher. The parts' own names come from their labs' cards. What is another one here is given
 by a remapping, so no part knows that it is in a rover.
+
+While a rover runs, its links have a mark behind their names that nobody knows beforehand. So
+whoever speaks on /rover/motors, by mistake or on purpose, speaks to nobody.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection
+import secrets
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 
-from roslings_my_rover.parts import CABLE, EYES, GUARD, LIMITER, PACE, SONAR, Part
+from roslings_my_rover.parts import CABLE, EYES, GUARD, LIMITER, PACE, SONAR, VOICE, Part
 
 ENTRANCE = "/cmd_vel"
 LIMITED = "/rover/limited"
@@ -19,6 +23,10 @@ CHECKED = "/cmd_vel_raw"
 MOTORS = "/rover/motors"
 LINKS = (LIMITED, CHECKED, MOTORS)
 """Inside of the rover: each has one publisher, and nobody else's command belongs there."""
+STATUS, DISTANCE, OBSTACLE = "/robot_status", "/distance_sensor/distance", "/obstacle"
+MOTOR_STATE, ODOMETRY, BEACON = "/motor_state", "/odom", "/beacon"
+OWNED = (OBSTACLE, MOTOR_STATE, ODOMETRY, "/e_stop")
+"""Others act by these, so two who speak there are told; one from a terminal may try it alone."""
 BEFORE_THE_RELAY = (PACE, SONAR, GUARD)
 """Parts that nothing would follow, or that nothing would speak to, without the relay."""
 
@@ -44,6 +52,20 @@ class Link:
 
 
 @dataclass(frozen=True)
+class Steady:
+    """What a program says again and again as long as it works, by its lab's card."""
+
+    program: str
+    topic: str
+    kind: str
+    """The type, `std_msgs/msg/String`."""
+    link: str = ""
+    """The topic's name in this rover, where it is one of the links."""
+    by_cable: bool = False
+    """Only while the cable is plugged in."""
+
+
+@dataclass(frozen=True)
 class Robot:
     """What the rover itself does, and what a part does in its place."""
 
@@ -54,6 +76,10 @@ class Robot:
     says_echo: bool = False
     believes: bool = False
     """It hears /odom, and shows where the part thinks that it is."""
+    links: tuple[tuple[str, str], ...] = ()
+    """Each link in use: the name that people know, and the one that it has in this rover."""
+    steady: tuple[Steady, ...] = ()
+    """What it must hear again and again: a program that is silent hangs."""
 
 
 @dataclass(frozen=True)
@@ -66,20 +92,33 @@ class Wiring:
     relay: Link | None = None
 
 
-def wired(parts: Collection[Part], port: str = "", device: str = "") -> Wiring:
-    """The wiring of these parts; `port` and `device` are where board and camera are."""
+def new_mark() -> str:
+    """What stands behind the names of one rover's links; nobody can guess it."""
+    return f"_{secrets.token_hex(3)}"
+
+
+def wired(parts: Collection[Part], port: str = "", device: str = "", mark: str = "") -> Wiring:
+    """The wiring of these parts; `port` and `device` are where board and camera are.
+
+    Without a mark the links have the names that people know.
+    """
     programs = {name: Link() for part in parts for name in part.programs}
-    link = ENTRANCE
+    link, used = ENTRANCE, list[str]()
     if LIMITER in parts:
-        programs["speed_limiter"] = Link((("cmd_vel_in", link), ("cmd_vel", LIMITED)))
-        link = LIMITED
+        programs["speed_limiter"] = Link((("cmd_vel_in", link), ("cmd_vel", LIMITED + mark)))
+        link = LIMITED + mark
+        used.append(LIMITED)
     relay = None
     if any(part in parts for part in BEFORE_THE_RELAY):
         checked = CHECKED if GUARD in parts else MOTORS
-        relay, link = Link((("commands", link), ("checked", checked))), checked
+        relay = Link((("commands", link), ("checked", checked + mark)))
+        link = checked + mark
+        used.append(checked)
     if GUARD in parts:
-        programs["guard"] = Link((("cmd_vel", MOTORS),))
-        link = MOTORS
+        raw = ((CHECKED.strip("/"), CHECKED + mark),) if mark else ()
+        programs["guard"] = Link((*raw, ("cmd_vel", MOTORS + mark)))
+        link = MOTORS + mark
+        used.append(MOTORS)
     if CABLE in parts:
         programs["serial_bridge"] = Link((("cmd_vel", link),), (("port", port),))
     if EYES in parts:
@@ -90,5 +129,24 @@ def wired(parts: Collection[Part], port: str = "", device: str = "") -> Wiring:
         shows_pictures=EYES not in parts,
         says_echo=SONAR in parts,
         believes=CABLE in parts,
+        links=tuple((each, each + mark) for each in used),
+        steady=tuple(_steady(parts, mark)),
     )
     return Wiring(robot, programs, relay)
+
+
+def _steady(parts: Collection[Part], mark: str) -> Iterator[Steady]:
+    """Of the small messages: pictures are looked at by who needs them."""
+    if VOICE in parts:
+        yield Steady("minimal_publisher", STATUS, "std_msgs/msg/String")
+    if SONAR in parts:
+        yield Steady("distance_sensor", DISTANCE, "sensor_msgs/msg/Range")
+        yield Steady("distance_subscriber", OBSTACLE, "std_msgs/msg/Bool")
+    if PACE in parts:
+        yield Steady("motor_controller", MOTOR_STATE, "std_msgs/msg/Float64")
+    if CABLE in parts:
+        yield Steady("serial_bridge", ODOMETRY, "nav_msgs/msg/Odometry", by_cable=True)
+    if LIMITER in parts:
+        yield Steady("beacon", BEACON, "std_msgs/msg/String")
+    if GUARD in parts:
+        yield Steady("guard", MOTORS, "geometry_msgs/msg/Twist", link=MOTORS + mark)

@@ -1,0 +1,196 @@
+"""A rover of parts, built and wired: its node, its programs, and what there is to say of them."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from roslings.experiment.run_folder import run_folder
+from roslings_my_rover.chosen import Choice, NoPart
+from roslings_my_rover.crew import Crew, working
+from roslings_my_rover.drive_bag import NAME
+from roslings_my_rover.installing import Broken, build_all
+from roslings_my_rover.parts import CABLE, EYES, Part
+from roslings_my_rover.robot import MyRover
+from roslings_my_rover.silence import Silent
+from roslings_rover.board import Board, Mega
+from roslings_rover.board.wire import Wire
+from roslings_rover.camera import SocketCamera, SyntheticCamera
+from roslings_rover.chip import BAUD
+from roslings_rover.rover.rover import Rover
+
+LOOK_EVERY_S = 0.2
+NOTICE_LASTS_S = 6.0
+OF_ROS = ("ROS_DOMAIN_ID", "ROS_AUTOMATIC_DISCOVERY_RANGE", "RMW_IMPLEMENTATION",
+          "FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_BUILTIN_TRANSPORTS")  # fmt: skip
+"""Variables by which the parts and the rover find each other."""
+
+
+@dataclass(frozen=True)
+class Wish:
+    """What somebody wants of a rover, besides its parts."""
+
+    follows: bool = False
+    keeps_bag: bool = False
+    seed: int = 0
+    by_keys: bool = False
+    more_keys: str = ""
+
+
+@dataclass
+class Assembled:
+    """The rover while it runs: `turn` must be called again and again."""
+
+    node: MyRover
+    crew: Crew
+    shown: Shown
+    board: Board | None
+    plugged: bool = True
+    _look_s: float = field(default_factory=time.monotonic)
+
+    def turn(self) -> None:
+        """Do the next thing that is due, and look after the parts now and then."""
+        self.node.turn()
+        now_s = time.monotonic()
+        if now_s >= self._look_s:
+            self._look_at_parts()
+            self._look_s = now_s + LOOK_EVERY_S
+
+    def pull(self) -> None:
+        """Pull the cable to the board, or plug it in again."""
+        if self.board is None:
+            self.shown.tell("There is no cable: no bridge is in your rover.")
+            return
+        self.plugged = not self.plugged
+        if self.plugged:
+            self.board.plug_in()
+        else:
+            self.board.unplug()
+        self.shown.tell("The cable is plugged in." if self.plugged else "The cable is pulled.")
+
+    def follow(self) -> None:
+        """Follow the ball from now on, or no longer."""
+        if EYES not in self.crew.parts:
+            self.shown.tell("It cannot follow the ball: no eyes are in your rover.")
+            return
+        self.crew.follow(not self.crew.follows)
+        follows = self.crew.follows
+        self.shown.tell("It follows the ball." if follows else "It no longer follows the ball.")
+
+    def _look_at_parts(self) -> None:
+        self.shown.forget()
+        for ended in self.crew.look():
+            self.node.connect(self.crew.wiring.robot)
+            self.shown.tell(ended.line)
+        gone = {each.program for each in self.crew.ended}
+        silent = (each for each in self.node.silent(self.plugged) if each.program not in gone)
+        self.shown.parts(self.crew, tuple(silent))
+
+
+class Shown:
+    """What the map says of the parts, and of what has just happened."""
+
+    def __init__(self, node: MyRover, choice: Choice, broken: list[Broken]) -> None:
+        self._node, self._choice = node, choice
+        self._broken = {each.chosen.part for each in broken}
+        self._until_s = 0.0
+        self._silent: tuple[Silent, ...] = ()
+
+    def tell(self, words: str) -> None:
+        """For some seconds, or until there is other news."""
+        self._node.told = self._node.notice = words
+        self._until_s = time.monotonic() + NOTICE_LASTS_S
+
+    def forget(self) -> None:
+        """What was told is old."""
+        if self._until_s and time.monotonic() > self._until_s:
+            self._node.told, self._node.notice, self._until_s = "", "", 0.0
+
+    def parts(self, crew: Crew, silent: tuple[Silent, ...] = ()) -> None:
+        """A line each, at most 32 columns; of who has just become silent a word besides."""
+        known = {each.program for each in self._silent}
+        for each in silent[:1]:  # who waits for a silent one is silent, too
+            if each.program not in known:
+                self.tell(each.line)
+        self._silent = silent
+        self._node.about_parts = tuple(self._lines(crew))
+
+    def _lines(self, crew: Crew) -> Iterator[str]:
+        ended = {each.part for each in crew.ended}
+        programs = {each.program for each in self._silent}
+        for each in self._choice.there:
+            remark = each.remark
+            if each.part in self._broken:
+                remark = "does not build"
+            elif each.part in ended or each.part not in crew.parts:
+                remark = "has ended"
+            elif not programs.isdisjoint(each.part.programs):
+                remark = "is silent"
+            yield f"{each.part.name:8} {remark}".rstrip()
+        yield from (each.line for each in self._choice.absent)
+
+
+@contextmanager
+def assembled(
+    choice: Choice, wish: Wish, building: Callable[[str], None], say: Callable[[str], None]
+) -> Iterator[Assembled]:
+    """Build the parts and start the rover's node; `start`ing its programs is the next step.
+
+    `building` hears which part is built, `say` which one cannot be. Raises NoPart where there is
+    nothing to carry, and what a board, a camera or a build raises.
+    """
+    with ExitStack() as stack:
+        home = stack.enter_context(run_folder())
+        built, broken = build_all(choice.there, home, building)
+        for each in broken:
+            say(each.line)
+        if not built:
+            raise NoPart
+        rover = Rover(seed=wish.seed)
+        parts: list[Part] = [each.chosen.part for each in built]
+        board = stack.enter_context(_board(rover)) if CABLE in parts else None
+        device = stack.enter_context(_camera(rover, home)) if EYES in parts else None
+        crew = Crew(
+            built, environment(home), home, board.name if board else "", str(device or ""),
+            wish.follows, home / NAME if wish.keeps_bag else None,
+        )  # fmt: skip
+        node = MyRover(
+            rover, by_keys=wish.by_keys, wiring=crew.wiring.robot, more_keys=wish.more_keys
+        )
+        stack.enter_context(node)
+        yield Assembled(node, crew, Shown(node, choice, broken), board)
+
+
+@contextmanager
+def started(made: Assembled) -> Iterator[None]:
+    """Its programs run until the block ends."""
+    with working(made.crew):
+        made.shown.parts(made.crew)
+        yield
+
+
+def environment(home: Path) -> dict[str, str]:
+    """What the parts get besides: where ROS is heard, and a home that is thrown away."""
+    found = {name: os.environ[name] for name in OF_ROS if name in os.environ}
+    return {**found, "HOME": str(home), "ROS_LOG_DIR": str(home / "log")}
+
+
+@contextmanager
+def _board(rover: Rover) -> Iterator[Board]:
+    """The rover's Arduino, on a port of its own; the wheels are this rover's."""
+    with Board(Mega(rover), wire=Wire(BAUD)) as board, board.running():
+        yield board
+
+
+@contextmanager
+def _camera(rover: Rover, home: Path) -> Iterator[Path]:
+    """What the rover sees, behind a path of its own."""
+    camera = SyntheticCamera(rover.eye, encoding="bgr8")
+    path = home / "camera"
+    with SocketCamera(path, lambda _: camera.look(rover)) as device:
+        device.plug_in()
+        yield path
