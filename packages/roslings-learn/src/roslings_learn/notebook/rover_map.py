@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +15,13 @@ from roslings_rover.rover.moving_map import moving_map
 from roslings_rover.rover.rover import Moment
 
 if TYPE_CHECKING:
+    from roslings_my_rover.notebook import LiveMyRover
     from roslings_rover.rover.notebook import LiveRover
+
+SAYS_EVERY_S = 0.1
+"""So often a command is said: a rover forgets one after 1.5 s."""
+PARTS_START_WITHIN_S = 60.0
+"""All of them, on a busy computer."""
 
 
 class NoWay(Trouble):
@@ -27,16 +33,67 @@ class NoWay(Trouble):
         )
 
 
-def show_map(rover: LiveRover) -> None:
-    """Show the map of the rover that `ros.rover()` gave; its drive until now is seen once more."""
-    pose = rover.pose
-    degrees = math.degrees(pose.heading_rad)
-    alt = (
-        f"The rover's map. It is at x {pose.x_m:.2f} m, y {pose.y_m:.2f} m,"
-        f" heading {degrees:.0f} degrees."
-    )
+def show_map(rover: LiveRover | LiveMyRover) -> None:
+    """Show the map of a rover; its drive until now is seen once more.
+
+    Takes what `ros.rover()` and `ros.my_rover()` gave. Of the latter, its parts are told, too.
+    """
     still = rover.map(moves=False).encode()
-    show(Picture(rover.map().encode(), "image/svg+xml", alt, still=still))
+    show(Picture(rover.map().encode(), "image/svg+xml", _map_in_words(rover), still=still))
+    if lines := _about_parts(rover):
+        print("\n".join(lines))
+
+
+def show_my_rover(
+    day: int | None = None,
+    *,
+    forward_m_s: float = 0.3,
+    turn_rad_s: float = 0.0,
+    for_s: float = 4.0,
+    borrow: Collection[int] = (),
+    todays: bool = False,
+    follow: bool = False,
+) -> None:
+    """Build the rover of your own parts, let it drive for some seconds, and show its map.
+
+    It is told the same speeds all the time, on /cmd_vel. Raises NoPart, CannotBorrow.
+    """
+    from geometry_msgs.msg import Twist
+
+    from roslings_learn.notebook.session import any_session
+    from roslings_my_rover.notebook import start
+
+    command = Twist()
+    command.linear.x, command.angular.z = forward_m_s, turn_rad_s
+    times = max(1, round(for_s / SAYS_EVERY_S))
+    with (
+        any_session() as ros,
+        start(day, borrow=borrow, todays=todays, follow=follow) as rover,
+    ):
+        ros.say(
+            "/cmd_vel", command, count=times, every_s=SAYS_EVERY_S, timeout_s=PARTS_START_WITHIN_S
+        )
+        show_map(rover)
+
+
+def _map_in_words(rover: LiveRover | LiveMyRover) -> str:
+    pose, parts = rover.pose, _about_parts(rover)
+    degrees = math.degrees(pose.heading_rad)
+    where = f"It is at x {pose.x_m:.2f} m, y {pose.y_m:.2f} m, heading {degrees:.0f} degrees."
+    if not parts:
+        return f"The rover's map. {where}"
+    return f"Your rover's map. {where} {' '.join(' '.join(parts).split())}"
+
+
+def _about_parts(rover: LiveRover | LiveMyRover) -> list[str]:
+    """Lines on the parts of a rover that is made of some."""
+    lines = getattr(rover, "parts", [])
+    if not lines:
+        return []
+    says, news = getattr(rover, "says", ""), getattr(rover, "news", "")
+    parts = ", ".join(" ".join(line.split()) for line in lines)
+    said = [f'It says: "{says}".'] if says else []
+    return [f"Its parts: {parts}.", *said, *filter(None, [news])]
 
 
 def show_path(odometry: Sequence[Any]) -> None:

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
@@ -23,6 +23,7 @@ from roslings_learn.notebook.place import settle_in
 if TYPE_CHECKING:
     from roslings_learn.notebook.hearing import Heard
     from roslings_learn.notebook.programs import Program
+    from roslings_my_rover.notebook import LiveMyRover
     from roslings_rover.rover.notebook import LiveRover
 
 LOOK_EVERY_S = 0.01
@@ -172,6 +173,23 @@ class Session:
 
         self._spinning.check()
         return self._things.enter_context(start(seed))
+
+    def my_rover(
+        self,
+        day: int | None = None,
+        *,
+        borrow: Collection[int] = (),
+        todays: bool = False,
+        follow: bool = False,
+    ) -> LiveMyRover:
+        """The rover of your own parts, those up to a `day`; it ends with the session.
+
+        The options are those of `./roslings my-rover`. Raises NoPart, CannotBorrow.
+        """
+        from roslings_my_rover.notebook import start
+
+        self._spinning.check()
+        return self._things.enter_context(start(day, borrow=borrow, todays=todays, follow=follow))
 
     # --- messages --------------------------------------------------------------------------
 

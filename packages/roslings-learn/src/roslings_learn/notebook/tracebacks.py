@@ -65,9 +65,10 @@ def _named(error: BaseException) -> str:
 
 
 def _is_problem(error: BaseException) -> bool:
+    from ros2_on_pip.errors import RoslingsError
     from ros2_on_pip.problem import Problem
 
-    return isinstance(error, Problem)
+    return isinstance(error, (Problem, RoslingsError))
 
 
 def _is_cell(shell: Any, frame: traceback.FrameSummary) -> bool:
