@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import argparse
+import sys
 
-from ros2_on_pip.errors import OK
+from ros2_on_pip.errors import OK, WRONG_USE
 
 
 def add_options(word: argparse.ArgumentParser) -> None:
@@ -32,6 +33,11 @@ def add_options(word: argparse.ArgumentParser) -> None:
         "--follow", action="store_true", help="follow the ball, by what day 7 says on /ball"
     )
     word.add_argument(
+        "--race", action="store_true",
+        help="a race of two rovers in one room, /red and /blue, started by your launch file of"
+        " day 8",
+    )  # fmt: skip
+    word.add_argument(
         "--bag", action="store_true",
         help="keep a bag of this drive, for your program of day 9: ~/roslings_ws/my_rover_bag",
     )  # fmt: skip
@@ -50,11 +56,16 @@ def run(options: argparse.Namespace) -> int:
     """Run the rover of the student's parts until Ctrl-C; or say which there are."""
     from roslings_my_rover.chosen import NoPart, chosen, told
 
-    choice = chosen(options.day, options.borrow, options.src)
+    if options.race and (options.keys or options.follow or options.bag or options.launch):
+        print("roslings: --race goes with DAY, --borrow, --src, --view and --seed alone.",
+              file=sys.stderr)  # fmt: skip
+        return WRONG_USE
+    last_day = None if options.race else options.day
+    choice = chosen(last_day, options.borrow, options.src)
     if options.parts:
         print("\n".join(told(choice)))
         return OK
-    if not choice.there:
+    if not choice.there and not options.race:
         raise NoPart
     if options.launch:
         from roslings_my_rover.launch_file import launch_file
@@ -67,5 +78,10 @@ def run(options: argparse.Namespace) -> int:
     prepare()
     domain_id()
     check_middleware()
+    if options.race:
+        from roslings_my_rover.race_running import run as run_race
+
+        run_race(choice, options.view, options.seed)
+        return OK
     run_rover(choice, options.view, options.keys, options.follow, options.seed, options.bag)
     return OK

@@ -66,17 +66,27 @@ class NoWindow(DeviceTrouble):
 @contextmanager
 def opened(view: View, node: DrivenRover) -> Iterator[Display]:
     """The display that was asked for, or the best that this place has. Raises NoWindow."""
-    because = why_no_window()
-    if view == "window" and because:
-        raise NoWindow(because)
-    if view == "window" or (view == "auto" and not because):
+    place = place_for(view)
+    if place == "window":
         with Window(node) as window:
             yield window
-    elif view == "terminal" or (view == "auto" and _is_roomy_terminal()):
+    elif place == "terminal":
         with Terminal() as terminal:
             yield terminal
     else:
         yield Lines(node, sys.stdout)
+
+
+def place_for(view: View) -> Literal["window", "terminal", "lines"]:
+    """Where the map goes: as asked for, or the best that there is here. Raises NoWindow."""
+    because = why_no_window()
+    if view == "window" and because:
+        raise NoWindow(because)
+    if view == "window" or (view == "auto" and not because):
+        return "window"
+    if view == "terminal" or (view == "auto" and _is_roomy_terminal()):
+        return "terminal"
+    return "lines"
 
 
 def why_no_window() -> str:
@@ -189,7 +199,7 @@ class Terminal:
         self._console = Console()
         self._live = Live(console=self._console, screen=True, auto_refresh=False)
         encoding = (self._console.encoding or "").lower().replace("-", "")
-        self._letters = UNICODE if encoding.startswith("utf") else ASCII
+        self.letters = UNICODE if encoding.startswith("utf") else ASCII
 
     def __enter__(self) -> Terminal:
         self._live.__enter__()
@@ -200,18 +210,26 @@ class Terminal:
 
     def show(self, node: DrivenRover) -> None:
         """Draw map and words anew, as large as the terminal is now."""
+        drawn = cells(node.rover, *self.size, self.letters, heard(node), node.believed)
+        self.put(drawn, beside(node), below(node), bold=bool(node.notice))
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Columns and lines of the map, as large as the terminal is now."""
+        columns, lines = self._console.size
+        return max(columns - SIDE_COLUMNS, 20), lines - 3
+
+    def put(self, drawn: list[list[Cell]], words: list[str], told: list[str], bold: bool) -> None:
+        """A map, the words beside it, and what is told below."""
         from rich.text import Text
 
         columns, lines = self._console.size
-        wide = max(columns - SIDE_COLUMNS, 20)
-        drawn = cells(node.rover, wide, lines - 3, self._letters, heard(node), node.believed)
-        rows = _as_high(drawn, len(beside(node)[: lines - 3]))
+        rows = _as_high(drawn, len(words[: lines - 3]))
         text = Text(no_wrap=True, overflow="crop")
-        for row, words in zip(rows, _filled(beside(node), len(rows)), strict=True):
+        for row, word in zip(rows, _filled(words, len(rows)), strict=True):
             _append_row(text, row)
-            text.append(f"  {words}\n")
-        told = "\n".join(_within(below(node), columns))
-        text.append(told, style="bold" if node.notice else "")
+            text.append(f"  {word}\n")
+        text.append("\n".join(_within(told, columns)), style="bold" if bold else "")
         self._live.update(text, refresh=True)
 
 

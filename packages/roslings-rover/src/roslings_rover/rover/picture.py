@@ -47,7 +47,7 @@ def draw_world(world: World, axes: Any) -> None:
         axes.plot([], [], "o", color=_colour(ball), label="ball")  # for the legend
 
 
-def draw_rover(rover: Rover, axes: Any) -> list[Any]:
+def draw_rover(rover: Rover, axes: Any, colour: str = ROVER) -> list[Any]:
     """Draw the rover, with a line that shows where it looks; returns what can be removed again."""
     return draw_body(rover.pose, rover.body.radius_m, axes)
 
@@ -57,8 +57,8 @@ def draw_body(pose: Pose, radius_m: float, axes: Any) -> list[Any]:
     from matplotlib.patches import Circle as Disc
 
     nose_x, nose_y = pose.ahead(2 * radius_m)
-    disc = axes.add_patch(Disc((pose.x_m, pose.y_m), radius_m, color=ROVER, zorder=4))
-    nose = axes.plot([pose.x_m, nose_x], [pose.y_m, nose_y], color=ROVER, linewidth=3, zorder=4)
+    disc = axes.add_patch(Disc((pose.x_m, pose.y_m), radius_m, color=colour, zorder=4))
+    nose = axes.plot([pose.x_m, nose_x], [pose.y_m, nose_y], color=colour, linewidth=3, zorder=4)
     return [disc, *nose]
 
 

@@ -118,13 +118,13 @@ class Sheet:
                 if halves in letter_of:
                     self._cells[line][column] = Cell(letter_of[halves], "wall")
 
-    def put_path(self, path: list[Pose]) -> None:
-        """Where the rover went."""
+    def put_path(self, path: list[Pose], hue: int | None = None) -> None:
+        """Where the rover went; with a hue, where there are several."""
         for pose in path:
             column, line = self._position(pose.x_m, pose.y_m)
             cell = self._cell(column, line)
             if cell and cell.kind in ("floor", "path"):
-                self._set(column, line, Cell(self._dotted(cell, column, line), "path"))
+                self._set(column, line, Cell(self._dotted(cell, column, line), "path", hue))
 
     def put_ball(self, ball: Ball) -> None:
         """One ball."""
@@ -132,12 +132,12 @@ class Sheet:
         self._balls[int(column), int(line)] = column, line
         self._set(column, line, Cell(self._letters.ball, "ball", ball.hue))
 
-    def put_rover(self, pose: Pose, kind: Kind = "rover") -> None:
-        """The rover, as an arrow; it never covers a ball."""
+    def put_rover(self, pose: Pose, kind: Kind = "rover", hue: int | None = None) -> None:
+        """The rover, as an arrow; it never covers a ball. With a hue, where there are several."""
         arrows = self._letters.arrows
         turn = round(pose.heading_rad / (2 * math.pi) * len(arrows)) % len(arrows)
         place = self._beside_a_ball(*self._position(pose.x_m, pose.y_m))
-        self._set(*place, Cell(arrows[turn], kind))
+        self._set(*place, Cell(arrows[turn], kind, hue))
 
     def _beside_a_ball(self, column: float, line: float) -> tuple[float, float]:
         """Where the rover and a ball share a letter: the next one, on the side where it is."""
