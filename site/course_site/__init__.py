@@ -15,12 +15,14 @@ from course_site import (
     few_tags,
     glossary_page,
     grader_words,
+    lab_page,
     landing,
     lesson_page,
     maths,
     navigation,
     one_sheet,
     path_of_days,
+    picture_sizes,
     qos_table,
     quizzes,
     run_box,
@@ -50,12 +52,13 @@ def setup(app: Sphinx) -> dict[str, Any]:
         day_box,
         run_box,
         lesson_page,
+        lab_page,
         terminals,
         landing,
     ):
         part.setup(app)
     for part in (doctor_page, api, card_words, grader_words, navigation):
         part.setup(app)
-    for part in (few_scripts, few_tags, small_scripts, one_sheet):
+    for part in (few_scripts, few_tags, picture_sizes, small_scripts, one_sheet):
         part.setup(app)
     return {"version": "1", "parallel_read_safe": False, "parallel_write_safe": True}

@@ -37,7 +37,7 @@ class Hero(SphinxDirective):
             " course runs what you built, and says what to do next.</p>"
             f'<p class="actions"><a class="button" href="{first}.html">Drive a robot in 15 minutes'
             '</a></p></div><div class="hero-room">'
-            f'<img src="_static/rover.svg" width="360" height="270" alt="{ROVER}"></div>'
+            f'<img src="_static/rover.svg" width="304" height="400" alt="{ROVER}"></div>'
             f'<figure class="hero-verdict"><pre class="verdict">{marked()}</pre>'
             f"<figcaption>{SAID}</figcaption></figure></div>"
             '<p class="note-box review-due" hidden><span></span> '

@@ -53,16 +53,15 @@ def _label(block: nodes.Node) -> str:
 
 
 def _show_first(document: nodes.document, name: str, card: nodes.Element) -> None:
-    """Put the drawing below the card. Its section keeps it, too, unless that is the next one."""
-    pictures = [image for image in document.findall(nodes.image)]
+    """Put the drawing below the card. It stands there once, wherever the lesson has it."""
+    pictures = document.findall(nodes.image)
     found = [image for image in pictures if image["uri"].endswith(f"/{name}")]
     if not found:
         log.warning("The lesson has no picture '%s'. Mend: path.yaml.", name, location=document)
         return
     holder = found[0].parent
-    card.parent.insert(_place_below(card), holder.deepcopy())
-    if found[0] is pictures[0]:
-        holder.parent.remove(holder)
+    holder.parent.remove(holder)
+    card.parent.insert(_place_below(card), holder)
 
 
 def _place_below(card: nodes.Element) -> int:

@@ -17,6 +17,7 @@ ARROW_HEAD = (
     '<marker id="a" viewBox="0 0 10 10" refX="9" refY="5" markerWidth="6" markerHeight="6"'
     ' orient="auto"><path d="M0 0 10 5 0 10z" fill="#444"/></marker>'
 )
+CALM = "@media (prefers-reduced-motion: reduce) { * { animation: none !important } }"
 
 Point = tuple[float, float]
 
@@ -27,7 +28,16 @@ class Sheet:
     def __init__(self, title: str, told: str, height: int) -> None:
         """`told` is for those who cannot see it: everything that the drawing shows."""
         self._parts: list[str] = []
+        self._style = ""
         self._title, self._told, self._height = title, told, height
+
+    def add(self, *parts: str) -> None:
+        """Parts of SVG that another module draws."""
+        self._parts += parts
+
+    def moves(self, style: str) -> None:
+        """What moves, in CSS: it stands still where a reader asks for less motion."""
+        self._style = style
 
     def box(self, at: Point, size: Point, text: str = "", line: str = BLUE) -> None:
         """A thing of hardware, a computer or a topic; `at` is its upper left corner."""
@@ -99,6 +109,7 @@ class Sheet:
                 f'  <title id="t">{escape(self._title)}</title>',
                 f'  <desc id="d">{escape(self._told)}</desc>',
                 f"  <defs>{ARROW_HEAD}</defs>",
+                *([f"  <style>{self._style} {CALM}</style>"] if self._style else []),
                 f'  <rect {around} fill="#ffffff" stroke="{GREY}"/>',
                 *(f"  {part}" for part in self._parts),
                 "</svg>\n",

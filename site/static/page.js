@@ -6,7 +6,7 @@
 
   // --- wide code and tables ---------------------------------------------------------------------
 
-  const WIDE = "article pre, article p:has(> img), .table-wrapper, .sidebar-scroll, .toc-scroll";
+  const WIDE = "article pre, article p:has(img), div.cell_output, .table-wrapper, .sidebar-scroll, .toc-scroll";
 
   function reachWideParts() {
     for (const part of document.querySelectorAll(WIDE)) {
