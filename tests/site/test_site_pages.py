@@ -145,8 +145,10 @@ def test_the_first_screen_of_a_lesson_has_its_card_and_its_drawing(visit: Visit)
     labels = page.locator(".day-card li strong").all_inner_texts()
     assert [label.rstrip(":.") for label in labels] == ["Goal", "Level", "Time", "You need"]
     pictures = page.locator("article img")
-    assert pictures.count() == 1  # it was the next one on the page, and has moved
-    box = pictures.bounding_box()
+    assert pictures.count() == 2  # the lesson has it last: it has moved, and stands there once
+    assert "rover" in pictures.first.get_attribute("src")
+    assert "rover" not in pictures.last.get_attribute("src")
+    box = pictures.first.bounding_box()
     assert box
     assert box["y"] + box["height"] < 900
     assert page.locator(".cell_input:visible").first.bounding_box()["y"] > box["y"]

@@ -16,12 +16,14 @@ TWO_DAYS = Path(__file__).parent / "two_days"
 
 
 def write_course(folder: Path) -> Path:
-    """The real words, path and one lab, with the two days of the tests."""
+    """The real words, path, drawings and one lab, with the two days of the tests."""
     shutil.copytree(root() / "glossary", folder / "glossary")
     shutil.copytree(root() / "labs" / "topics", folder / "labs" / "topics")
     (folder / "days").mkdir()
     shutil.copy(root() / "days" / "path.yaml", folder / "days")
     shutil.copytree(TWO_DAYS, folder / "days", dirs_exist_ok=True)
+    place = "days/03-topics/pictures/rover.svg"
+    shutil.copy(root() / place, folder / place)
     return folder
 
 
