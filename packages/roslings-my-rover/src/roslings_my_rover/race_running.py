@@ -14,6 +14,7 @@ from roslings.arena import Launch, Process
 from roslings.experiment.run_folder import run_folder
 from roslings.report import Progress
 from roslings.typed import program
+from roslings_my_rover.assembled import environment
 from roslings_my_rover.chosen import Choice, Chosen
 from roslings_my_rover.crew import Ended
 from roslings_my_rover.installing import Built, build_all
@@ -21,7 +22,6 @@ from roslings_my_rover.parts import LIMITER
 from roslings_my_rover.race import Race
 from roslings_my_rover.race_nodes import RaceNode
 from roslings_my_rover.race_view import RaceDisplay, opened, where
-from roslings_my_rover.assembled import environment
 from roslings_rover.asked import listening
 from roslings_rover.rover.displays import View
 

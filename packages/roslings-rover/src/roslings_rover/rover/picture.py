@@ -49,10 +49,10 @@ def draw_world(world: World, axes: Any) -> None:
 
 def draw_rover(rover: Rover, axes: Any, colour: str = ROVER) -> list[Any]:
     """Draw the rover, with a line that shows where it looks; returns what can be removed again."""
-    return draw_body(rover.pose, rover.body.radius_m, axes)
+    return draw_body(rover.pose, rover.body.radius_m, axes, colour)
 
 
-def draw_body(pose: Pose, radius_m: float, axes: Any) -> list[Any]:
+def draw_body(pose: Pose, radius_m: float, axes: Any, colour: str = ROVER) -> list[Any]:
     """The same of a rover that is somewhere."""
     from matplotlib.patches import Circle as Disc
 
