@@ -67,11 +67,17 @@ def as_matrix(motion: Motion) -> Array:
 
 
 def between_by_transforms3d(a: Motion, b: Motion, part: float) -> Array:
-    """On the shorter arc, by the axis and the angle between the two."""
+    """On the shorter arc, by the axis and the angle between the two.
+
+    The angle by atan2: transforms3d takes it from a cosine, which tells small ones to 1e-8 only.
+    """
     first, second = w_first(a.rotation), w_first(b.rotation)
     turn = quaternions.qmult(quaternions.qinverse(first), second)
-    axis, angle = quaternions.quat2axangle(turn if turn[0] >= 0 else -turn)
-    rotation = quaternions.qmult(first, quaternions.axangle2quat(axis, angle * part))
+    turn = turn if turn[0] >= 0 else -turn
+    sine = float(numpy.linalg.norm(turn[1:]))
+    axis = turn[1:] / sine if sine else numpy.array([1.0, 0.0, 0.0])
+    step = quaternions.axangle2quat(axis, 2 * math.atan2(sine, turn[0]) * part, is_normalized=True)
+    rotation = quaternions.qmult(first, step)
     shift = numpy.array(a.shift) * (1 - part) + numpy.array(b.shift) * part
     return affines.compose(shift, quaternions.quat2mat(rotation), numpy.ones(3))
 
