@@ -9,8 +9,8 @@ import sys
 from pathlib import Path
 
 import pytest
-from carried import Carried, carried, put, surroundings, until
-from test_my_rover_bad import _commands, typed
+from carried import Carried, carried, commands, put, surroundings, until
+from test_my_rover_bad import typed
 from test_my_rover_wins import workspace
 
 from roslings.course import lab
@@ -52,7 +52,7 @@ def test_red_wins_with_the_launch_file(workspace: Path) -> None:
         assert race.interrupt() == 0
         assert "It went 6." in race.heard
         mark = str(workspace / ".roslings" / "my_rover")
-        until(lambda: mark not in _commands(), _commands, 30.0)
+        until(lambda: mark not in commands(), commands, 30.0)
 
 
 @pytest.mark.parametrize("mutant", MUTANTS)
