@@ -90,8 +90,9 @@ def test_its_letters_can_be_read_on_a_phone(drawing: Path) -> None:
 
 
 def test_no_drawing_lies_there_twice() -> None:
-    """Of each, there is one file."""
-    kept = Counter(hashlib.sha256(file.read_bytes()).hexdigest() for file in drawings())
+    """Of each, there is one file; the page of all days has copies of what each lab shows."""
+    own = (file for file in drawings() if not file.match("reference/pictures/my-rover-??.svg"))
+    kept = Counter(hashlib.sha256(file.read_bytes()).hexdigest() for file in own)
     assert kept.most_common(1)[0][1] == 1
 
 

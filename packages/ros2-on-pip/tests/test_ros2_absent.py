@@ -59,7 +59,7 @@ def test_built_and_not_sourced(empty: Shell, workspace: Path, place: str) -> Non
     assert ran.err.splitlines()[1:] == [f"{told}source ~/roslings_ws/install/setup.bash"]
 
 
-@pytest.mark.parametrize("name", ["turtlesim", "robot_state_publisher", "rviz2", "rqt_image_view"])
+@pytest.mark.parametrize("name", ["turtlesim", "robot_state_publisher", "rviz2", "rqt_image_overlay"])
 def test_a_package_of_the_full_ros_has_a_stand_in(empty: Shell, name: str) -> None:
     """What it is, what to use here, and how the real one is installed."""
     ran = empty("run", name, "it")
@@ -97,7 +97,7 @@ def test_each_well_known_name_has_an_answer(name: str) -> None:
     assert second.startswith(("The real one needs Ubuntu 24.04: sudo apt install ", "No apt "))
 
 
-@pytest.mark.parametrize("name", ["rqt_reconfigure", "rqt_gui_cpp", "micro_ros_agent", "xacro"])
+@pytest.mark.parametrize("name", ["rqt_robot_monitor", "rqt_gui_cpp", "micro_ros_agent", "xacro"])
 def test_who_types_it_reads_the_answer(empty: Shell, name: str) -> None:
     """Of the table and of a family, by `ros2 run` as guides write it."""
     ran = empty("run", name, name)
