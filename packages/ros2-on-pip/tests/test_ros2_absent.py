@@ -59,7 +59,9 @@ def test_built_and_not_sourced(empty: Shell, workspace: Path, place: str) -> Non
     assert ran.err.splitlines()[1:] == [f"{told}source ~/roslings_ws/install/setup.bash"]
 
 
-@pytest.mark.parametrize("name", ["turtlesim", "robot_state_publisher", "rviz2", "rqt_image_overlay"])
+@pytest.mark.parametrize(
+    "name", ["turtlesim", "robot_state_publisher", "rviz2", "rqt_image_overlay"]
+)
 def test_a_package_of_the_full_ros_has_a_stand_in(empty: Shell, name: str) -> None:
     """What it is, what to use here, and how the real one is installed."""
     ran = empty("run", name, "it")
