@@ -84,7 +84,7 @@ def test_no_tab_needs_webgl(context: Any, opened: Desk) -> None:
     page = context.new_page()
     page.add_init_script(NO_WEBGL)
     errors: list[Any] = []
-    page.on("pageerror", errors.append)
+    page.on("pageerror", lambda error: errors.append(error))
     for name in BUILT_IN:
         page.goto(f"{opened.base}/{name}")
         page.get_by_role("heading", level=2).wait_for()
