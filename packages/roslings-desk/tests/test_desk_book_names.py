@@ -174,13 +174,13 @@ def come_in(browser: Any, opened: Desk, tab: str) -> Any:
 
 @pytest.mark.slow
 def test_ros2_run_opens_the_tab_with_what_was_typed(browser: Any, tmp_path: Path) -> None:
-    """`ros2 run rqt_plot rqt_plot /number/data`, before a node has that topic; then it is drawn."""
-    words = ["run", "rqt_plot", "rqt_plot", "/number/data", "/number/nothing"]
+    """`ros2 run rqt_plot rqt_plot /number`, before a node has that topic; then it is drawn."""
+    words = ["run", "rqt_plot", "rqt_plot", "/number", "/number/nothing"]
     with leased_domain() as domain, program("ros2_on_pip", words, domain, tmp_path) as process:
         opened = Desk(process, domain)
         threading.Thread(target=opened.read, daemon=True).start()
         page = come_in(browser, opened, "plot")
-        waiting = page.get_by_text("No node has such a topic yet: /number/data, /number/nothing")
+        waiting = page.get_by_text("No node has such a topic yet: /number, /number/nothing")
         expect(waiting).to_be_visible()
         with Nodes(domain) as nodes:
             numbers(nodes, "/number")

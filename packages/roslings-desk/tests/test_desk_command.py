@@ -27,7 +27,7 @@ def test_it_ends_and_leaves_nothing(number: signal.Signals, tmp_path: Path) -> N
 
 
 @pytest.mark.parametrize(("words", "said"), [
-    (["nothing"], "The desk has no tab 'nothing'. It has: rover, topics"),
+    (["nothing"], "The desk has no tab 'nothing'. It has: rover, graph"),
     (["--port", "70000"], "Port 70000 of 127.0.0.1 cannot be had"),
     (["--port", "1.5"], "invalid int value"),
 ])  # fmt: skip

@@ -177,9 +177,7 @@ class PlotTab:
         type_name = self._open.hub.type_of(topic)
         if not type_name:
             raise NoTopic
-        message = class_of(type_name, "msg")()
-        path = path or next(numbers_in(message), "")
-        if number_at(message, path, only_type=True) is None:
+        if number_at(class_of(type_name, "msg")(), path, only_type=True) is None:
             raise NoNumber(path, type_name)
         if len(self._curves) >= MOST_CURVES:
             raise TooMany
@@ -192,10 +190,17 @@ class PlotTab:
         for word in list(self._awaited):
             if found := topic_and_path(word, there):
                 self._awaited.remove(word)
-                if problem := problem_of(partial(self._add_curve, *found)):
+                if problem := problem_of(partial(self._add_named, *found)):
                     self._trouble.say(problem)
         waiting = f"No node has such a topic yet: {', '.join(self._awaited)}"
         self._waiting.say(waiting if self._awaited else "")
+
+    def _add_named(self, topic: str, path: str) -> None:
+        """A topic alone means its first number, as `/level` of a Float64 is its data."""
+        type_name = self._open.hub.type_of(topic)
+        if type_name and not path:
+            path = next(numbers_in(class_of(type_name, "msg")()), "")
+        self._add_curve(topic, path)
 
     def _clear(self) -> None:
         self._curves.clear()
