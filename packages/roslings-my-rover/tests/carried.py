@@ -203,27 +203,57 @@ def carried(
             os.close(ours)
 
 
+class Goal:
+    """`ros2 action send_goal`, which ends when the rover's pilot says that it is there.
+
+    A pilot that does not know yet where the rover is refuses: then it is asked again.
+    """
+
+    def __init__(self, domain: int, x_m: float, y_m: float) -> None:
+        self._domain = domain
+        self._where = f"{{x: {x_m}, y: {y_m}, tolerance: 0.1}}"
+        self.said = ""
+        self._process = self._send()
+
+    def _send(self) -> subprocess.Popen[str]:
+        words = [sys.executable, "-m", "ros2_on_pip", "action", "send_goal", "/drive_to",
+                 "rover_interfaces/action/DriveTo", self._where]  # fmt: skip
+        return subprocess.Popen(
+            words, env=surroundings(self._domain, Path.cwd()), text=True,
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+        )  # fmt: skip
+
+    @property
+    def ended(self) -> bool:
+        """Whether it is over; look at it again and again."""
+        if self._process.poll() is None:
+            return False
+        if not self.said:
+            self.said = self._process.communicate()[0]
+        if "rejected" in self.said:
+            self.said, self._process = "", self._send()
+            return False
+        return True
+
+    @property
+    def reached(self) -> bool:
+        """Whether it has ended well, as the command told it."""
+        return self.ended and self._process.returncode == 0 and "SUCCEEDED" in self.said
+
+    def close(self) -> None:
+        """End the command; the pilot goes on."""
+        self._process.kill()
+        self._process.communicate()
+
+
 @contextmanager
-def goal(rover: Carried, x_m: float, y_m: float) -> Iterator[subprocess.Popen[str]]:
-    """`ros2 action send_goal`, which ends when the rover's pilot says that it is there."""
-    words = [sys.executable, "-m", "ros2_on_pip", "action", "send_goal", "/drive_to",
-             "rover_interfaces/action/DriveTo",
-             f"{{x: {x_m}, y: {y_m}, tolerance: 0.1}}"]  # fmt: skip
-    process = subprocess.Popen(
-        words, env=surroundings(rover.domain, Path.cwd()), text=True,
-        stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-    )  # fmt: skip
+def goal(rover: Carried, x_m: float, y_m: float) -> Iterator[Goal]:
+    """Send the rover to a point."""
+    sent = Goal(rover.domain, x_m, y_m)
     try:
-        yield process
+        yield sent
     finally:
-        process.kill()
-        process.communicate()
-
-
-def reached(process: subprocess.Popen[str]) -> bool:
-    """Whether the goal has ended well, as the command told it."""
-    assert process.stdout
-    return process.poll() == 0 and "SUCCEEDED" in process.stdout.read()
+        sent.close()
 
 
 def pid_of(workspace: Path, program: str) -> int:
