@@ -212,7 +212,7 @@ class Goal:
     def __init__(self, domain: int, x_m: float, y_m: float) -> None:
         self._domain = domain
         self._where = f"{{x: {x_m}, y: {y_m}, tolerance: 0.1}}"
-        self.said = ""
+        self._said: str | None = None
         self._process = self._send()
 
     def _send(self) -> subprocess.Popen[str]:
@@ -228,22 +228,23 @@ class Goal:
         """Whether it is over; look at it again and again."""
         if self._process.poll() is None:
             return False
-        if not self.said:
-            self.said = self._process.communicate()[0]
-        if "rejected" in self.said:
-            self.said, self._process = "", self._send()
+        if self._said is None:
+            self._said = self._process.communicate()[0]
+        if "rejected" in self._said:
+            self._said, self._process = None, self._send()
             return False
         return True
 
     @property
     def reached(self) -> bool:
         """Whether it has ended well, as the command told it."""
-        return self.ended and self._process.returncode == 0 and "SUCCEEDED" in self.said
+        return self.ended and self._process.returncode == 0 and "SUCCEEDED" in (self._said or "")
 
     def close(self) -> None:
         """End the command; the pilot goes on."""
-        self._process.kill()
-        self._process.communicate()
+        if self._said is None:
+            self._process.kill()
+            self._process.communicate()
 
 
 @contextmanager
