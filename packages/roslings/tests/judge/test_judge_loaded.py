@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import gc
 import shutil
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -26,6 +28,14 @@ def evidence() -> Evidence:
     return Evidence(
         lab="topics", seed=1, machine=machine, package=inspect_package(TOPICS.solution, TOPICS.card)
     )
+
+
+@pytest.fixture(autouse=True)
+def nothing_else_is_collected() -> Iterator[None]:
+    """A worker may hold a browser: a fork that collects its greenlets dies, so it leaves them."""
+    gc.freeze()
+    yield
+    gc.unfreeze()
 
 
 def copied(tmp_path: Path) -> Lab:
