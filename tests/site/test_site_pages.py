@@ -215,10 +215,10 @@ def test_a_comment_is_quiet_in_the_dark(browser: Any, site: Path) -> None:
 
 
 def test_a_drawing_on_a_phone_can_be_read_and_scrolled(browser: Any, site: Path) -> None:
-    """At least 34rem wide, in a holder that scrolls and that the keyboard reaches."""
+    """Wider than the screen, in a holder that scrolls and that the keyboard reaches."""
     context = browser.new_context(viewport={"width": 390, "height": 900})
     drawing = Visit(context, site.as_uri()).go("days/03-topics/index.html").locator("article img")
-    assert drawing.first.evaluate("image => image.clientWidth") >= 34 * 16
+    assert drawing.first.evaluate("image => image.clientWidth") > 390
     holder = drawing.first.locator("xpath=..")
     assert holder.evaluate("part => part.clientWidth < 390 && part.scrollWidth > 390")
     assert holder.evaluate("part => part.tabIndex") == 0
