@@ -114,8 +114,4 @@ def _known(lab: Lab, faults: Collection[Fault], results: Mapping[str, Result], k
 def _has_acted(book: Gradebook, result: Result) -> bool:
     """Where the evidence says so; of what has none it is believed: it was refused or broke off."""
     content = book.evidence(result)
-    return content is None or any(MARK in text for text in _texts(content))
-
-
-def _texts(content: bytes) -> Iterator[str]:
-    yield unpacked(content).model_dump_json()
+    return content is None or MARK in unpacked(content).model_dump_json()
