@@ -106,7 +106,8 @@ class Count:
         if self.kept:
             yield f"  {self.kept} kept by needs: proven before, with all that they need as it is."
         if self.undrawn:
-            yield f"  {self.undrawn} not drawn: of what they need, only the core is another."
+            why = "of what they need, only the core or a list of names is another"
+            yield f"  {self.undrawn} not drawn: {why}."
         if skipped:
             yield f"  {skipped} skipped: no room or no time on this machine; the tests say which."
         if self.missing:
@@ -239,15 +240,23 @@ def main(stages_file: Path, costs_file: Path, due_file: Path) -> int:
     print(f"Mutants measured live at this landing: {len(due.measured)}")
     for line in told(each.outcome for each in tests):
         print(f"Left out: {line}.")
-    print(told_of_unsteady(stages_file.with_name("unsteady")))
+    unsteady = unsteady_in(stages_file.with_name("unsteady"))
+    print(told_of_unsteady(unsteady))
+    for test in sorted(each.test for each in tests if each.outcome == "failed"):
+        if test not in unsteady:
+            print(f"FAILED {test}")
     wrong = [*broken(run, found), *due.wrong(), *unfounded(tests)]
     print(f"FAILED: {'; '.join(wrong)}" if wrong else proven(tests, found, due))
     return int(bool(wrong))
 
 
-def told_of_unsteady(file: Path) -> str:
-    """How many tests `again.py` has found so in this run, and which are known."""
-    now = set(file.read_text("utf-8").splitlines()) if file.exists() else set[str]()
+def unsteady_in(file: Path) -> set[str]:
+    """The tests that `again.py` has found so in this run."""
+    return set(file.read_text("utf-8").splitlines()) if file.exists() else set()
+
+
+def told_of_unsteady(now: set[str]) -> str:
+    """How many there are, and which are known."""
     known = {each["test"] for each in yaml.safe_load(UNSTEADY.read_text("utf-8"))}
     names = f": {', '.join(sorted(now))}" if now else ""
     return f"Unsteady tests: {len(now)} in this run, {len(now - known)} of them new{names}"

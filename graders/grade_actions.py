@@ -6,8 +6,25 @@ student's nodes, beside a rover of the grader's own; checks read what was seen a
 
 import math
 
+from graders.actions.act import Director
+from graders.actions.demands import (
+    accept,
+    accept_again,
+    arrive,
+    cancel_each,
+    cancel_in_time,
+    hear_meanwhile,
+    keep_to_the_first,
+    refuse_each,
+    rest_in_each_turn,
+    stop_in_time,
+    succeed,
+    tell_at_its_rate,
+    tell_the_truth,
+    trip,
+)
+from graders.actions.floor import robot_beside, start_near
 from roslings.capabilities.actions.act import (
-    Director,
     await_action,
     await_client,
     lead,
@@ -15,28 +32,13 @@ from roslings.capabilities.actions.act import (
     timed_feedback,
 )
 from roslings.capabilities.actions.demands import (
-    accept,
-    accept_again,
-    arrive,
-    cancel_each,
-    cancel_in_time,
     end_so,
     give_up,
-    hear_meanwhile,
-    keep_to_the_first,
     perform,
     perform_its_type,
-    refuse_each,
-    rest_in_each_turn,
     send_goal,
     show_each,
-    stop_in_time,
-    succeed,
-    tell_at_its_rate,
-    tell_the_truth,
-    trip,
 )
-from roslings.capabilities.robot.act import robot_beside, start_near
 from roslings.course import lab
 from roslings.course.files import written
 from roslings.experiment import Scene, experiment

@@ -4,8 +4,8 @@ The lines, numbers and points stand in labs/black-box/card.yaml. Experiments giv
 program bags that nobody could know; checks read what was seen and run nothing.
 """
 
-from roslings.capabilities.bags.act import Giver
-from roslings.capabilities.bags.demands import (
+from graders.black_box.act import Giver
+from graders.black_box.demands import (
     be_of_its_own_rover,
     find,
     read_to_the_end,

@@ -38,7 +38,7 @@ from roslings.capabilities.parameters.record import Values
 from roslings.capabilities.parameters.setting import Setter, read_all, setting
 from roslings.capabilities.topics.act import Teller
 from roslings.capabilities.topics.demands import have_rate
-from roslings.capabilities.topics.relay import Shown, answer_each_once, field_of, hold_its_fields
+from roslings.capabilities.topics.relay import Shown, answer_each_once, hold_its_fields
 from roslings.course import lab
 from roslings.course.contract import Plain
 from roslings.course.files import written
@@ -63,6 +63,7 @@ from roslings.judge import (
     stay_up,
     well_formed,
 )
+from roslings.judge.values import field_of
 
 CARD = lab("bring-up").card
 LIMITER, BEACON = CARD.node("speed_limiter"), CARD.node("beacon")

@@ -4,7 +4,7 @@ The names, texts, times and points stand in labs/e-stop/card.yaml. Experiments r
 nodes between an operator, a button and motors of ours; checks read what was seen and run nothing.
 """
 
-from roslings.capabilities.qos.act import (
+from graders.e_stop.act import (
     FAR_WITHIN_S,
     Far,
     Pressing,
@@ -19,19 +19,21 @@ from roslings.capabilities.qos.act import (
     two_computers,
     watching,
 )
-from roslings.capabilities.qos.demands import (
-    ask_for,
+from graders.e_stop.demands import (
     be_reached,
     drive,
     hear_from_afar,
-    keep_for_late_joiners,
-    offer,
     on_two_computers,
     stand,
     stop_for,
     tell_each_press,
-    tell_late_joiners_the_truth,
     tell_why,
+)
+from roslings.capabilities.qos.demands import (
+    ask_for,
+    keep_for_late_joiners,
+    offer,
+    tell_late_joiners_the_truth,
 )
 from roslings.capabilities.services.act import Asker
 from roslings.capabilities.services.demands import (

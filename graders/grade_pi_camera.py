@@ -6,6 +6,21 @@ nodes beside a camera, or show them pictures, and watch; checks read what was se
 
 from dataclasses import replace
 
+from graders.pi_camera.demands import (
+    Screen,
+    answer_nothing,
+    answer_once,
+    begin_with_the_hue,
+    carry_the_header,
+    cut_its_rows,
+    draw_on_each,
+    find_nothing,
+    find_the_ball,
+    follow_the_hue,
+    survive,
+    tell_once,
+)
+from graders.pi_camera.projector import Projector, Shot, place_ball
 from roslings.capabilities.camera.act import (
     BUSY,
     FORBIDDEN,
@@ -25,21 +40,6 @@ from roslings.capabilities.camera.demands import (
     show_what_the_camera_saw,
     tell_of_trouble,
 )
-from roslings.capabilities.camera.detection import (
-    Screen,
-    answer_nothing,
-    answer_once,
-    begin_with_the_hue,
-    carry_the_header,
-    cut_its_rows,
-    draw_on_each,
-    find_nothing,
-    find_the_ball,
-    follow_the_hue,
-    survive,
-    tell_once,
-)
-from roslings.capabilities.camera.projector import Projector, Shot, place_ball
 from roslings.capabilities.parameters.act import list_parameters
 from roslings.capabilities.parameters.demands import declare_its_parameters
 from roslings.capabilities.topics.demands import have_rate

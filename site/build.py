@@ -95,11 +95,16 @@ def watched(words: Sequence[str]) -> tuple[int, str]:
     with (
         tempfile.TemporaryFile("w+", encoding="utf-8") as complaints,
         subprocess.Popen(
-            words, env=environment(), stdout=subprocess.PIPE, stderr=complaints, text=True,
-            encoding="utf-8", errors="replace",
+            words,
+            env=environment(),
+            stdout=subprocess.PIPE,
+            stderr=complaints,
+            text=True,
+            encoding="utf-8",
+            errors="replace",
         ) as running,
         going_on(told),
-    ):  # fmt: skip
+    ):
         assert running.stdout
         for line in running.stdout:
             at = place_in(line) or at
@@ -134,9 +139,12 @@ def parser() -> argparse.ArgumentParser:
         "--check-links", action="store_true", help="try the links to other sites (needs a network)"
     )
     words.add_argument(
-        "--out", metavar="DIR", type=Path, default=root() / "build" / "site",
+        "--out",
+        metavar="DIR",
+        type=Path,
+        default=root() / "build" / "site",
         help="where to build (default: build/site)",
-    )  # fmt: skip
+    )
     return words
 
 

@@ -35,7 +35,7 @@ BUILT = shutil.ignore_patterns("*.egg-info", "build", "__pycache__", "tests")
 FROM_A_WHEEL = ("ros-doctor", "ros2-on-pip", "roslings-launcher")
 ENGINE = "roslings"
 """It says what it needs by the groups of the course, and what of ours by `UNDER_THE_ENGINE`."""
-GROUPS = ("ros", "colcon", "check", "ros2", "graph", "interfaces", "vision")
+GROUPS = ("ros", "colcon", "check", "ros2", "graph", "generators", "vision")
 TESTS_OF_THE_ENGINE = (
     "pytest-xdist",  # the tests run on both cores
     "pillow",  # draws odd pictures

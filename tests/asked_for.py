@@ -8,6 +8,13 @@ from typing import Any
 
 import pytest
 
+MADE_FOR_ALL = pytest.mark.timeout(3600)
+"""For tests of which the first makes, in one go, what all that were asked for look at.
+
+It may take what all of them may take, and those that wait for it, too. Other tests have the limit
+of `pyproject.toml`.
+"""
+
 
 def asked_for(
     request: pytest.FixtureRequest, file: str

@@ -24,18 +24,27 @@ ENGINE, LEARN = "packages/roslings/tests", "packages/roslings-learn/tests"
 CLASS, PROVE = "packages/roslings-class/tests", "packages/roslings-prove/tests"
 KEPT = f"{PROVE}/test_authoring_proofs.py::test_what_is_kept_shows_what_it_must"
 SOLUTION = "tests/labs/test_verdicts.py::test_the_solution_gets_the_full_score"
+BUILT_TYPES = "tests/bootstrap/test_built_interfaces.py"
 STYLE = "tests/test_code_style.py"
 NO_TYPES = ("ruff", "formatted", "short", "lab", "machine")
 """Of the rules of the code those that take no processor for half a minute."""
 TEXTS = ("tests/test_anchors.py",)
 OF_A_LAB = (
-    "tests/labs", f"{PROVE}/test_authoring_consistency.py", f"{PROVE}/test_authoring_promises.py",
-    f"{PROVE}/test_authoring_contract.py", f"{PROVE}/test_authoring_generated.py",
-    "tests/days/test_days_give_nothing_away.py", "tests/days/test_days_lessons.py",
-)  # fmt: skip
-OF_A_DAY = ("tests/days/test_days_lessons.py", "tests/days/test_days_reading.py",
-            "tests/days/test_days_compared.py", "tests/days/test_days_quiz.py",
-            "tests/drills/test_drills_files.py")  # fmt: skip
+    "tests/labs",
+    f"{PROVE}/test_authoring_consistency.py",
+    f"{PROVE}/test_authoring_promises.py",
+    f"{PROVE}/test_authoring_contract.py",
+    f"{PROVE}/test_authoring_generated.py",
+    "tests/days/test_days_give_nothing_away.py",
+    "tests/days/test_days_lessons.py",
+)
+OF_A_DAY = (
+    "tests/days/test_days_lessons.py",
+    "tests/days/test_days_reading.py",
+    "tests/days/test_days_compared.py",
+    "tests/days/test_days_quiz.py",
+    "tests/drills/test_drills_files.py",
+)
 
 
 @dataclass(frozen=True)
@@ -78,6 +87,20 @@ def of_a_lab(name: str) -> Iterator[Choice]:
         yield from of_a_day(day)
 
 
+def of_a_grader(name: str) -> Iterator[Choice]:
+    """`e_stop`: the lab, the tests of the folder beside its grader, what each capability holds."""
+    yield from of_a_lab(name.replace("_", "-"))
+    if (ROOT / "graders" / name).is_dir():
+        yield Choice(f"tests/lab_folders/{name}")
+        yield Choice("tests/outside/test_capabilities_conform.py")
+
+
+def of_types(lab: str) -> Iterator[Choice]:
+    """The lab, and whether what comes built of its message types is still what they say."""
+    yield from of_a_lab(lab)
+    yield Choice(BUILT_TYPES)
+
+
 @cache
 def _day_of(name: str) -> str | None:
     from roslings.course import all_labs  # tests of one package alone have no course
@@ -112,6 +135,12 @@ def of_a_capability(name: str) -> Iterator[Choice]:
     yield Choice(STYLE)
 
 
+def of_courses_outside(_: str) -> Iterator[Choice]:
+    """What is proven by labs of others."""
+    yield Choice("tests/outside")
+    yield Choice(STYLE, only=NO_TYPES)
+
+
 def of_tests(place: str) -> Iterator[Choice]:
     """The file itself; of what a folder's tests share, the folder."""
     path = Path(place)
@@ -140,6 +169,7 @@ def of_the_gate(_: str) -> Iterator[Choice]:
 def of_pins(_: str) -> Iterator[Choice]:
     """What is installed, and the rules of the code."""
     yield Choice("packages/roslings-launcher/tests/test_bootstrap_pins.py")
+    yield Choice(BUILT_TYPES)
     yield Choice(STYLE)
 
 
@@ -152,28 +182,34 @@ ROOMS = {
     "record": (f"{ENGINE}/evidence",),
     "evidence": (f"{ENGINE}/evidence",),
     "capability": ("tests/outside",),
+    "lab_folders": ("tests/outside",),
+    "course_folder": ("tests/labs",),
     "matching": (f"{ENGINE}/judge",),
     "rates": (f"{ENGINE}/judge",),
     "verdict": (f"{ENGINE}/judge",),
     "grader": (f"{ENGINE}/judge", f"{PROVE}/test_authoring_consistency.py"),
     "jupyter": (f"{LEARN}/notebook", "tests/days"),
+    "of_window": ("tests/days/test_days_window.py",),
     "saving": ("tests/cli/test_evidence.py",),
     "models": (f"{ENGINE}/capabilities",),
     "shapes": (f"{ENGINE}/report",),
     "hand_in": (f"{CLASS}/batch",),
     "way": ("tests/cli",),
     "variants": ("tests/labs/test_labs_variants.py", f"{ENGINE}/workspace"),
+    "interfaces": (BUILT_TYPES,),
     "own_card": (f"{ENGINE}/workspace", "tests/cli/test_cli_startup.py"),
 }
 """Rooms whose tests stand elsewhere, too."""
 
 RULES: tuple[tuple[str, Callable[[str], Iterator[Choice]]], ...] = (
+    (r"labs/([^/]+)/interfaces/", of_types),
     (r"labs/([^/]+)/", of_a_lab),
-    (r"graders/grade_(\w+)\.py$", lambda name: of_a_lab(name.replace("_", "-"))),
+    (r"graders/(?:grade_)?(\w+)(?:\.py$|/)", lambda name: of_a_grader(name)),
     (r"tests/proofs/([\w-]+?)(?:/|\.jsonl$)", of_a_lab),
     (r"days/(\d\d-[^/]+)/", of_a_day),
     (r"packages/roslings/src/roslings/capabilities/(\w+)/", of_a_capability),
     (r"packages/([\w-]+/src/\w+/\w+)(?:/|\.py$)", of_our_code),
+    (r"(tests/outside/courses/)", of_courses_outside),
     (r"((?:packages/[\w-]+/)?tests/.+\.py)$", of_tests),
     (r"((?:site|glossary)/)", of_pages),
     (r"(\.ci/)", of_the_gate),
@@ -226,9 +262,12 @@ def _git(course: Path, *words: str) -> str:
 def add_changed_option(parser: pytest.Parser) -> None:
     """`--changed`, or `--changed=COMMIT`."""
     parser.addoption(
-        "--changed", metavar="COMMIT", nargs="?", const="HEAD",
+        "--changed",
+        metavar="COMMIT",
+        nargs="?",
+        const="HEAD",
         help="only the tests that look at what is changed since COMMIT (HEAD)",
-    )  # fmt: skip
+    )
 
 
 def choose_what_is_changed(config: pytest.Config, not_slow: str) -> None:

@@ -64,6 +64,7 @@ class Costs:
     def __init__(self, file: Path) -> None:
         self._file = file
         self._costs: dict[str, Cost] = {}
+        self._at_work: set[str] = set()
         self._before_s = 0.0
 
     @pytest.hookimpl(wrapper=True)
@@ -85,6 +86,7 @@ class Costs:
         """In the process that prints."""
         name = without_group(report.nodeid)
         cost = self._costs.setdefault(name, Cost(name))
+        self._at_work ^= {name} if report.when != "call" else set()
         cost.wall_s += report.duration
         cost.cpu_s += getattr(report, "cpu_s", 0.0)
         if report.outcome != "passed":
@@ -101,8 +103,15 @@ class Costs:
         """Tests that were not run, each with the word that tells why (`needed/left_out.py`)."""
         self._costs |= {name: Cost(name, outcome) for name, outcome in tests.items()}
 
+    def pytest_terminal_summary(self, terminalreporter: pytest.TerminalReporter) -> None:
+        """Name what was broken off: it may be what hung."""
+        for name in sorted(self._at_work):
+            terminalreporter.write_line(f"BROKEN OFF {name}")
+
     def pytest_sessionfinish(self, session: pytest.Session) -> None:
-        """Write all down."""
+        """Write all down. A test that was broken off has not passed."""
+        for name in self._at_work:
+            self._costs[name].outcome = "failed"
         if not hasattr(session.config, "workerinput"):
             with self._file.open("a", encoding="utf-8") as out:
                 for cost in self._costs.values():

@@ -49,9 +49,10 @@ def _indent(line: str) -> int:
 def typed(*words: str, ws: Path) -> subprocess.CompletedProcess[str]:
     """A command of the course, in a workspace of its own."""
     return run_until_told(
-        [sys.executable, "-m", "roslings", *words], env={**os.environ, "ROSLINGS_WS": str(ws)},
+        [sys.executable, "-m", "roslings", *words],
+        env={**os.environ, "ROSLINGS_WS": str(ws)},
         stdin=subprocess.DEVNULL,
-    )  # fmt: skip
+    )
 
 
 def asked_about(lab: str, package: Path, folder: Path) -> list[Printed]:

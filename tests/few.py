@@ -19,9 +19,13 @@ def few(name: str, values: Iterable[tuple[str, Any]], *stay: str, twice: bool = 
     With `twice`, another stage of CI proves the same, and its slow tests leave them out too.
     """
     marks = [pytest.mark.slow, *([pytest.mark.twice] if twice else [])]
-    return pytest.mark.parametrize(name, [
-        pytest.param(value, id=each, marks=[] if each in stay else marks) for each, value in values
-    ])  # fmt: skip
+    return pytest.mark.parametrize(
+        name,
+        [
+            pytest.param(value, id=each, marks=[] if each in stay else marks)
+            for each, value in values
+        ],
+    )
 
 
 def few_labs(name: str, *, twice: bool = False) -> Any:

@@ -44,11 +44,29 @@ def run_lesson(lesson: Path, *words: str) -> str:
     """Run a lesson of any course, or a cell of it, under nbval; what pytest said."""
     places = [python_path(), str(root() / "tests"), os.environ.get("PYTHONPATH", "")]
     done = subprocess.run(
-        [sys.executable, "-m", "pytest", "--noconftest", "-p", "lessons_as_tests",
-         "-p", "no:cacheprovider", "-n", "0", "-m", "", "--nbval-lax", *words, str(lesson)],
-        cwd=root(), env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, places))},
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
+        [
+            sys.executable,
+            "-m",
+            "pytest",
+            "--noconftest",
+            "-p",
+            "lessons_as_tests",
+            "-p",
+            "no:cacheprovider",
+            "-n",
+            "0",
+            "-m",
+            "",
+            "--nbval-lax",
+            *words,
+            str(lesson),
+        ],
+        cwd=root(),
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, places))},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     return done.stdout + done.stderr
 
 

@@ -70,11 +70,16 @@ def surroundings(folder: Path, course: Path) -> dict[str, str]:
     kept = {key: value for key, value in os.environ.items() if key not in FORGOTTEN}
     write_kernel_into(folder / "jupyter")
     return {
-        **kept, "ROS_DOMAIN_ID": str(free_domain()), "ROSLINGS_WS": str(folder / "ws"),
-        "ROSLINGS_COURSE": str(course), "PYTHONPATH": python_path(),
-        "JUPYTER_PATH": str(folder / "jupyter"), "IPYTHONDIR": str(folder / "ipython"),
-        "JUPYTER_CONFIG_DIR": str(folder / "config"), "JUPYTER_RUNTIME_DIR": str(folder / "run"),
-    }  # fmt: skip
+        **kept,
+        "ROS_DOMAIN_ID": str(free_domain()),
+        "ROSLINGS_WS": str(folder / "ws"),
+        "ROSLINGS_COURSE": str(course),
+        "PYTHONPATH": python_path(),
+        "JUPYTER_PATH": str(folder / "jupyter"),
+        "IPYTHONDIR": str(folder / "ipython"),
+        "JUPYTER_CONFIG_DIR": str(folder / "config"),
+        "JUPYTER_RUNTIME_DIR": str(folder / "run"),
+    }
 
 
 def free_domain() -> int:
@@ -116,9 +121,12 @@ class LessonFile(IPyNbFile):  # type: ignore[misc]
         """Each code cell, by its id."""
         for found in super().collect():
             yield LessonCell.from_parent(
-                self, name=found.cell.id, cell_num=found.cell_num, cell=found.cell,
+                self,
+                name=found.cell.id,
+                cell_num=found.cell_num,
+                cell=found.cell,
                 options=found.options,
-            )  # fmt: skip
+            )
 
     @cached_property
     def cells(self) -> list[LessonCell]:
@@ -237,8 +245,12 @@ def otherwise(tags: list[str], outputs: list[Any]) -> str:
 def saved(output: Any) -> dict[str, Any]:
     """An output as a lesson holds it: what is compared, and nothing of this machine."""
     if output.output_type == "error":
-        return {"ename": output.ename, "evalue": output.evalue, "output_type": "error",
-                "traceback": []}  # fmt: skip
+        return {
+            "ename": output.ename,
+            "evalue": output.evalue,
+            "output_type": "error",
+            "traceback": [],
+        }
     if output.output_type == "stream":
         text = output.text.splitlines(keepends=True)
         return {"name": output.name, "output_type": "stream", "text": text}
@@ -319,10 +331,17 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     add_costs_option(parser)
     add_needed_option(parser)
     group = parser.getgroup("nbval")
-    group.addoption("--save-outputs", action="store_true",
-                    help="write what compared cells print now into their lessons")  # fmt: skip
-    group.addoption("--walks", metavar="DIR", type=Path,
-                    help="write each lesson's execution into DIR, for other tests")  # fmt: skip
+    group.addoption(
+        "--save-outputs",
+        action="store_true",
+        help="write what compared cells print now into their lessons",
+    )
+    group.addoption(
+        "--walks",
+        metavar="DIR",
+        type=Path,
+        help="write each lesson's execution into DIR, for other tests",
+    )
 
 
 def pytest_configure(config: pytest.Config) -> None:

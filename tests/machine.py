@@ -53,9 +53,15 @@ def answer(environment: Environment, *words: str) -> str:
     try:
         with tempfile.TemporaryDirectory() as folder:
             done = subprocess.run(
-                words, env=dict(environment), cwd=folder, capture_output=True, text=True,
-                check=False, timeout=ANSWERS_WITHIN_S, stdin=subprocess.DEVNULL,
-            )  # fmt: skip
+                words,
+                env=dict(environment),
+                cwd=folder,
+                capture_output=True,
+                text=True,
+                check=False,
+                timeout=ANSWERS_WITHIN_S,
+                stdin=subprocess.DEVNULL,
+            )
     except (OSError, subprocess.TimeoutExpired) as error:
         return str(error)
     said = (done.stderr or done.stdout).strip().splitlines()
@@ -280,8 +286,9 @@ def loopback_multicast(_: Environment) -> str:
             own = socket.inet_aton("127.0.0.1")
             ear.bind(("", 0))
             ear.settimeout(5)
-            ear.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP,
-                           socket.inet_aton(group) + own)  # fmt: skip
+            ear.setsockopt(
+                socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, socket.inet_aton(group) + own
+            )
             mouth.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, own)
             mouth.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_TTL, 0)
             mouth.sendto(b"one", (group, ear.getsockname()[1]))
@@ -379,9 +386,18 @@ def time_for(what: str, variable: str) -> Need:
 
 MODULES = (
     "ros_doctor",
-    "axe_playwright_python", "distributed", "jsonschema", "matplotlib", "numpy", "playwright",
-    "rclpy", "rosbags", "serial", "test_msgs", "tf2_msgs",
-)  # fmt: skip
+    "axe_playwright_python",
+    "distributed",
+    "jsonschema",
+    "matplotlib",
+    "numpy",
+    "playwright",
+    "rclpy",
+    "rosbags",
+    "serial",
+    "test_msgs",
+    "tf2_msgs",
+)
 PYTHONS = range(9, 16)
 FROM_APT: Environment = {"PATH": "/usr/bin:/bin"}
 
@@ -390,10 +406,13 @@ NEEDS = (
     Need("unshare", runs(*AS_ROOT_THERE, "--net", "true")),
     Need("small disk", runs(*AS_ROOT_THERE, "--mount", *MOUNTS)),
     Need("small disk of root's", all_of(root, runs("unshare", "--mount", *MOUNTS))),
-    Need("user without rights", runs("unshare", "--user", "--map-user=1000", "--map-group=1000",
-                                     "true")),
-    Need("limit one level down", runs("unshare", "--user", "--map-current-user", "sh", "-c",
-                                      LIMITS)),
+    Need(
+        "user without rights",
+        runs("unshare", "--user", "--map-user=1000", "--map-group=1000", "true"),
+    ),
+    Need(
+        "limit one level down", runs("unshare", "--user", "--map-current-user", "sh", "-c", LIMITS)
+    ),
     Need("bubblewrap", runs("bwrap", "--unshare-all", "--ro-bind", "/", "/", "true")),
     Need("setpriv", runs("/usr/bin/setpriv", "--version")),
     Need("bounded processes", bounded_processes),
@@ -413,6 +432,7 @@ NEEDS = (
     Need("buildah", runs("buildah", "--version")),
     Need("debootstrap", runs("debootstrap", "--version")),
     Need("uvx", runs("uvx", "--version")),
+    Need("C and C++ compiler", all_of(runs("cc", "--version"), runs("c++", "--version"))),
     Need("emulated board", emulated_board),
     Need("apt", lambda _: all_of(runs("apt-get", "--version"), runs("python3", "-V"))(FROM_APT)),
     Need("pip from apt", lambda _: answer(FROM_APT, "apt-get", "download", "python3-pip-whl")),
@@ -426,7 +446,7 @@ NEEDS = (
     time_for("slow tests", "ROSLINGS_SLOW_UNTIL"),
     time_for("what takes the whole machine", "ROSLINGS_TESTS_UNTIL"),
     time_for("packages", "ROSLINGS_MUTANTS_UNTIL"),
-)  # fmt: skip
+)
 TABLE = {each.name: each for each in NEEDS}
 
 

@@ -16,8 +16,11 @@ LIST = ROOT / "tests/README.md"
 WHOLE = re.compile(r"^pytestmark = (?:\[\s*)?pytest\.mark\.slow\b", re.MULTILINE)
 FEW = ("few", "few_labs")
 """These mark all parameters but one."""
-ROW = re.compile(r"^\| `(?P<file>[\w/.-]+)` \| (?P<how_many>all|some) \| (?P<why>[^|]+) "
-                 r"\| (?P<stage>[^|]+) \|$", re.MULTILINE)  # fmt: skip
+ROW = re.compile(
+    r"^\| `(?P<file>[\w/.-]+)` \| (?P<how_many>all|some) \| (?P<why>[^|]+) "
+    r"\| (?P<stage>[^|]+) \|$",
+    re.MULTILINE,
+)
 
 
 def is_slow_whole(file: Path) -> bool:

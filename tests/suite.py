@@ -24,8 +24,13 @@ NOT_SLOW = "not slow"
 """The expression of `-m` in pyproject.toml: README's command."""
 
 LONGEST = (
-    "/forgers/", "/labs/", "/cli/", "/batch/", "/roslings-launcher/", "/roslings-rover/",
-)  # fmt: skip
+    "/forgers/",
+    "/labs/",
+    "/cli/",
+    "/batch/",
+    "/roslings-launcher/",
+    "/roslings-rover/",
+)
 """Places with long tests: what is begun last ought to be short."""
 
 DEAR = (

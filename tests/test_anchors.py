@@ -94,12 +94,21 @@ def made_anchors() -> frozenset[str]:
 
 FILES = [file for file in tracked() if "#" in read(file)]
 KINDS = {
-    "labs/*/hints.yaml": 100, "days/*/drills/*/drill.yaml": 90, "days/*/lesson.ipynb": 200,
-    "days/*/*.md": 3, "site/pages/*/*.md": 5, "packages/ros-doctor/src/ros_doctor/checks/*.py": 30,
-    "glossary/*.yaml": 10, "example/labs/*/hints.yaml": 9, "README.md": 1, "CONTRIBUTING.md": 1,
-    "site/pictures/verdict.json": 9, "days/*/pictures/one-letter.svg": 1, "days/*/quiz.yaml": 30,
+    "labs/*/hints.yaml": 100,
+    "days/*/drills/*/drill.yaml": 90,
+    "days/*/lesson.ipynb": 200,
+    "days/*/*.md": 3,
+    "site/pages/*/*.md": 5,
+    "packages/ros-doctor/src/ros_doctor/checks/*.py": 30,
+    "glossary/*.yaml": 10,
+    "example/labs/*/hints.yaml": 9,
+    "README.md": 1,
+    "CONTRIBUTING.md": 1,
+    "site/pictures/verdict.json": 9,
+    "days/*/pictures/one-letter.svg": 1,
+    "days/*/quiz.yaml": 30,
     "example-course/course/labs/*/hints.yaml": 7,
-}  # fmt: skip
+}
 """Files to how many anchors they name at least: so that a pattern that finds nothing is seen."""
 
 
@@ -123,11 +132,19 @@ def test_anchors_of_each_kind_are_found(files: str, least: int) -> None:
 
 @pytest.mark.parametrize(
     "text",
-    ["read  days/03-topics#no-such", "lesson: days/99-moon#timers", "See [it](#no-such).",
-     "[there](../../site/pages/reference/faq.md#no-such)", "[page](no-such.md#network)",
-     'lesson="reference/faq#no-such"', "A [lamp](#word-no-such).", "[a](#check-no-such)",
-     '<a href="lesson.ipynb#no-such">', "01-install/first-15-minutes#no-such"],
-)  # fmt: skip
+    [
+        "read  days/03-topics#no-such",
+        "lesson: days/99-moon#timers",
+        "See [it](#no-such).",
+        "[there](../../site/pages/reference/faq.md#no-such)",
+        "[page](no-such.md#network)",
+        'lesson="reference/faq#no-such"',
+        "A [lamp](#word-no-such).",
+        "[a](#check-no-such)",
+        '<a href="lesson.ipynb#no-such">',
+        "01-install/first-15-minutes#no-such",
+    ],
+)
 def test_a_dead_anchor_of_each_form_is_seen(text: str, tmp_path: Path) -> None:
     """Written into a page beside a lesson."""
     page = root() / "days" / "03-topics" / f"{tmp_path.name}.md"

@@ -25,14 +25,29 @@ from roslings.course import all_labs, root
 from slow import slow_files
 
 ROOMS_WITHOUT = {
-    "__init__", "__main__", "command_names", "exits", "log_rates", "platforms", "handing_in",
-    "rqt_graph", "typed", "timeline", "checking", "built_site",
-}  # fmt: skip
+    "__init__",
+    "__main__",
+    "command_names",
+    "exits",
+    "log_rates",
+    "platforms",
+    "handing_in",
+    "rqt_graph",
+    "typed",
+    "timeline",
+    "checking",
+    "built_site",
+}
 """Parts of the engine without a folder of tests: their changes judge the proofs and the style."""
 CODE = "packages/roslings/src/roslings"
-OF_SERVICES = ("labs/services/card.yaml", "labs/services/mutants/slow.yaml",
-               "graders/grade_services.py", "tests/proofs/services.jsonl",
-               "tests/proofs/services/solution.evidence")  # fmt: skip
+OF_SERVICES = (
+    "labs/services/card.yaml",
+    "labs/services/mutants/slow.yaml",
+    "graders/grade_services.py",
+    "graders/services/act.py",
+    "tests/proofs/services.jsonl",
+    "tests/proofs/services/solution.evidence",
+)
 
 
 def chosen(file: str, name: str, is_slow: bool = False) -> bool:
@@ -43,17 +58,34 @@ def chosen(file: str, name: str, is_slow: bool = False) -> bool:
 @pytest.mark.parametrize("file", OF_SERVICES)
 def test_a_file_of_a_lab_chooses_the_tests_of_that_lab(file: str) -> None:
     """Its kept proofs, its solution live, its files, its lesson; and no other lab's."""
-    for name in (f"{KEPT}[services]", "tests/labs/test_content.py::test_it[services-rate]",
-                 "tests/labs/test_content.py::test_of_all",
-                 "tests/days/test_days_lessons.py::test_a_rule[04-services]",
-                 "tests/test_anchors.py::test_it",
-                 f"{STYLE}::test_the_code_is_formatted"):  # fmt: skip
+    for name in (
+        f"{KEPT}[services]",
+        "tests/labs/test_content.py::test_it[services-rate]",
+        "tests/labs/test_content.py::test_of_all",
+        "tests/days/test_days_lessons.py::test_a_rule[04-services]",
+        "tests/test_anchors.py::test_it",
+        f"{STYLE}::test_the_code_is_formatted",
+    ):
         assert chosen(file, name), name
-    for name in (f"{KEPT}[topics]", "tests/labs/test_content.py::test_it[topics-no_services]",
-                 "tests/days/test_days_lessons.py::test_a_rule[03-topics]",
-                 f"{ENGINE}/judge/test_judge.py::test_it",
-                 f"{STYLE}::test_the_types_hold"):  # fmt: skip
+    for name in (
+        f"{KEPT}[topics]",
+        "tests/labs/test_content.py::test_it[topics-no_services]",
+        "tests/days/test_days_lessons.py::test_a_rule[03-topics]",
+        f"{ENGINE}/judge/test_judge.py::test_it",
+        f"{STYLE}::test_the_types_hold",
+    ):
         assert not chosen(file, name), name
+
+
+def test_a_folder_beside_a_grader_chooses_its_tests_too() -> None:
+    """And what each capability must hold."""
+    file = "graders/e_stop/act.py"
+    for place in (
+        "tests/lab_folders/e_stop/test_x.py",
+        "tests/outside/test_capabilities_conform.py",
+    ):
+        assert chosen(file, f"{place}::test_it")
+    assert chosen(file, f"{KEPT}[e-stop]") and not chosen(file, f"{KEPT}[topics]")
 
 
 def test_of_slow_tests_the_solution_alone_is_graded() -> None:
@@ -94,10 +126,11 @@ def test_each_room_has_its_tests() -> None:
     engine = root() / CODE
     rooms = {path.stem for path in engine.iterdir() if path.name != "__pycache__"}
     without = {
-        room for room in rooms - {"capabilities"}
+        room
+        for room in rooms - {"capabilities"}
         if set(places_of(choices_for([f"{CODE}/{room}/it.py"])[0]))
         == {KEPT.partition("::")[0], STYLE}
-    }  # fmt: skip
+    }
     assert without == ROOMS_WITHOUT & rooms
 
 
@@ -117,10 +150,22 @@ def test_each_file_of_the_repository_has_a_rule_or_is_told() -> None:
     ).stdout.splitlines()
     without = {name.split("/")[0] for name in choices_for(listed)[1]}
     assert without <= {
-        ".binder", ".devcontainer", ".dockerignore", ".gitattributes", ".gitignore", ".vscode",
-        "LICENSE", "days", "example", "example-course", "graders", "labs", "packages", "setup.bash",
+        ".binder",
+        ".devcontainer",
+        ".dockerignore",
+        ".gitattributes",
+        ".gitignore",
+        ".vscode",
+        "LICENSE",
+        "days",
+        "example",
+        "example-course",
+        "graders",
+        "labs",
+        "packages",
+        "setup.bash",
         "tests",
-    }  # fmt: skip
+    }
 
 
 def test_a_file_is_read_once() -> None:

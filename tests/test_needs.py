@@ -13,12 +13,29 @@ from pathlib import Path
 
 import pytest
 
-from needed.choice import BY_TEST, CORE, PART_FOR_THE_CORE, PART_OF_KEPT, Choice, Core
+from needed.choice import (
+    BY_TEST,
+    CORE,
+    PART_FOR_NAMES,
+    PART_FOR_THE_CORE,
+    PART_OF_KEPT,
+    Choice,
+    Core,
+)
 from needed.left_out import KEPT, UNDRAWN, LeftOut, drawn, read, write
 from needed.opened import Opened, Watch, module_of
 from needed.recorder import NoRecord, skipped_in
 from needed.records import Record, Records, made_with, numbers, ranges
-from needed.tree import BYTES, MEANING, NAMES, NAMES_BUT_MODULES, Need, Tree
+from needed.tree import (
+    BYTES,
+    ENTRY,
+    MEANING,
+    NAMES,
+    NAMES_BUT_MODULES,
+    NOTES_ONLY,
+    Need,
+    Tree,
+)
 from skips import skip_without
 
 HERE = Path(__file__).parent
@@ -45,21 +62,29 @@ if "walled" in sys.argv:
 '''
 PROJECT = """
 [dependency-groups]
-test = ["one", "two", {include-group = "site"}]
-site = []
+test = ["one", {include-group = "site"}]
+site = ["two"]
 [tool.pytest.ini_options]
 addopts = "-n 4"
 [tool.ruff]
 line-length = 100
 """
 FILES = {
-    "pyproject.toml": PROJECT, "constraints.txt": "one==1  # test\ntwo==2  # test\n", IT: TEST,
-    "script.sh": "cat by_bash.txt\n", "by_bash.txt": "by a shell\n",
+    "pyproject.toml": PROJECT,
+    "constraints.txt": "one==1  # test\ntwo==2  # test\n",
+    IT: TEST,
+    "script.sh": "cat by_bash.txt\n",
+    "by_bash.txt": "by a shell\n",
     "alone.py": f"import sys\nsys.path.insert(0, {'lib'!r})\nimport told\nprint(told.WORD)\n",
     "lib/told.py": '"""What it says."""\n\nWORD = open("by_python.txt").read()  # a word\n',
-    "lib/beside.py": "", "by_python.txt": "alone\n", "walled/seen.txt": "", "listed/one.txt": "",
-    "unread.txt": "", "lib/unread.txt": "", ".gitignore": "__pycache__/\nmade.txt\n",
-}  # fmt: skip
+    "lib/beside.py": "",
+    "by_python.txt": "alone\n",
+    "walled/seen.txt": "",
+    "listed/one.txt": "",
+    "unread.txt": "",
+    "lib/unread.txt": "",
+    ".gitignore": "__pycache__/\nmade.txt\n",
+}
 
 
 def git(folder: Path, *words: str) -> None:
@@ -167,11 +192,17 @@ def test_a_file_more_or_less_counts_in_a_folder_that_was_listed(clone: Path) -> 
 
 
 def test_a_new_module_counts_where_somebody_opened_all_that_were_there(clone: Path) -> None:
-    """Python lists a folder to find one module; who copies or reads a folder opens all of it."""
+    """Python lists a folder to find one module or package; who copies it opens all of it."""
     record = recorded(clone)
     assert Need("lib", NAMES_BUT_MODULES) in record.needs
     (clone / "lib/new.py").touch()
+    (clone / "lib/package").mkdir()
+    (clone / "lib/package/__init__.py").touch()
     assert others_named(clone, record) == set()
+    (clone / "lib/pictures").mkdir()
+    (clone / "lib/pictures/new.svg").touch()
+    assert others_named(clone, record) == {"lib"}
+    (clone / "lib/pictures/new.svg").unlink()
     (clone / "lib/new.txt").touch()
     assert others_named(clone, record) == {"lib"}
     tree = Tree(clone)
@@ -182,17 +213,30 @@ def test_a_new_module_counts_where_somebody_opened_all_that_were_there(clone: Pa
 
 ONE_MORE = {
     "constraints.txt": ("one==1", "more==3  # desk\none==1"),
-    "pyproject.toml": ("site = []", "site = ['more']\ndesk = ['more']"),
+    "pyproject.toml": ('site = ["two"]', 'site = ["two", "more"]\ndesk = ["more"]'),
 }
 OTHERS = {
-    "constraints.txt one==1": ("constraints.txt", "one==1", "one==2"),
-    "constraints.txt two==2": ("constraints.txt", "two==2  # test", ""),
-    "pyproject.toml dependency-groups.test has 'two'": ("pyproject.toml", ', "two"', ""),
-    "pyproject.toml tool.pytest.ini_options.addopts = '-n 4'": ("pyproject.toml", "-n 4", "-n 2"),
-    "pyproject.toml dependency-groups.test.include-group = 'site'": (
-        "pyproject.toml", "include-group", "not-a-group",
+    "another version": ("constraints.txt", "one==1", "one==2", {"constraints.txt one==1"}),
+    "no pin": ("constraints.txt", "two==2  # test", "", {"constraints.txt two==2"}),
+    "another option of pytest": (
+        "pyproject.toml",
+        "-n 4",
+        "-n 2",
+        {"pyproject.toml tool.pytest.ini_options.addopts = '-n 4'"},
     ),
-}  # fmt: skip
+    "in no group any more": (
+        "pyproject.toml",
+        '"two"',
+        "",
+        {"pyproject.toml a group has 'two'", "pyproject.toml tests have 'two'"},
+    ),
+    "not with the tests any more": (
+        "pyproject.toml",
+        ', {include-group = "site"}',
+        "",
+        {"pyproject.toml tests have 'two'"},
+    ),
+}
 
 
 def change(file: Path, old: str, new: str) -> None:
@@ -212,13 +256,35 @@ def test_a_package_more_changes_nothing(clone: Path) -> None:
     assert others_named(clone, record) == set()
 
 
-@pytest.mark.parametrize("entry", OTHERS)
-def test_another_package_changes_all(entry: str, clone: Path) -> None:
-    """Another version, or none; another member of a group; another option of pytest."""
+def test_a_package_that_moved_to_another_group_changes_nothing(clone: Path) -> None:
+    """Nor does a group of another name: the same is installed."""
     record = recorded(clone)
-    name, old, new = OTHERS[entry]
+    change(clone / "pyproject.toml", "site", "pages")
+    change(clone / "pyproject.toml", 'site = ["two"]', 'pages = ["two"]')
+    assert others_named(clone, record) == set()
+    change(clone / "pyproject.toml", '["one", ', '["one", "two", ')
+    change(clone / "pyproject.toml", 'pages = ["two"]', "pages = []")
+    assert others_named(clone, record) == set()
+
+
+@pytest.mark.parametrize("what", OTHERS)
+def test_another_package_changes_all(what: str, clone: Path) -> None:
+    """Another version, or none; another option of pytest."""
+    record = recorded(clone)
+    name, old, new, entries = OTHERS[what]
     change(clone / name, old, new)
-    assert others_named(clone, record) == {entry}
+    assert others_named(clone, record) == entries
+
+
+def test_what_only_notes_what_came_of_a_test_is_no_need(clone: Path) -> None:
+    """Else each word that is noted more would make all stale."""
+    opened = Opened(NOTES_ONLY, NOTES_ONLY, frozenset(), frozenset())
+    for file in NOTES_ONLY:
+        (clone / file).parent.mkdir(parents=True, exist_ok=True)
+        (clone / file).write_text("WORD = 1\n", "utf-8")
+    tree = Tree(clone)
+    assert tree.names >= NOTES_ONLY
+    assert {need.path for need in tree.needs(IT, opened) if need.kind != ENTRY} == {IT}
 
 
 def test_what_is_gone_is_another(clone: Path) -> None:
@@ -370,6 +436,22 @@ def test_where_only_the_core_is_another_a_third_runs(clone: Path) -> None:
     assert {each.rule for each in chosen[0].standings.values()} == {CORE}
 
 
+def test_where_only_files_were_added_a_third_runs(clone: Path) -> None:
+    """The commit draws it. A folder that is gone is for certain, and so is another file."""
+    listed, told = Need("listed", NAMES), Need("lib/told.py", MEANING)
+    needs = {listed: Tree(clone).digest(listed), told: Tree(clone).digest(told)}
+    records = [record_of(f"tests/test_{number}.py", needs) for number in range(60)]
+    (clone / "listed/new.txt").touch()
+    chosen = [choice(clone, *records, commit=f"commit {number}") for number in range(20)]
+    assert {len(runs(each)) for each in chosen} == {60 / PART_FOR_NAMES}
+    assert set.union(*map(runs, chosen)) == chosen[0].records.keys()
+    assert {left.outcome for left in chosen[0].left_out.values()} == {UNDRAWN}
+    (clone / "lib/told.py").write_text("WORD = 1\n", "utf-8")
+    assert choice(clone, *records).left_out == {}
+    gone = [record_of(each.file, {Need("no_folder", NAMES): "before"}) for each in records]
+    assert choice(clone, *gone).left_out == {}
+
+
 def test_the_core_and_something_else_is_for_certain(clone: Path) -> None:
     """A test file's own text, above all; and a folder of the core is no module of it."""
     core = Core(frozenset({"lib/told.py", "lib"}), "state")
@@ -456,13 +538,28 @@ def run_suite(folder: Path, left_out: LeftOut, *words: str) -> tuple[Counter[str
     (folder / "test_suite.py").write_text(SUITE, "utf-8")
     (folder / "conftest.py").write_text(HOOKED, "utf-8")
     write(folder / "needed", [left_out])
-    command = [sys.executable, "-m", "pytest", "-q", "-c", os.devnull, f"--rootdir={folder}",
-               "-p", "xdist", "-p", "no:cacheprovider", f"--costs={folder / 'costs'}",
-               f"--needed={folder / 'needed'}", *words, str(folder)]  # fmt: skip
+    command = [
+        sys.executable,
+        "-m",
+        "pytest",
+        "-q",
+        "-c",
+        os.devnull,
+        f"--rootdir={folder}",
+        "-p",
+        "xdist",
+        "-p",
+        "no:cacheprovider",
+        f"--costs={folder / 'costs'}",
+        f"--needed={folder / 'needed'}",
+        *words,
+        str(folder),
+    ]
     environment = {
-        **os.environ, "PYTHONPATH": os.pathsep.join([str(HERE), *sys.path]),
+        **os.environ,
+        "PYTHONPATH": os.pathsep.join([str(HERE), *sys.path]),
         "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1",
-    }  # fmt: skip
+    }
     done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
     lines = map(json.loads, (folder / "costs").read_text("utf-8").splitlines())
     return Counter(line["outcome"] for line in lines), done.stdout, done.returncode

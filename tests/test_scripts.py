@@ -36,7 +36,10 @@ def programs() -> list[str]:
 def test_a_program_finds_what_it_imports(file: str) -> None:
     """Typed in the course's folder, with the course's Python and nothing else on the path."""
     done = subprocess.run(
-        [sys.executable, "-c", AS_TYPED, file], cwd=ROOT, capture_output=True, text=True,
+        [sys.executable, "-c", AS_TYPED, file],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
         check=False,
-    )  # fmt: skip
+    )
     assert done.returncode == 0, done.stderr

@@ -26,8 +26,9 @@ def pytest_configure(config):
     note_costs(config)
     hold_to_reasons(config)
 """
-SKIPS = frozenset({"skip", "skipif", "importorskip", "xfail", "SkipTest", "Skipped", "skipUnless",
-                   "skipIf"})  # fmt: skip
+SKIPS = frozenset(
+    {"skip", "skipif", "importorskip", "xfail", "SkipTest", "Skipped", "skipUnless", "skipIf"}
+)
 BY_NAME = frozenset({"needs", "skip_without"})
 ROOTS = {"tests": HERE, "days": HERE.parent / "days"}
 WRITTEN_BY_OTHERS = HERE / "forgers/strangers"
@@ -84,8 +85,19 @@ def outcome_of(folder: Path, source: str, *words: str, **changes: str) -> tuple[
     """Status and words of a run of these tests."""
     (folder / "conftest.py").write_text(HOOKED, "utf-8")
     (folder / "test_it.py").write_text(f"import pytest, skips\n{source}", "utf-8")
-    command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", f"--rootdir={folder}",
-               f"--costs={folder / 'costs'}", "-c", os.devnull, *words, str(folder)]  # fmt: skip
+    command = [
+        sys.executable,
+        "-m",
+        "pytest",
+        "-p",
+        "no:cacheprovider",
+        f"--rootdir={folder}",
+        f"--costs={folder / 'costs'}",
+        "-c",
+        os.devnull,
+        *words,
+        str(folder),
+    ]
     environment = {**STARTED_WITH, "PYTHONPATH": str(HERE), **changes}
     done = subprocess.run(
         command, cwd=folder, env=environment, capture_output=True, text=True, check=False
@@ -113,10 +125,13 @@ NO_REASON = "is no reason of tests/machine.py"
         ("@pytest.mark.xfail\ndef test_it(): assert False", "a failure that is expected"),
         ("@pytest.fixture\ndef it(): pytest.skip('it rains')\ndef test_it(it): ...", NO_REASON),
         ("def test_it(): pytest.skip('no time for packages: over')", "but the probe finds it here"),
-        ("import unittest\nclass TestIt(unittest.TestCase):\n"
-         " def test_it(self): self.skipTest('it rains')", NO_REASON),
+        (
+            "import unittest\nclass TestIt(unittest.TestCase):\n"
+            " def test_it(self): self.skipTest('it rains')",
+            NO_REASON,
+        ),
     ],
-)  # fmt: skip
+)
 def test_a_skip_without_a_true_reason_fails(source: str, said: str, tmp_path: Path) -> None:
     """Wherever it skips, and however."""
     status, words = outcome_of(tmp_path, source, ROSLINGS_MUTANTS_UNTIL="inf")
@@ -156,9 +171,14 @@ def test_within():
 def test_neither(): skips.skip_without("time for slow tests")
 """
     status, words = outcome_of(
-        tmp_path, source, "-n", workers, PATH=str(tmp_path), ROSLINGS_MUTANTS_UNTIL="0",
+        tmp_path,
+        source,
+        "-n",
+        workers,
+        PATH=str(tmp_path),
+        ROSLINGS_MUTANTS_UNTIL="0",
         ROSLINGS_SLOW_UNTIL="inf",
-    )  # fmt: skip
+    )
     assert status == 0, words
     lacks = ["buildah", "time for packages", "uvx"]
     assert sorted(costs(tmp_path)) == [("passed", ""), *(("skipped", lack) for lack in lacks)]
@@ -167,10 +187,20 @@ def test_neither(): skips.skip_without("time for slow tests")
 # --- the probes --------------------------------------------------------------------------------
 
 PROGRAMS = (
-    "unshare", "small disk", "small disk of root's", "user without rights", "limit one level down",
-    "bubblewrap", "other users", "Chromium", "buildah", "debootstrap", "uvx", "emulated board",
+    "unshare",
+    "small disk",
+    "small disk of root's",
+    "user without rights",
+    "limit one level down",
+    "bubblewrap",
+    "other users",
+    "Chromium",
+    "buildah",
+    "debootstrap",
+    "uvx",
+    "emulated board",
     *(name for name in TABLE if name.startswith("Python 3.")),
-)  # fmt: skip
+)
 STUB = '#!/bin/sh\nexit "$STATUS"\n'
 STARTS_ONE = ("unshare", "bubblewrap", "Chromium", "buildah", "debootstrap", "uvx", "Python 3.12")
 FILE_OF = {"bubblewrap": "bwrap", "Chromium": "chromium-browser", "Python 3.12": "python3.12"}

@@ -18,7 +18,7 @@ ROWS = [match.groupdict() for match in ROW.finditer(LIST.read_text("utf-8"))]
 MARKED = {
     "all": "import pytest\n\npytestmark = [\n    pytest.mark.slow,\n]\n\ndef test_it(): pass\n",
     "some": "from few import few_labs\n\n\n@few_labs('lab')\ndef test_it(lab):\n    pass\n",
-}  # fmt: skip
+}
 
 
 def test_the_list_has_each_file_with_slow_tests() -> None:

@@ -76,10 +76,14 @@ class Running:
         path = os.pathsep.join([str(TESTS), python_path()])
         self._folder = folder
         self.process = subprocess.Popen(
-            [*command, "--rootdir", str(folder), *more, "test_it.py"], cwd=folder,
+            [*command, "--rootdir", str(folder), *more, "test_it.py"],
+            cwd=folder,
             env={**os.environ, "PYTHONPATH": path, "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"},
-            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True,
-        )  # fmt: skip
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            start_new_session=True,
+        )
         self.started: list[int] = []
 
     def wait_started(self) -> None:

@@ -21,6 +21,7 @@ LOOKS_ON = {
     "tests/bench": "it measures, and holds no verdict",
     f"{CLASS}/export/test_export_played.py": "a platform's own script asks, once",
     "packages/roslings-prove/tests/test_mistakes_of_authors.py": "a broken grader never tells",
+    "tests/lab_folders/test_lab_folders.py": "a broken folder never tells",
     "tests/days/test_first_page.py": "its terminal asks; the other test looks at the clock alone",
 }
 """Files that start `check` of a lab by themselves, and why."""

@@ -36,15 +36,21 @@ def test_the_verb_is_there(tmp_path: Path) -> None:
     file.write_text(f"{text}\n\n{runs}", "utf-8")
     others = [str(each) for each in sources() if each != ROOT / PACKAGE]
     with leased_domain() as domain:
-        own = {"PYTHONPATH": os.pathsep.join([str(tmp_path / "src"), *others]),
-               "ROS_DOMAIN_ID": str(domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
-               "PATH": "/usr/bin:/bin"}  # fmt: skip
+        own = {
+            "PYTHONPATH": os.pathsep.join([str(tmp_path / "src"), *others]),
+            "ROS_DOMAIN_ID": str(domain),
+            "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+            "PATH": "/usr/bin:/bin",
+        }
         said = {
             words: subprocess.run(
-                [sys.executable, "-m", "ros2_on_pip", "node", words], env={**os.environ, **own},
-                capture_output=True, text=True, check=True,
+                [sys.executable, "-m", "ros2_on_pip", "node", words],
+                env={**os.environ, **own},
+                capture_output=True,
+                text=True,
+                check=True,
             ).stdout
             for words in ("count", "--help")
-        }  # fmt: skip
+        }
     assert said["count"] == "0\n"
     assert "Print how many nodes run" in said["--help"]

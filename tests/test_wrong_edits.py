@@ -56,8 +56,11 @@ def clone(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The course as git has it, with what is not committed."""
     listed = subprocess.run(
         ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
-        cwd=root(), capture_output=True, text=True, check=True,
-    ).stdout  # fmt: skip
+        cwd=root(),
+        capture_output=True,
+        text=True,
+        check=True,
+    ).stdout
     folder = tmp_path_factory.mktemp("clone")
     for name in filter(None, listed.split("\0")):
         if (root() / name).is_file():
@@ -84,9 +87,13 @@ def quick_tests(each: WrongEdit, clone: Path) -> tuple[int, str]:
     kept = {key: value for key, value in os.environ.items() if not key.startswith("PYTEST_")}
     own = {"PYTHONPATH": python_path(clone), "ROSLINGS_COURSE": str(clone)}
     done = subprocess.run(
-        [sys.executable, "-m", "pytest", *words], cwd=clone, env={**kept, **own},
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
+        [sys.executable, "-m", "pytest", *words],
+        cwd=clone,
+        env={**kept, **own},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     return done.returncode, done.stdout + done.stderr
 
 

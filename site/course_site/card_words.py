@@ -29,11 +29,18 @@ from roslings.course.labs import engine_root
 
 MEANINGS = Path(__file__).with_name("card_words.yaml")
 UNITS = {
-    "_s": "seconds", "_ms": "milliseconds", "hz": "Hz, times a second", "_px": "pixels",
-    "within": "a part: 0.05 is 5 %", "loss": "a part: 0.1 is 10 %",
-    "number_within": "a part: 0.1 is 10 %", "gap_periods": "usual periods",
-    "decimals": "digits", "keeps": "messages", "points": "points",
-}  # fmt: skip
+    "_s": "seconds",
+    "_ms": "milliseconds",
+    "hz": "Hz, times a second",
+    "_px": "pixels",
+    "within": "a part: 0.05 is 5 %",
+    "loss": "a part: 0.1 is 10 %",
+    "number_within": "a part: 0.1 is 10 %",
+    "gap_periods": "usual periods",
+    "decimals": "digits",
+    "keeps": "messages",
+    "points": "points",
+}
 """End of a word to what its number counts; a longer end goes first."""
 PLAIN = {str: "text", float: "number", int: "whole number", bool: "`true` or `false`"}
 JUDGED = {
@@ -199,8 +206,13 @@ def examples() -> Mapping[tuple[type[Contract], str], tuple[Example, ...]]:
 def _said(
     model: type[Contract], tree: Any, lab: str, place: Steps
 ) -> Iterator[tuple[type[Contract], Example]]:
-    """Every word in a part of a card, with what it says."""
+    """Every word in a part of a card, with what it says.
+
+    Of a lab whose own words this course does not have, the others are told.
+    """
     for name, value in tree.items():
+        if name not in model.model_fields:
+            continue
         if value not in ([], {}):
             yield model, Example(lab, (*place, name), value)
         for inner in _models(model.model_fields[name].annotation):

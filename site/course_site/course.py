@@ -17,8 +17,12 @@ from roslings_learn.lessons import Lessons, read_lessons
 from roslings_learn.lessons.glossary import LINK
 
 WATCHED = (
-    "days/path.yaml", "days/*/quiz.yaml", "glossary/*.yaml", "labs/*/card.yaml", "graders/**/*.py",
-)  # fmt: skip
+    "days/path.yaml",
+    "days/*/quiz.yaml",
+    "glossary/*.yaml",
+    "labs/*/card.yaml",
+    "graders/**/*.py",
+)
 
 
 def lessons_of(config: Config) -> Lessons:

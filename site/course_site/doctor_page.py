@@ -25,10 +25,16 @@ from ros_doctor.registry import Check, all_checks
 WORDS_OF_A_STEP = ("do", "say")
 DEEPEST = 3
 SAID_BETTER = {
-    "PLACEPATH": "FILE", "JOIN": "NAME", "STRIP": "TEXT", "FOLDERpackage": "FOLDER/package",
-    "setup.MACHINE": "setup.bash", "DISTRO": "jazzy", "SCRIPT": "FOLDER/setup.bash",
-    "source PARENT": "source FOLDER/setup.bash", "WHY": "",
-}  # fmt: skip
+    "PLACEPATH": "FILE",
+    "JOIN": "NAME",
+    "STRIP": "TEXT",
+    "FOLDERpackage": "FOLDER/package",
+    "setup.MACHINE": "setup.bash",
+    "DISTRO": "jazzy",
+    "SCRIPT": "FOLDER/setup.bash",
+    "source PARENT": "source FOLDER/setup.bash",
+    "WHY": "",
+}
 """What the code calls it, and what a reader understands."""
 COMPUTED = "..."
 """A command that is put together from many parts; only the doctor knows it."""

@@ -10,7 +10,7 @@ import ast
 import inspect
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from importlib.util import find_spec
 from pathlib import Path
@@ -24,6 +24,10 @@ from roslings.course.labs import engine_root, example_root
 
 ENGINE = "roslings"
 SCENE, UNOBSERVED = f"{ENGINE}.experiment.scene", f"{ENGINE}.experiment.unobserved"
+BASES = {"stage": "Stage", "running": "Running", "watching": "Watching", "speaking": "Speaking"}
+"""Module beside the scene's to the class in it: what a scene can do stands in these."""
+BESIDE = (("running", "Run"), ("slips", "mending"))
+"""What is no method of it, and goes with it."""
 UNOBSERVED_IS_JUDGED = f"{ENGINE}.judge.unobserved"
 JUDGE, VIEWS = f"{ENGINE}.judge.demands", f"{ENGINE}.judge.views"
 READ_BY_CHECKS = ("ExperimentView", "PackageView", "View")
@@ -112,13 +116,26 @@ def _back(node: Node) -> str:
 @cache
 def actions() -> dict[str, tuple[Word, ...]]:
     """Module to what an experiment can do by it."""
-    found = {SCENE: _of_class(SCENE, "Scene"), UNOBSERVED: _of_class(UNOBSERVED, "Unobserved")}
-    found[SCENE] += tuple(w for w in _public(SCENE) if w.name in ("Run", "mending"))
+    found = {SCENE: tuple(_of_scene()), UNOBSERVED: _of_class(UNOBSERVED, "Unobserved")}
     for name in filter(_acts, _modules()):
         given = {each for word in _public(name) for each in _gives(word)}
         words = (each for word in _public(name) for each in (word, *_methods(word)))
         found[name] = tuple(each for each in words if each.key not in given)
     return found
+
+
+def _of_scene() -> Iterator[Word]:
+    """As words of the scene, whichever class they stand in: an experiment is given a scene."""
+    for module, owner in BASES.items():
+        own = _of_class(_beside(module), owner)
+        yield from (replace(word, module=SCENE, owner="Scene") for word in own)
+    for module, name in BESIDE:
+        found = (word for word in _public(_beside(module)) if word.name == name)
+        yield from (replace(word, module=SCENE) for word in found)
+
+
+def _beside(module: str) -> str:
+    return f"{SCENE.rpartition('.')[0]}.{module}"
 
 
 def _gives(word: Word) -> list[str]:

@@ -1,4 +1,4 @@
-"""What a visitor sees first: one button, the rover, and beside it a verdict of the course."""
+"""What a visitor sees first: two buttons, the rover, and beside it a verdict of the course."""
 
 from __future__ import annotations
 
@@ -12,37 +12,50 @@ from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
 from course_site.course import html, lessons_of
-from roslings.report import print_verdict, read_json
+from roslings.report.json_file import read_json
+from roslings.report.terminal import print_verdict
 
 VERDICT = Path(__file__).parents[1] / "pictures" / "verdict.json"
 FAILED = "✗"
 COLUMNS = 46
 """So wide that it stands beside the rover, and can be read on a telephone."""
 FIRST_PAGES = ("days/01-install/first-15-minutes", "days/01-install/index", "reference/installing")
+WINDOW_PAGE, WINDOW = "reference/installing", "the-day-in-one-window"
+"""What the second button leads to: the page, and the place on it."""
 SAID = "One letter is missing in a program. The course ran it, and says this."
 ROVER = "A small robot drives round a room, along a dotted line, past a red ball."
 
 
 class Hero(SphinxDirective):
-    """`{hero}`: what the course is, the button that begins, the rover, and a verdict."""
+    """`{hero}`: what the course is, the buttons that begin, the rover, and a verdict."""
 
     def run(self) -> list[nodes.Node]:
         """The first of the first pages that this course has."""
         self.env.note_dependency(str(VERDICT))
         first = next(page for page in FIRST_PAGES if page in self.env.found_docs)
         days = len(lessons_of(self.config).days)
-        return [html(
-            f'<div class="hero"><div class="hero-words"><p class="lead">{days} days, from the first'
-            " two programs that talk to a robot that sees. You build each part yourself. The"
-            " course runs what you built, and says what to do next.</p>"
-            f'<p class="actions"><a class="button" href="{first}.html">Drive a robot in 15 minutes'
-            '</a></p></div><div class="hero-room">'
-            f'<img src="_static/rover.svg" width="304" height="400" alt="{ROVER}"></div>'
-            f'<figure class="hero-verdict"><pre class="verdict">{marked()}</pre>'
-            f"<figcaption>{SAID}</figcaption></figure></div>"
-            '<p class="note-box review-due" hidden><span></span> '
-            '<a href="review.html">Review them</a></p>'
-        )]  # fmt: skip
+        return [
+            html(
+                f'<div class="hero"><div class="hero-words"><p class="lead">{days} days, from the'
+                " first two programs that talk to a robot that sees. You build each part yourself."
+                " The course runs what you built, and says what to do next.</p>"
+                f'<p class="actions"><a class="button" href="{first}.html">Drive a robot in 15'
+                f" minutes</a>{self._second_button()}</p></div>"
+                '<div class="hero-room">'
+                f'<img src="_static/rover.svg" width="304" height="400" alt="{ROVER}"></div>'
+                f'<figure class="hero-verdict"><pre class="verdict">{marked()}</pre>'
+                f"<figcaption>{SAID}</figcaption></figure></div>"
+                '<p class="note-box review-due" hidden><span></span> '
+                '<a href="review.html">Review them</a></p>'
+            )
+        ]
+
+    def _second_button(self) -> str:
+        """How a whole day stands in one page of a browser, also where nothing can be installed."""
+        if WINDOW_PAGE not in self.env.found_docs:
+            return ""
+        address = f"{WINDOW_PAGE}.html#{WINDOW}"
+        return f' <a class="button plain" href="{address}">A day in one window</a>'
 
 
 def marked() -> str:

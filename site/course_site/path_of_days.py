@@ -39,8 +39,10 @@ class PathOfDays(SphinxDirective):
 
     def _links(self, day: Day, there: bool) -> str:
         lessons = lessons_of(self.config)
-        parts = [f'<a href="labs/{lab.name}.html">Lab: {escape(lab.card.title)}</a>' for lab in
-                 labs_of(day)]  # fmt: skip
+        parts = [
+            f'<a href="labs/{lab.name}.html">Lab: {escape(lab.card.title)}</a>'
+            for lab in labs_of(day)
+        ]
         if lessons.quiz(day.id):
             parts.append(f'<a href="days/{day.id}/quiz.html">Quiz</a>')
         if not there:

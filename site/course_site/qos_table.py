@@ -26,11 +26,13 @@ class QosPlay(SphinxDirective):
     def run(self) -> list[nodes.Node]:
         """The fields, hidden until the script shows them."""
         fields = "".join(map(_field, RULES))
-        return [html(
-            f'<form class="qos-play" hidden>{fields}<p class="qos-says" role="status"></p>'
-            '<pre class="qos-code" tabindex="0" role="region"'
-            ' aria-label="The pair in Python"></pre></form>'
-        )]  # fmt: skip
+        return [
+            html(
+                f'<form class="qos-play" hidden>{fields}<p class="qos-says" role="status"></p>'
+                '<pre class="qos-code" tabindex="0" role="region"'
+                ' aria-label="The pair in Python"></pre></form>'
+            )
+        ]
 
 
 class QosTables(MarkdownDirective):

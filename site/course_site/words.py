@@ -34,10 +34,24 @@ log = logging.getLogger(__name__)
 PAGE = "glossary"
 PREFIX = "#word-"
 UNTOUCHED = (
-    nodes.title, nodes.subtitle, nodes.rubric, nodes.caption, nodes.literal, nodes.literal_block,
-    nodes.reference, nodes.raw, nodes.thead, nodes.term, nodes.comment, nodes.system_message,
-    nodes.field_name, nodes.footnote, nodes.citation, nodes.legend, pending_xref,
-)  # fmt: skip
+    nodes.title,
+    nodes.subtitle,
+    nodes.rubric,
+    nodes.caption,
+    nodes.literal,
+    nodes.literal_block,
+    nodes.reference,
+    nodes.raw,
+    nodes.thead,
+    nodes.term,
+    nodes.comment,
+    nodes.system_message,
+    nodes.field_name,
+    nodes.footnote,
+    nodes.citation,
+    nodes.legend,
+    pending_xref,
+)
 OUTPUT = {"cell_input", "cell_output", "unlinked"}
 """Classes of what a notebook's cell shows, and of parts that want no links."""
 

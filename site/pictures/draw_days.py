@@ -41,48 +41,75 @@ def _boxed(name: str, does: str) -> Row:
 
 
 DAYS: dict[str, Shown] = {
-    "01-install": Shown("ROS on its computer", (
-        Row("talker", "says a sentence, again and again"),
-        Row("listener", "hears it, on this computer or another"),
-    )),
-    "02-nodes": Shown("a voice", (
-        Row("/minimal_publisher", "says how the rover is: /robot_status"),
-    )),
-    "03-topics": Shown("a sonar", (
-        Row("/distance_sensor", "tells how far the next thing is"),
-        Row("/distance_subscriber", "warns: says true on /obstacle"),
-        Row("/talker", "says /chatter, and /listener hears it"),
-    )),
-    "04-services": Shown("a limit for the motors", (
-        Row("/motor_client", "asks for a limit: /set_max_speed"),
-        Row("/motor_controller", "takes it, answers, and keeps to it"),
-    )),
-    "05-actions": Shown("a pilot", (
-        Row("/drive_client", "gives a goal, on /drive_to"),
-        Row("/drive_server", "drives there, and tells how far it is"),
-    )),
-    "06-serial-bridge": Shown("a cable to its motors", (
-        Row("/serial_bridge", "hears /cmd_vel, and tells /odom"),
-        _boxed("Arduino Mega", "turns the motors, counts the wheels"),
-    )),
-    "07-pi-camera": Shown("eyes", (
-        Row("/camera", "says /camera/image_raw"),
-        Row("/ball_finder", "finds the ball in it, and says /ball"),
-    )),
-    "08-bring-up": Shown("a start for two", (
-        _boxed("ros2 launch", "starts all nodes of both rovers"),
-        Row("/red/speed_limiter", "lets this rover drive 0.6 m/s"),
-        Row("/blue/speed_limiter", "lets the other one drive 0.4 m/s"),
-    )),
-    "09-bags": Shown("a black box", (
-        _boxed("ros2 bag record", "keeps each message, and its time"),
-        _boxed("black_box", "reads it, and tells what happened"),
-    )),
-    "10-qos": Shown("a stop that reaches it", (
-        Row("/e_stop_button", "says /e_stop, on the laptop"),
-        Row("/guard", "lets /cmd_vel through, or stops"),
-    )),
-}  # fmt: skip
+    "01-install": Shown(
+        "ROS on its computer",
+        (
+            Row("talker", "says a sentence, again and again"),
+            Row("listener", "hears it, on this computer or another"),
+        ),
+    ),
+    "02-nodes": Shown(
+        "a voice", (Row("/minimal_publisher", "says how the rover is: /robot_status"),)
+    ),
+    "03-topics": Shown(
+        "a sonar",
+        (
+            Row("/distance_sensor", "tells how far the next thing is"),
+            Row("/distance_subscriber", "warns: says true on /obstacle"),
+            Row("/talker", "says /chatter, and /listener hears it"),
+        ),
+    ),
+    "04-services": Shown(
+        "a limit for the motors",
+        (
+            Row("/motor_client", "asks for a limit: /set_max_speed"),
+            Row("/motor_controller", "takes it, answers, and keeps to it"),
+        ),
+    ),
+    "05-actions": Shown(
+        "a pilot",
+        (
+            Row("/drive_client", "gives a goal, on /drive_to"),
+            Row("/drive_server", "drives there, and tells how far it is"),
+        ),
+    ),
+    "06-serial-bridge": Shown(
+        "a cable to its motors",
+        (
+            Row("/serial_bridge", "hears /cmd_vel, and tells /odom"),
+            _boxed("Arduino Mega", "turns the motors, counts the wheels"),
+        ),
+    ),
+    "07-pi-camera": Shown(
+        "eyes",
+        (
+            Row("/camera", "says /camera/image_raw"),
+            Row("/ball_finder", "finds the ball in it, and says /ball"),
+        ),
+    ),
+    "08-bring-up": Shown(
+        "a start for two",
+        (
+            _boxed("ros2 launch", "starts all nodes of both rovers"),
+            Row("/red/speed_limiter", "lets this rover drive 0.6 m/s"),
+            Row("/blue/speed_limiter", "lets the other one drive 0.4 m/s"),
+        ),
+    ),
+    "09-bags": Shown(
+        "a black box",
+        (
+            _boxed("ros2 bag record", "keeps each message, and its time"),
+            _boxed("black_box", "reads it, and tells what happened"),
+        ),
+    ),
+    "10-qos": Shown(
+        "a stop that reaches it",
+        (
+            Row("/e_stop_button", "says /e_stop, on the laptop"),
+            Row("/guard", "lets /cmd_vel through, or stops"),
+        ),
+    ),
+}
 """In the order of the path."""
 
 

@@ -24,9 +24,16 @@ from roslings_rover.rover.words import below, beside
 WIDE, HIGH = 46, 20
 """Letters of the map in a terminal of 80 columns."""
 DRIVE = (
-    ("", 1.0), ("arrow up", 1.0), ("arrow up", 1.0), ("arrow left", 0.5), ("k", 0.5),
-    ("arrow up", 1.0), ("arrow up", 1.0), ("arrow up", 1.0), ("", 3.0),
-)  # fmt: skip
+    ("", 1.0),
+    ("arrow up", 1.0),
+    ("arrow up", 1.0),
+    ("arrow left", 0.5),
+    ("k", 0.5),
+    ("arrow up", 1.0),
+    ("arrow up", 1.0),
+    ("arrow up", 1.0),
+    ("", 3.0),
+)
 """Each key, and for how many seconds no other one is pressed."""
 CODES = {"arrow up": "\x1b[A", "arrow left": "\x1b[D"}
 STEP_S, FRAME_S = 0.02, 0.5
@@ -93,18 +100,20 @@ def svg() -> str:
     wide = COLUMNS * LETTER_PX + 2 * EDGE_PX
     time_s = len(shown) * FRAME_S
     style = STYLE.replace("TIME", f"{time_s:g}").replace("SHARE", f"{100 / len(shown):.4g}")
-    return "\n".join([
-        '<svg class="terminal" xmlns="http://www.w3.org/2000/svg"'
-        f' viewBox="0 0 {wide:g} {high + 62:g}" role="img">',
-        "<title>A drive by keys, recorded in a terminal</title>",
-        f"<desc>{TOLD}</desc>",
-        f"<style>{style}</style>",
-        f'<rect width="{wide:g}" height="{high + 62:g}" rx="8" fill="#1b1f27"/>',
-        f'<path d="M0 28V8Q0 0 8 0H{wide - 8:g}Q{wide:g} 0 {wide:g} 8V28Z" fill="#343b48"/>',
-        '<text class="title" x="12" y="19">Terminal 1: ./roslings rover --keys</text>',
-        *_drawn(shown, wide, time_s),
-        "</svg>\n",
-    ])  # fmt: skip
+    return "\n".join(
+        [
+            '<svg class="terminal" xmlns="http://www.w3.org/2000/svg"'
+            f' viewBox="0 0 {wide:g} {high + 62:g}" role="img">',
+            "<title>A drive by keys, recorded in a terminal</title>",
+            f"<desc>{TOLD}</desc>",
+            f"<style>{style}</style>",
+            f'<rect width="{wide:g}" height="{high + 62:g}" rx="8" fill="#1b1f27"/>',
+            f'<path d="M0 28V8Q0 0 8 0H{wide - 8:g}Q{wide:g} 0 {wide:g} 8V28Z" fill="#343b48"/>',
+            '<text class="title" x="12" y="19">Terminal 1: ./roslings rover --keys</text>',
+            *_drawn(shown, wide, time_s),
+            "</svg>\n",
+        ]
+    )
 
 
 def _drawn(shown: list[Frame], wide: float, time_s: float) -> Iterator[str]:

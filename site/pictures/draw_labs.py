@@ -61,14 +61,15 @@ def _by_turns(names: list[str], seconds: float, first: str) -> str:
     share = 100 / len(names)
     rules = [
         _moved(
-            name, seconds,
+            name,
+            seconds,
             f"0%, {share * place:g}% {{ opacity: 0 }} {share * place + 1:g}%,"
             f" {share * (place + 1):g}% {{ opacity: 1 }}"
             f" {min(100, share * (place + 1) + 1):g}%, 100% {{ opacity: 0 }}",
             "step-end",
         )
         for place, name in enumerate(names)
-    ]  # fmt: skip
+    ]
     hidden = ", ".join(f".{name}" for name in names if name != first)
     return f"{hidden} {{ opacity: 0 }} {' '.join(rules)}"
 
@@ -129,12 +130,23 @@ def distance_sensor() -> Sheet:
     sheet.text((330, 196), "nearer than 0.3 m", size=15)
     sheet.arrow((420, 190), (500, 190))
     sheet.moves(
-        _moved("drive", 5, "0% { transform: translateX(-350px) } 60%, 85% { transform:"
-               " translateX(20px) } 100% { transform: translateX(-350px) }", rests=_right(20))
-        + " " + _moved("warn", 5, "0%, 50% { opacity: 0 } 54%, 88% { opacity: 1 } 92%, 100% {"
-                       " opacity: 0 }", "linear")
-        + " " + _moved("wave", 0.8, "0% { opacity: 1 } 100% { opacity: 0.1 }", "ease-out")
-    )  # fmt: skip
+        _moved(
+            "drive",
+            5,
+            "0% { transform: translateX(-350px) } 60%, 85% { transform:"
+            " translateX(20px) } 100% { transform: translateX(-350px) }",
+            rests=_right(20),
+        )
+        + " "
+        + _moved(
+            "warn",
+            5,
+            "0%, 50% { opacity: 0 } 54%, 88% { opacity: 1 } 92%, 100% { opacity: 0 }",
+            "linear",
+        )
+        + " "
+        + _moved("wave", 0.8, "0% { opacity: 1 } 100% { opacity: 0.1 }", "ease-out")
+    )
     return sheet
 
 
@@ -147,17 +159,19 @@ def services() -> Sheet:
         " rover is slower.",
     )
     for lane, words, name in (
-        (LANES[0], "before: 1.0 m/s", "fast"), (LANES[1], "after /set_max_speed: 0.3 m/s", "slow"),
-    ):  # fmt: skip
+        (LANES[0], "before: 1.0 m/s", "fast"),
+        (LANES[1], "after /set_max_speed: 0.3 m/s", "slow"),
+    ):
         sheet.text((36, lane - 30), words, anchor="start", size=15)
         sheet.add(_line(40, lane, 680))
         sheet.add(placed(90, lane, rover(scale=1.2), name=name))
     sheet.add(placed(560, 72, bubble("max speed: 0.3 m/s", line=AMBER)))
     way = f"0% {{ transform: none }} 100% {{ transform: {_right(540)} }}"
     sheet.moves(
-        _moved("fast", 2.4, way, "linear", rests=_right(400)) + " "
+        _moved("fast", 2.4, way, "linear", rests=_right(400))
+        + " "
         + _moved("slow", 8, way, "linear", rests=_right(120))
-    )  # fmt: skip
+    )
     return sheet
 
 
@@ -171,15 +185,23 @@ def actions() -> Sheet:
     sheet.add(_line(110, 160, 560))
     sheet.add(placed(590, 168, flag()))
     sheet.add(placed(110, 160, rover(scale=1.5), name="drive"))
-    for words, name in (("Distance: 1.83 m", "n0"), ("Distance: 1.78 m", "n1"),
-                        ("The rover is there", "n2")):  # fmt: skip
+    for words, name in (
+        ("Distance: 1.83 m", "n0"),
+        ("Distance: 1.78 m", "n1"),
+        ("The rover is there", "n2"),
+    ):
         sheet.add(placed(340, 100, bubble(words), name=name))
     sheet.text((590, 196), "goal of /drive_to", size=15)
     sheet.moves(
-        _moved("drive", 6, "0%, 6% { transform: none } 66%, 100% { transform:"
-               " translateX(430px) }", rests=_right(200))
-        + " " + _by_turns(["n0", "n1", "n2"], 6, "n1")
-    )  # fmt: skip
+        _moved(
+            "drive",
+            6,
+            "0%, 6% { transform: none } 66%, 100% { transform: translateX(430px) }",
+            rests=_right(200),
+        )
+        + " "
+        + _by_turns(["n0", "n1", "n2"], 6, "n1")
+    )
     return sheet
 
 
@@ -239,11 +261,18 @@ def pi_camera() -> Sheet:
     sheet.text((550, 44), "/ball/image", size=15)
     sheet.text((550, 204), "/ball_finder", size=15)
     sheet.moves(
-        _moved("roll", 4, "0%, 100% { transform: translateY(-34px) } 50% { transform:"
-               " translateY(50px) }")
-        + " " + _moved("seen", 4, "0%, 100% { transform: translateX(-90px) } 50% { transform:"
-                       " translateX(30px) }")
-    )  # fmt: skip
+        _moved(
+            "roll",
+            4,
+            "0%, 100% { transform: translateY(-34px) } 50% { transform: translateY(50px) }",
+        )
+        + " "
+        + _moved(
+            "seen",
+            4,
+            "0%, 100% { transform: translateX(-90px) } 50% { transform: translateX(30px) }",
+        )
+    )
     return sheet
 
 
@@ -263,10 +292,15 @@ def bring_up() -> Sheet:
         sheet.add(_line(200, lane, 680))
         sheet.add(placed(240, lane, rover(COLOURS[name], scale=1.4), name=name))
     rules = (
-        _moved(name, 5, "0%, 10% { transform: none } 90%, 100% { transform:"
-               f" {_right(pixels)} }}", "linear", rests=_right(pixels))
+        _moved(
+            name,
+            5,
+            f"0%, 10% {{ transform: none }} 90%, 100% {{ transform: {_right(pixels)} }}",
+            "linear",
+            rests=_right(pixels),
+        )
         for name, pixels in far.items()
-    )  # fmt: skip
+    )
     sheet.moves(" ".join(rules))
     return sheet
 
@@ -290,11 +324,22 @@ def black_box() -> Sheet:
     sheet.text((60, 196), "the bag: each message, and its time", anchor="start", size=15)
     sheet.text((430, 196), "a gap", size=15, colour=RED)
     sheet.moves(
-        _moved("drive", 6, "0% { transform: none } 90%, 100% { transform: translateX(530px) }",
-               "linear", rests=_right(530))
-        + " " + _moved("hides", 6, "0% { transform: none } 90%, 100% { transform: scaleX(0) }",
-                       "linear", rests="scaleX(0)")
-    )  # fmt: skip
+        _moved(
+            "drive",
+            6,
+            "0% { transform: none } 90%, 100% { transform: translateX(530px) }",
+            "linear",
+            rests=_right(530),
+        )
+        + " "
+        + _moved(
+            "hides",
+            6,
+            "0% { transform: none } 90%, 100% { transform: scaleX(0) }",
+            "linear",
+            rests="scaleX(0)",
+        )
+    )
     return sheet
 
 
@@ -316,13 +361,29 @@ def e_stop() -> Sheet:
     sheet.add(placed(530, 84, bubble("Stopped: the stop is pressed", line=RED), name="says"))
     sheet.text((530, 194), "/guard", size=15)
     sheet.moves(
-        _moved("drive", 5, "0% { transform: none } 50%, 92% { transform: translateX(140px) } 100% {"
-               " transform: none }", "linear", rests=_right(140))
-        + " " + _moved("says", 5, "0%, 48% { opacity: 0 } 52%, 90% { opacity: 1 } 94%, 100% {"
-                       " opacity: 0 }", "linear")
-        + " " + _moved("press", 5, "0%, 44% { transform: none } 48%, 60% { transform: scale(0.8) }"
-                       " 66%, 100% { transform: none }")
-    )  # fmt: skip
+        _moved(
+            "drive",
+            5,
+            "0% { transform: none } 50%, 92% { transform: translateX(140px) } 100% {"
+            " transform: none }",
+            "linear",
+            rests=_right(140),
+        )
+        + " "
+        + _moved(
+            "says",
+            5,
+            "0%, 48% { opacity: 0 } 52%, 90% { opacity: 1 } 94%, 100% { opacity: 0 }",
+            "linear",
+        )
+        + " "
+        + _moved(
+            "press",
+            5,
+            "0%, 44% { transform: none } 48%, 60% { transform: scale(0.8) }"
+            " 66%, 100% { transform: none }",
+        )
+    )
     return sheet
 
 

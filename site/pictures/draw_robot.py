@@ -35,9 +35,11 @@ def distance_sensor() -> Sheet:
     sheet.box((570, 60), (130, 240), line=BLUE)
     sheet.text((635, 46), "Raspberry Pi", bold=True)
     rows = (
-        (90, "VCC", "5 V (pin 2)", RED), (150, "Trig", "GPIO 23 (16)", BLUE),
-        (210, "Echo", "GPIO 24 (18)", AMBER), (270, "GND", "GND (pin 6)", BLACK),
-    )  # fmt: skip
+        (90, "VCC", "5 V (pin 2)", RED),
+        (150, "Trig", "GPIO 23 (16)", BLUE),
+        (210, "Echo", "GPIO 24 (18)", AMBER),
+        (270, "GND", "GND (pin 6)", BLACK),
+    )
     for y, sensor, pi, colour in rows:
         sheet.wire((150, y), (570, y), colour=colour)
         sheet.text((142, y + 5), sensor, anchor="end", size=15)
@@ -134,8 +136,14 @@ def whole_robot() -> Sheet:
     sheet.node((440, 366), "/serial_bridge", 150)
     sheet.node((620, 240), "/ball_finder", 130)
     sheet.node((620, 100), "/camera", 110)
-    for at, day in (((111, 140), 5), ((111, 280), 10), ((440, 68), 5), ((524, 276), 10),
-                    ((548, 380), 6), ((620, 68), 7)):  # fmt: skip
+    for at, day in (
+        ((111, 140), 5),
+        ((111, 280), 10),
+        ((440, 68), 5),
+        ((524, 276), 10),
+        ((548, 380), 6),
+        ((620, 68), 7),
+    ):
         sheet.text(at, f"day {day}", size=15, colour=GREEN)
     _said(sheet)
     sheet.box((410, 484), (130, 44), "motors", line=RED)

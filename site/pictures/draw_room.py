@@ -28,22 +28,24 @@ animation: drive {LAP_S}s linear infinite }}
 def room() -> str:
     """All of it."""
     around = f'x="3" y="3" width="{WIDE - 6}" height="{HIGH - 6}" rx="14"'
-    return "\n".join([
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDE} {HIGH}" width="{WIDE}"'
-        f' height="{HIGH}" role="img" aria-label="A rover drives round a room">',
-        f"<style>{STYLE}</style>",
-        f'<rect {around} fill="{FLOOR}" stroke="{TEAL}" stroke-width="5"/>',
-        f'<path d="M3 180H44M301 210H250" stroke="{TEAL}" stroke-width="6"'
-        ' stroke-linecap="round"/>',
-        f'<rect x="140" y="118" width="52" height="36" rx="6" fill="{GREY}"/>',
-        f'<circle cx="115" cy="212" r="16" fill="{GREY}"/>',
-        f'<path d="{WAY}" fill="none" stroke="#3f8d86" stroke-width="3" stroke-dasharray="3 9"'
-        ' stroke-linecap="round"/>',
-        placed(190, 324, ball()),
-        placed(30, 112, flag()),
-        f'<g class="rover"><g class="wave">{placed(22, 0, waves())}</g>{rover(scale=1.2)}</g>',
-        "</svg>\n",
-    ])  # fmt: skip
+    return "\n".join(
+        [
+            f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDE} {HIGH}" width="{WIDE}"'
+            f' height="{HIGH}" role="img" aria-label="A rover drives round a room">',
+            f"<style>{STYLE}</style>",
+            f'<rect {around} fill="{FLOOR}" stroke="{TEAL}" stroke-width="5"/>',
+            f'<path d="M3 180H44M301 210H250" stroke="{TEAL}" stroke-width="6"'
+            ' stroke-linecap="round"/>',
+            f'<rect x="140" y="118" width="52" height="36" rx="6" fill="{GREY}"/>',
+            f'<circle cx="115" cy="212" r="16" fill="{GREY}"/>',
+            f'<path d="{WAY}" fill="none" stroke="#3f8d86" stroke-width="3" stroke-dasharray="3 9"'
+            ' stroke-linecap="round"/>',
+            placed(190, 324, ball()),
+            placed(30, 112, flag()),
+            f'<g class="rover"><g class="wave">{placed(22, 0, waves())}</g>{rover(scale=1.2)}</g>',
+            "</svg>\n",
+        ]
+    )
 
 
 def main(picture: Path) -> None:

@@ -13,7 +13,8 @@ from pathlib import Path
 
 from rich.console import Console
 
-from roslings.report import print_verdict, read_json
+from roslings.report.json_file import read_json
+from roslings.report.terminal import print_verdict
 
 FRAME = """<svg class="terminal" xmlns="http://www.w3.org/2000/svg"
 viewBox="0 0 {width} {height}" role="img">

@@ -26,8 +26,9 @@ def rover(colour: str = TEAL, *, scale: float = 1.0) -> str:
 def _bare(colour: str) -> str:
     wheels = "".join(
         f'<rect x="{x}" y="{y}" width="13" height="7" rx="3" fill="{DARK}"/>'
-        for x in (-20, 7) for y in (-20, 13)
-    )  # fmt: skip
+        for x in (-20, 7)
+        for y in (-20, 13)
+    )
     return f'{wheels}<rect x="-24" y="-14" width="48" height="28" rx="8" fill="{colour}"/>'
 
 

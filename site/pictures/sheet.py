@@ -7,8 +7,13 @@ from html import escape
 WIDTH = 720
 """Of each drawing, as in the lessons: a page shows it 34rem wide or wider."""
 BLUE, GREEN, RED, BLACK, AMBER, GREY = (
-    "#1f6feb", "#1a7f37", "#b42318", "#444", "#9a6700", "#d0d7de",
-)  # fmt: skip
+    "#1f6feb",
+    "#1a7f37",
+    "#b42318",
+    "#444",
+    "#9a6700",
+    "#d0d7de",
+)
 PALE = {BLUE: "#eaf2ff", GREEN: "#e9f7ec", AMBER: "#fff8c5", BLACK: "#f6f8fa", RED: "#ffebe9"}
 """The inside of a shape, for its line."""
 SMALLEST = 15
@@ -89,9 +94,15 @@ class Sheet:
         )
 
     def text(
-        self, at: Point, text: str, *, anchor: str = "middle", bold: bool = False,
-        size: int = 16, colour: str = "#111",
-    ) -> None:  # fmt: skip
+        self,
+        at: Point,
+        text: str,
+        *,
+        anchor: str = "middle",
+        bold: bool = False,
+        size: int = 16,
+        colour: str = "#111",
+    ) -> None:
         """Words; `anchor` is start, middle or end of them."""
         weight = ' font-weight="bold"' if bold else ""
         self._parts.append(

@@ -16,8 +16,10 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
+import roslings.lab_folders  # noqa: F401  # `graders` can be imported from here on
+from graders.actions.record import stopped_after_s
 from ros2_on_pip.rates import measure_rate
-from roslings.capabilities.actions.record import ActionsSeen, cancelled_after_s, stopped_after_s
+from roslings.capabilities.actions.record import ActionsSeen, cancelled_after_s
 from roslings.capabilities.robot.record import RobotSeen
 from roslings.checking import ready
 from roslings.course import Lab, lab, root

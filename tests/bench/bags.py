@@ -36,8 +36,10 @@ STRING = "std_msgs/msg/String"
 ROUNDS = 3
 SIZES = (100, 10_000)
 KINDS: tuple[tuple[str, Compression], ...] = (
-    ("mcap", "none"), ("mcap", "message"), ("sqlite3", "none"),
-)  # fmt: skip
+    ("mcap", "none"),
+    ("mcap", "message"),
+    ("sqlite3", "none"),
+)
 PLUGINS = {"mcap": StoragePlugin.MCAP, "sqlite3": StoragePlugin.SQLITE3}
 
 FLOOD = """
@@ -70,9 +72,7 @@ def main(count: int) -> None:
             record(Path(scratch), rate_hz)
 
 
-def compare(
-    folder: Path, storage: str, compression: Compression, size: int, count: int
-) -> None:  # fmt: skip
+def compare(folder: Path, storage: str, compression: Compression, size: int, count: int) -> None:
     """One line for writing, one for reading."""
     raw = bytes(TYPES.serialize_cdr(TYPES.types[STRING]("x" * size), STRING))
     bag = folder / "bag"
@@ -110,9 +110,7 @@ def write(bag: Path, plan: Plan, raw: bytes, count: int) -> None:
     writer.close()
 
 
-def write_bare(
-    bag: Path, storage: str, compression: Compression, raw: bytes, count: int
-) -> None:  # fmt: skip
+def write_bare(bag: Path, storage: str, compression: Compression, raw: bytes, count: int) -> None:
     """By the library alone."""
     writer = Writer(bag, version=9, storage_plugin=PLUGINS[storage])
     writer.set_compression(CompressionMode[compression.upper()], CompressionFormat.ZSTD)

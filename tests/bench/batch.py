@@ -251,9 +251,12 @@ def start_build(lab: course.Lab, folder: Path) -> subprocess.Popen[bytes]:
     (folder / "home").mkdir()
     quiet = subprocess.DEVNULL
     return subprocess.Popen(
-        [colcon(), "build"], cwd=folder, env=base_environment(folder / "home"), stdout=quiet,
+        [colcon(), "build"],
+        cwd=folder,
+        env=base_environment(folder / "home"),
+        stdout=quiet,
         stderr=quiet,
-    )  # fmt: skip
+    )
 
 
 def nodes_cpu_s(book: Gradebook, results: list[Result]) -> float:

@@ -53,8 +53,11 @@ def main(count: int) -> None:
 
     print("One picture of 640 x 480 in bgr8:")
     report("drawn by the synthetic camera", lambda: camera.frame([BALL]), count)
-    report("data = array('B', tobytes())  (2 copies)",
-           lambda: put(array.array("B", picture.tobytes())), count)  # fmt: skip
+    report(
+        "data = array('B', tobytes())  (2 copies)",
+        lambda: put(array.array("B", picture.tobytes())),
+        count,
+    )
     report("data = tobytes()", lambda: put(picture.tobytes()), count)
     report("data = flatten().tolist()", lambda: put(picture.flatten().tolist()), count // 10)
     raw = serialize_message(image)

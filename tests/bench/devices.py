@@ -88,8 +88,10 @@ def frames() -> None:
         for _ in range(FRAMES):
             camera.look(rover)
         each_s = (time.process_time() - began_s) / FRAMES
-        print(f"camera, 640x480 {encoding}: {1 / each_s:.0f} frames a second,"
-              f" {each_s * 10:.1%} of a core at 10 Hz")  # fmt: skip
+        print(
+            f"camera, 640x480 {encoding}: {1 / each_s:.0f} frames a second,"
+            f" {each_s * 10:.1%} of a core at 10 Hz"
+        )
 
 
 def main(lines: int) -> None:

@@ -24,10 +24,17 @@ from roslings_prove.anonymous import for_judging, without_machine
 KEPT = Path(__file__).parents[2] / "packages/roslings/tests/evidence/schema1"
 TRIES = 9
 COLUMNS = (
-    "lab", "JSON, kB: lists", "columns", "packed, kB: lists, zlib", "columns, xz",
-    "kept with the course", "write + pack, ms: lists", "columns", "unpack + read, ms: lists",
+    "lab",
+    "JSON, kB: lists",
     "columns",
-)  # fmt: skip
+    "packed, kB: lists, zlib",
+    "columns, xz",
+    "kept with the course",
+    "write + pack, ms: lists",
+    "columns",
+    "unpack + read, ms: lists",
+    "columns",
+)
 
 
 def given(arguments: list[str]) -> Iterator[tuple[str, Evidence]]:

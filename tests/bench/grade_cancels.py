@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import os
 
-from roslings.capabilities.actions.act import Director, timed_feedback
-from roslings.capabilities.robot.act import robot_beside, start_near
+from graders.actions.act import Director
+from graders.actions.floor import robot_beside, start_near
+from roslings.capabilities.actions.act import timed_feedback
 from roslings.course import lab
 from roslings.experiment import Scene, experiment
 

@@ -49,8 +49,10 @@ EACH = {
 
 def main(tries: int, count: int) -> None:
     """A line a language."""
-    print(f"{os.cpu_count()} cores, Python {platform.python_version()},"
-          f" load {os.getloadavg()[0]:.1f}, {count} nodes, {tries} tries")  # fmt: skip
+    print(
+        f"{os.cpu_count()} cores, Python {platform.python_version()},"
+        f" load {os.getloadavg()[0]:.1f}, {count} nodes, {tries} tries"
+    )
     with tempfile.TemporaryDirectory() as home, leased_domain() as domain:
         shell = package(Shell(surroundings(domain, Path(home)), Path(home)), Path(home))
         for name, text in FILES.items():
@@ -66,8 +68,10 @@ def main(tries: int, count: int) -> None:
     print(f"{'the nodes, one by one':24}{base:7.2f} s   1.00")
     for name, found in times.items():
         middle = statistics.median(found)
-        print(f"{'ros2 launch ' + name:24}{middle:7.2f} s{middle / base:7.2f}"
-              f"   (least {min(found):.2f} s, most {max(found):.2f} s)")  # fmt: skip
+        print(
+            f"{'ros2 launch ' + name:24}{middle:7.2f} s{middle / base:7.2f}"
+            f"   (least {min(found):.2f} s, most {max(found):.2f} s)"
+        )
 
 
 def launch_s(shell: Shell, name: str, count: int) -> float:

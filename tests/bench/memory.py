@@ -19,10 +19,18 @@ from peaks import Peaks, grade
 from rogue import LAB, Attempt, attempts
 
 FLOODS = (
-    "rosout_floods-node", "megabytes_on_four-node", "messages_64_kb-node", "messages_50_mb-node",
-    "chatters_50_mb", "topics_300-node", "prints_100_mb-node", "graph_with_long_names-node",
-    "nodes_200-node", "publishes_20_khz-node", "chatters_20_khz-node",
-)  # fmt: skip
+    "rosout_floods-node",
+    "megabytes_on_four-node",
+    "messages_64_kb-node",
+    "messages_50_mb-node",
+    "chatters_50_mb",
+    "topics_300-node",
+    "prints_100_mb-node",
+    "graph_with_long_names-node",
+    "nodes_200-node",
+    "publishes_20_khz-node",
+    "chatters_20_khz-node",
+)
 MB = 1e6
 
 

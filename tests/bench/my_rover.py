@@ -45,10 +45,17 @@ def running(workspace: Path) -> Iterator[tuple[subprocess.Popen[str], float]]:
         began_s = time.monotonic()
         process = subprocess.Popen(
             [sys.executable, "-m", "roslings", "my-rover", "--view", "lines"],
-            env={**os.environ, "ROS_DOMAIN_ID": str(domain), "ROSLINGS_WS": str(workspace),
-                 "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"},
-            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True, start_new_session=True,
-        )  # fmt: skip
+            env={
+                **os.environ,
+                "ROS_DOMAIN_ID": str(domain),
+                "ROSLINGS_WS": str(workspace),
+                "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+            },
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            text=True,
+            start_new_session=True,
+        )
         assert process.stdout
         for line in process.stdout:
             if line.startswith(READY):
@@ -95,8 +102,10 @@ def main(rounds: int) -> None:
                     ready_s.append(seconds)
                     if parts == PARTS and len(ready_s) == rounds:
                         watch(process.pid)
-            print(f"{name}: ready in {statistics.median(ready_s):.1f} s, median of {rounds}"
-                  f" ({min(ready_s):.1f} to {max(ready_s):.1f})")  # fmt: skip
+            print(
+                f"{name}: ready in {statistics.median(ready_s):.1f} s, median of {rounds}"
+                f" ({min(ready_s):.1f} to {max(ready_s):.1f})"
+            )
 
 
 def watch(pid: int) -> None:

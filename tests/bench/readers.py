@@ -31,9 +31,10 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from hypothesis import HealthCheck, Phase, Verbosity, given, settings, target
 from hypothesis import strategies as st
 
+import roslings.lab_folders  # noqa: F401  # `graders` can be imported from here on
+from graders.black_box import diagnosis
 from ros2_on_pip.errors import RoslingsError
 from roslings.arena.bounds import MB
-from roslings.capabilities.bags import diagnosis
 from roslings.course import PictureContract, lab
 from roslings.hand_in.errors import Refused
 from roslings.hand_in.unpack import package_in
@@ -196,22 +197,63 @@ def archive_of(text: bytes) -> bytes:
 
 
 READERS = (
-    Reader("package.xml", "package.xml", LARGEST_BYTES["package.xml"], XML, manifest,
-           (SOLUTION / "package.xml").read_bytes()),
-    Reader("setup.cfg", "setup.cfg", LARGEST_BYTES["setup.cfg"], CFG, settings_of_setup,
-           (SOLUTION / "setup.cfg").read_bytes()),
-    Reader("colcon.pkg", "colcon.pkg", LARGEST_BYTES["colcon.pkg"], YAML,
-           lambda package: said_in_child(package / "colcon.pkg", Bookmark())),
-    Reader("Python, setup.py too", "chatter/talker.py", code.LARGEST_BYTES, PYTHON, python,
-           (SOLUTION / "setup.py").read_bytes()),
-    Reader("Python, for its fingerprint", "chatter/talker.py", 500_000, PYTHON, fingerprint,
-           (SOLUTION / "chatter/talker.py").read_bytes()),
-    Reader("PNG", "a.png", 50_000_000, words("a b ~ \x00 \x01 \x02 \x03 \x04 \x05"), picture,
-           wrapped=png_with),
+    Reader(
+        "package.xml",
+        "package.xml",
+        LARGEST_BYTES["package.xml"],
+        XML,
+        manifest,
+        (SOLUTION / "package.xml").read_bytes(),
+    ),
+    Reader(
+        "setup.cfg",
+        "setup.cfg",
+        LARGEST_BYTES["setup.cfg"],
+        CFG,
+        settings_of_setup,
+        (SOLUTION / "setup.cfg").read_bytes(),
+    ),
+    Reader(
+        "colcon.pkg",
+        "colcon.pkg",
+        LARGEST_BYTES["colcon.pkg"],
+        YAML,
+        lambda package: said_in_child(package / "colcon.pkg", Bookmark()),
+    ),
+    Reader(
+        "Python, setup.py too",
+        "chatter/talker.py",
+        code.LARGEST_BYTES,
+        PYTHON,
+        python,
+        (SOLUTION / "setup.py").read_bytes(),
+    ),
+    Reader(
+        "Python, for its fingerprint",
+        "chatter/talker.py",
+        500_000,
+        PYTHON,
+        fingerprint,
+        (SOLUTION / "chatter/talker.py").read_bytes(),
+    ),
+    Reader(
+        "PNG",
+        "a.png",
+        50_000_000,
+        words("a b ~ \x00 \x01 \x02 \x03 \x04 \x05"),
+        picture,
+        wrapped=png_with,
+    ),
     Reader("a diagnosis (judge)", "diagnosis.yaml", documents.LARGEST_BYTES, YAML, diagnosed),
-    Reader("zip and tar", "handed-in", 1_000_000, words("PK\x03\x04 PK\x01\x02 \x00 \x7f a ustar"),
-           unpacked, wrapped=archive_of),
-)  # fmt: skip
+    Reader(
+        "zip and tar",
+        "handed-in",
+        1_000_000,
+        words("PK\x03\x04 PK\x01\x02 \x00 \x7f a ustar"),
+        unpacked,
+        wrapped=archive_of,
+    ),
+)
 
 
 # --- measuring ---------------------------------------------------------------------------------

@@ -76,9 +76,13 @@ def _student(home: Path, address: str) -> Ready:
     began_s, log = time.monotonic(), home / "said.txt"
     with log.open("w") as said:
         typed = subprocess.Popen(
-            ["bash", "-ec", "\n".join(commands(address))], cwd=home, stdout=said, stderr=said,
-            stdin=subprocess.DEVNULL, env={**plain, **_python(), "no_proxy": "*"},
-        )  # fmt: skip
+            ["bash", "-ec", "\n".join(commands(address))],
+            cwd=home,
+            stdout=said,
+            stderr=said,
+            stdin=subprocess.DEVNULL,
+            env={**plain, **_python(), "no_proxy": "*"},
+        )
         _, status, used = os.wait4(typed.pid, 0)
     typed.returncode = os.waitstatus_to_exitcode(status)
     wall_s = time.monotonic() - began_s

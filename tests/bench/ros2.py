@@ -46,8 +46,10 @@ PLAIN = (
 def main(tries: int, parts: list[str]) -> None:
     """Print the figures of `parts`."""
     memory_gb = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
-    print(f"{os.cpu_count()} cores, {memory_gb:.0f} GB, Python {platform.python_version()},"
-          f" load {os.getloadavg()[0]:.1f}")  # fmt: skip
+    print(
+        f"{os.cpu_count()} cores, {memory_gb:.0f} GB, Python {platform.python_version()},"
+        f" load {os.getloadavg()[0]:.1f}"
+    )
     with tempfile.TemporaryDirectory() as home, leased_domain() as domain:
         shell = Shell(surroundings(domain, Path(home)), Path(home))
         if "alone" in parts:
@@ -55,8 +57,11 @@ def main(tries: int, parts: list[str]) -> None:
             timed("topic --help", lambda: shell("topic", "--help"))
             timed("node list, nothing runs", lambda: shell("node", "list"))
         for part, count, settings in (
-            ("plain", 1, SOURCED), ("bare", 1, {}), ("ten", NODES, SOURCED), ("bare-ten", NODES, {})
-        ):  # fmt: skip
+            ("plain", 1, SOURCED),
+            ("bare", 1, {}),
+            ("ten", NODES, SOURCED),
+            ("bare-ten", NODES, {}),
+        ):
             if part in parts:
                 beside(shell, count, tries, settings)
         if "hz" in parts:

@@ -64,8 +64,9 @@ def show(
     for _ in range(runs):
         for name, command in COMMANDS.items():
             taken[name].append(once_ms(command, environment))
-    medians = {name: tuple(map(statistics.median, zip(*all_, strict=True)))
-               for name, all_ in taken.items()}  # fmt: skip
+    medians = {
+        name: tuple(map(statistics.median, zip(*all_, strict=True))) for name, all_ in taken.items()
+    }
     (bare, bare_cpu), (asked, asked_cpu) = medians["python -c pass"], medians["--help"]
     print(f"{'':22}{'ms':>7}{'CPU ms':>8}{'/ pass':>8}{'/ help':>8}{'CPU / pass':>12}{'/ help':>8}")
     for name, (wall, cpu) in medians.items():

@@ -181,10 +181,18 @@ def row_of(package: Again, tries: Sequence[Result], busy: int, idle: float) -> R
     """All tries of one grading."""
     said = [word_of(package, each) for each in tries]
     return Row(
-        version(package.lab), package.name, package.lab.name,
-        isinstance(package.package, Solution), said[0][0], said[-1][0], tries[-1].score,
-        round(tries[0].seconds, 1), busy, round(idle, 3), next((why for _, why in said if why), ""),
-    )  # fmt: skip
+        version(package.lab),
+        package.name,
+        package.lab.name,
+        isinstance(package.package, Solution),
+        said[0][0],
+        said[-1][0],
+        tries[-1].score,
+        round(tries[0].seconds, 1),
+        busy,
+        round(idle, 3),
+        next((why for _, why in said if why), ""),
+    )
 
 
 # --- grade -------------------------------------------------------------------------------------

@@ -32,9 +32,13 @@ def took(clone: Path, words: Sequence[str], *, fresh: bool) -> tuple[float, floa
         environment = {**os.environ, "HOME": home}
         before, began_s = os.times(), time.monotonic()
         subprocess.run(
-            command, cwd=place, env=environment, check=True, stdout=subprocess.DEVNULL,
+            command,
+            cwd=place,
+            env=environment,
+            check=True,
+            stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL if fresh else None,
-        )  # fmt: skip
+        )
         passed_s, after = time.monotonic() - began_s, os.times()
     children = (after.children_user, after.children_system)
     return passed_s, sum(children) - before.children_user - before.children_system

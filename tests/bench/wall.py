@@ -67,8 +67,10 @@ def main(rounds: int) -> None:
             statistics.median(column) for column in list(zip(*runs, strict=True))[:3]
         )
         scores = " ".join(f"{score:g}" if score is not None else "open" for *_, score in runs)
-        print(f"| {wall} | {total_s:.1f} | {total_s / base_s:.2f} | {cpu:.1f} | {build_s:.1f} |"
-              f" {scores} |")  # fmt: skip
+        print(
+            f"| {wall} | {total_s:.1f} | {total_s / base_s:.2f} | {cpu:.1f} | {build_s:.1f} |"
+            f" {scores} |"
+        )
 
 
 if __name__ == "__main__":

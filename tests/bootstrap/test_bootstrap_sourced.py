@@ -15,12 +15,12 @@ from pathlib import Path
 
 import pytest
 from compiled import uncompiled
-from course_copy import REAL, CourseCopy, Outcome, plain_environment
-from pythons_here import BASE
+from course_copy import REAL, CourseCopy, Outcome
+from real_course import copied
 from tiny_wheels import make_wheel
 
 from ros2_on_pip.errors import INCONCLUSIVE
-from roslings_launcher.interfaces import packages_of
+from roslings_launcher.interface_sources import packages_of
 from roslings_launcher.packages import installed
 from roslings_launcher.virtual import Virtual
 from skips import skip_without
@@ -206,13 +206,7 @@ def test_a_jazzy_without_rclpy_is_named(ready: CourseCopy, tmp_path: Path) -> No
 @pytest.fixture(scope="module")
 def beside(jazzy: dict[str, str], tmp_path_factory: pytest.TempPathFactory) -> CourseCopy:
     """This course, copied, in a terminal that has the Jazzy sourced."""
-    folder = tmp_path_factory.mktemp("beside")
-    left = shutil.ignore_patterns(".*", "tests", "site", "build", "__pycache__")
-    root = Path(shutil.copytree(REAL, folder / "course", ignore=left))
-    pip = {name: text for name, text in os.environ.items() if name.startswith(("PIP_", "SSL_"))}
-    kept = {"XDG_CACHE_HOME": os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache")}
-    own = plain_environment(folder / "home", BASE) | pip | kept | jazzy
-    return CourseCopy(root, folder, own, patience_s=3600)
+    return copied(tmp_path_factory.mktemp("beside"), **jazzy)
 
 
 def graded_by(beside: CourseCopy, lab: str) -> Outcome:

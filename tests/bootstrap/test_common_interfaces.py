@@ -7,9 +7,18 @@ import importlib
 import pytest
 
 COMMON_INTERFACES = (
-    "actionlib_msgs", "diagnostic_msgs", "geometry_msgs", "nav_msgs", "sensor_msgs", "shape_msgs",
-    "std_msgs", "std_srvs", "stereo_msgs", "trajectory_msgs", "visualization_msgs",
-)  # fmt: skip
+    "actionlib_msgs",
+    "diagnostic_msgs",
+    "geometry_msgs",
+    "nav_msgs",
+    "sensor_msgs",
+    "shape_msgs",
+    "std_msgs",
+    "std_srvs",
+    "stereo_msgs",
+    "trajectory_msgs",
+    "visualization_msgs",
+)
 
 
 @pytest.mark.parametrize("package", COMMON_INTERFACES)

@@ -32,10 +32,12 @@ TALKER = "from ros2_on_pip.demo_nodes_py.talker import main; main()"
         (["topics", "my path", "--html", "page.html"], "check topics 'my path'"),
         (["topics", "--solution", "--seed", "3"], "check topics --solution"),
         (["topics", "my/path", "--as-stranger"], "check topics my/path --as-stranger"),
-        (["topics", "--clock", "wall", "--port", "/dev/x"],
-         "check topics --port /dev/x --clock wall"),
+        (
+            ["topics", "--clock", "wall", "--port", "/dev/x"],
+            "check topics --port /dev/x --clock wall",
+        ),
     ],
-)  # fmt: skip
+)
 def test_what_decides_what_is_checked_is_repeated(words: list[str], again: str) -> None:
     """Not where the verdict is written to."""
     typed = as_typed(parser().parse_args(["check", *words]))
@@ -61,12 +63,20 @@ def test_how_roslings_is_called_from_here(tmp_path: Path, monkeypatch: pytest.Mo
 
 def roslings(home: Path, *words: str, domain: int = 0) -> subprocess.CompletedProcess[str]:
     """One command of a student whose home is empty but for the workspace."""
-    own = {"HOME": str(home), "ROSLINGS_WS": str(home / "roslings_ws"),
-           "ROS_DOMAIN_ID": str(domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}  # fmt: skip
+    own = {
+        "HOME": str(home),
+        "ROSLINGS_WS": str(home / "roslings_ws"),
+        "ROS_DOMAIN_ID": str(domain),
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+    }
     return subprocess.run(
-        [sys.executable, "-m", "roslings", *words], cwd=course.root(),
-        env={**os.environ, **own}, capture_output=True, text=True, check=False,
-    )  # fmt: skip
+        [sys.executable, "-m", "roslings", *words],
+        cwd=course.root(),
+        env={**os.environ, **own},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
 
 
 def test_status_has_straight_columns(tmp_path: Path) -> None:
@@ -113,12 +123,17 @@ def test_who_has_touched_the_ball_goes_on_to_day_one(tmp_path: Path) -> None:
 def a_talker(home: Path) -> Iterator[int]:
     """A node that runs, and its domain."""
     with leased_domain() as domain:
-        own = {"HOME": str(home), "ROS_DOMAIN_ID": str(domain),
-               "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}  # fmt: skip
+        own = {
+            "HOME": str(home),
+            "ROS_DOMAIN_ID": str(domain),
+            "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+        }
         with subprocess.Popen(
-            [sys.executable, "-c", TALKER], env={**os.environ, **own}, stderr=subprocess.PIPE,
+            [sys.executable, "-c", TALKER],
+            env={**os.environ, **own},
+            stderr=subprocess.PIPE,
             text=True,
-        ) as node:  # fmt: skip
+        ) as node:
             assert node.stderr
             node.stderr.readline()
             yield domain

@@ -82,9 +82,14 @@ def surroundings(tmp_path: Path, **more: str) -> dict[str, str]:
 def run(tmp_path: Path, *words: str | Path, **more: str) -> subprocess.CompletedProcess[str]:
     """Run a command to its end; our own traceback is never an answer."""
     ran = subprocess.run(
-        command(*words), cwd=tmp_path, env=surroundings(tmp_path, **more), text=True,
-        capture_output=True, check=False, stdin=subprocess.DEVNULL,
-    )  # fmt: skip
+        command(*words),
+        cwd=tmp_path,
+        env=surroundings(tmp_path, **more),
+        text=True,
+        capture_output=True,
+        check=False,
+        stdin=subprocess.DEVNULL,
+    )
     assert "Traceback" not in ran.stderr, ran.stderr
     return ran
 
@@ -340,9 +345,13 @@ def test_a_full_disk_is_said(package: Path, tmp_path: Path) -> None:
     skip_without("small disk")
     env = surroundings(tmp_path, TMPDIR=str(small))
     ran = subprocess.run(
-        [*inside, *command("check", "topics", package)], env=env, cwd=tmp_path, text=True,
-        capture_output=True, check=False,
-    )  # fmt: skip
+        [*inside, *command("check", "topics", package)],
+        env=env,
+        cwd=tmp_path,
+        text=True,
+        capture_output=True,
+        check=False,
+    )
     assert ran.returncode == 3, ran.stderr
     assert "Traceback" not in ran.stderr
     assert "disk" in ran.stderr or "space" in ran.stderr
@@ -354,9 +363,14 @@ def test_a_full_disk_is_said(package: Path, tmp_path: Path) -> None:
 def started(package: Path, tmp_path: Path) -> subprocess.Popen[str]:
     """A check in a session of its own, far enough that the student's nodes run."""
     running = subprocess.Popen(
-        command("check", "topics", package), cwd=tmp_path, env=surroundings(tmp_path), text=True,
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True,
-    )  # fmt: skip
+        command("check", "topics", package),
+        cwd=tmp_path,
+        env=surroundings(tmp_path),
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        start_new_session=True,
+    )
     wait_until(lambda: any("lib/chatter/talker" in line for line in processes_of(tmp_path)))
     return running
 

@@ -46,10 +46,13 @@ def summary(
     """
     due = {name: word for name, word in outcomes.items() if ": mutant " in name} | (due or {})
     outcomes = {name: word for name, word in outcomes.items() if name not in due}
-    (folder / "due").write_text("".join(
-        f"{json.dumps({'package': name, 'why': 'a rule', 'outcome': word})}\n"
-        for name, word in due.items()
-    ), "utf-8")  # fmt: skip
+    (folder / "due").write_text(
+        "".join(
+            f"{json.dumps({'package': name, 'why': 'a rule', 'outcome': word})}\n"
+            for name, word in due.items()
+        ),
+        "utf-8",
+    )
     (folder / "stages").write_text(stages, "utf-8")
     costs = (
         {"test": name, "wall_s": number, "cpu_s": number / 2, **came_of(outcome)}
@@ -307,7 +310,7 @@ def test_rogues_on_which_no_lot_fell_are_not_called_proven(tmp_path: Path) -> No
     status, words = of_all(tmp_path, word=UNDRAWN, rogues=ordinary)
     assert (status, "MISSING" in words, "All is well" in words) == (0, False, False)
     assert of_rogues(words)[1] == (
-        f"{ordinary} not drawn: of what they need, only the core is another."
+        f"{ordinary} not drawn: of what they need, only the core or a list of names is another."
     )
     assert last(words).startswith("Passed, but NOT PROVEN: 0 of ")
     assert f", {ordinary} of {ordinary} rogues as ordinary, 0 of " in last(words)
@@ -333,3 +336,12 @@ def test_unsteady_ones_are_counted_and_fail_nothing(tmp_path: Path) -> None:
     assert status == 0 and words.splitlines()[-2] == (
         "Unsteady tests: 1 in this run, 1 of them new: tests/b.py::test_late[a b]"
     )
+
+
+def test_what_failed_is_named_at_the_end(tmp_path: Path) -> None:
+    """Where a stage was broken off, nothing else names it. Unsteady ones are left out."""
+    tests = {"tests/a.py::test_it": "failed", "tests/b.py::test_it": "failed"}
+    (tmp_path / "unsteady").write_text("tests/b.py::test_it\n", "utf-8")
+    _, words = summary(tmp_path, tests, "1 1 1 One\n")
+    assert words.splitlines()[-2] == "FAILED tests/a.py::test_it"
+    assert "FAILED tests/b.py" not in words

@@ -18,9 +18,18 @@ from roslings_launcher.cli import MEANT, exit_code_of, main
 from roslings_launcher.cli.table import commands
 
 ENGINE = (
-    "roslings.arena", "roslings_class", "roslings.evidence", "roslings.experiment",
-    "roslings.judge", "roslings.probe", "roslings.saving", "rclpy", "pytest", "numpy", "matplotlib",
-)  # fmt: skip
+    "roslings.arena",
+    "roslings_class",
+    "roslings.evidence",
+    "roslings.experiment",
+    "roslings.judge",
+    "roslings.probe",
+    "roslings.saving",
+    "rclpy",
+    "pytest",
+    "numpy",
+    "matplotlib",
+)
 """What measures and judges."""
 MODELS = ("pydantic", "rich", "roslings.course.card", "roslings.verdict", "roslings.report")
 SEES = """
@@ -36,16 +45,25 @@ sys.exit(main(sys.argv[1:]))
 def workspace(tmp_path: Path) -> Path:
     """A student's workspace, with the verdict of an earlier check in it."""
     failed = CheckResult(
-        id="rate", title="The rate", outcome="fail", points=0, max_points=100,
+        id="rate",
+        title="The rate",
+        outcome="fail",
+        points=0,
+        max_points=100,
         hints=("Look at the timer.", "A period is 1 / rate.", "create_timer(0.5, ...)"),
-    )  # fmt: skip
+    )
     environment = Environment(
         roslings="", ros_distro="", rmw="", python="", platform="", isolation="", clock="", seed=0
     )
     verdict = Verdict(
-        lab="topics", package="chatter", outcome="fail", score=0.0, checks=(failed,),
-        seconds=Timings(), environment=environment,
-    )  # fmt: skip
+        lab="topics",
+        package="chatter",
+        outcome="fail",
+        score=0.0,
+        checks=(failed,),
+        seconds=Timings(),
+        environment=environment,
+    )
     kept = tmp_path / "ws/.roslings"
     kept.mkdir(parents=True)
     (kept / "verdict-topics.json").write_text(verdict.model_dump_json(by_alias=True))
@@ -59,8 +77,10 @@ def imported_by(words: list[str], workspace: Path, code: int = 0) -> list[str]:
     done = subprocess.run(
         [sys.executable, "-c", SEES, told, *words],
         env={**os.environ, "ROSLINGS_WS": str(workspace), "PYTHONPATH": os.pathsep.join(sys.path)},
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert done.returncode == code, done.stderr
     assert done.stdout or done.stderr
     modules: list[str] = json.loads(told.read_text())
@@ -69,8 +89,11 @@ def imported_by(words: list[str], workspace: Path, code: int = 0) -> list[str]:
 
 def among(modules: list[str], rooms: tuple[str, ...]) -> list[str]:
     """Those of `modules` that are one of `rooms`, or lie in one."""
-    return [name for name in modules if name.startswith(tuple(f"{room}." for room in rooms))
-            or name in rooms]  # fmt: skip
+    return [
+        name
+        for name in modules
+        if name.startswith(tuple(f"{room}." for room in rooms)) or name in rooms
+    ]
 
 
 @pytest.mark.parametrize("words", [[], ["status"], ["start", "topics"]], ids=" ".join)
@@ -141,16 +164,19 @@ def test_the_narrower_error_decides() -> None:
     assert exit_code_of(KeyError("x")) is None
 
 
-@pytest.mark.parametrize(("typed", "told"), [
-    ("chek", "there is no command 'chek'. Did you mean check?"),
-    ("Check", "Did you mean check?"),
-    ("qiuz", "Did you mean quiz?"),
-    ("drils", "Did you mean drill?"),
-    ("hint", "Did you mean check LAB --hint, or drill NAME --hint?"),
-    ("submit", "Did you mean pack?"),
-    ("reset", "Did you mean watch, and then the key x?"),
-    ("xyz", "there is no command 'xyz'. All commands: ./roslings --help"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("typed", "told"),
+    [
+        ("chek", "there is no command 'chek'. Did you mean check?"),
+        ("Check", "Did you mean check?"),
+        ("qiuz", "Did you mean quiz?"),
+        ("drils", "Did you mean drill?"),
+        ("hint", "Did you mean check LAB --hint, or drill NAME --hint?"),
+        ("submit", "Did you mean pack?"),
+        ("reset", "Did you mean watch, and then the key x?"),
+        ("xyz", "there is no command 'xyz'. All commands: ./roslings --help"),
+    ],
+)
 def test_a_word_that_is_no_command(
     typed: str, told: str, capsys: pytest.CaptureFixture[str]
 ) -> None:

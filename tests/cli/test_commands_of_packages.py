@@ -45,8 +45,11 @@ def test_a_package_offers_what_it_brings() -> None:
         read = configparser.ConfigParser(delimiters=("=",))
         read.read(file, "utf-8")
         offered |= {name for name in read[GROUP]}
-    assert offered == {folder.name for folder in ROOT.glob("packages/*/src/*")
-                       if (folder / "command_names.py").is_file()}  # fmt: skip
+    assert offered == {
+        folder.name
+        for folder in ROOT.glob("packages/*/src/*")
+        if (folder / "command_names.py").is_file()
+    }
     installed = entry_points(group=GROUP)
     assert {point.name for point in installed} >= offered
     rows = {row[1] for point in installed for row in point.load()}

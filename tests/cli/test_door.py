@@ -21,6 +21,11 @@ from until_told import run_until_told
 PLACES = re.compile(r"FILE|DIR|FOLDER|PATH|DEVICE")
 """What the help calls an option that takes a path."""
 NO_PATHS = {
+    "ROSLINGS_CHECK_PAGE": "set by the window of a day, for its terminals: absolute",
+    "ROSLINGS_FOLDER": "set by the window of a day, for its terminals: absolute",
+    "ROSLINGS_TERMINAL": "the name of a terminal of the window",
+    "ROSLINGS_WINDOW": "the path of an address",
+    "ROSLINGS_WINDOW_DOMAIN": "the number of a ROS domain",
     "ROSLINGS_ADDRESS": "where a course stands on the web",
     "ROSLINGS_BREAK": "whether a terminal has sourced an exercise",
     "ROSLINGS_GRADER": "a repository of an organisation, on GitHub",
@@ -108,8 +113,11 @@ def variables() -> set[str]:
         root / "setup.bash",
         *root.glob("packages/*/src/**/*"),
     ]
-    texts = (path.read_text("utf-8", "replace") for path in files
-             if path.is_file() and path.suffix not in (".pyc", ".png"))  # fmt: skip
+    texts = (
+        path.read_text("utf-8", "replace")
+        for path in files
+        if path.is_file() and path.suffix not in (".pyc", ".png")
+    )
     return {name for text in texts for name in re.findall(r"ROSLINGS_[A-Z_]+[A-Z]", text)}
 
 

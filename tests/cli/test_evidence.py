@@ -45,9 +45,14 @@ def run(cwd: Path, *words: str | Path, **more: str) -> Ran:
     """Run a command to its end; our own traceback is never an answer."""
     command = [sys.executable, "-m", "roslings", *map(str, words)]
     done = subprocess.run(
-        command, cwd=cwd, env=surroundings(cwd, **more), text=True, capture_output=True,
-        check=False, stdin=subprocess.DEVNULL,
-    )  # fmt: skip
+        command,
+        cwd=cwd,
+        env=surroundings(cwd, **more),
+        text=True,
+        capture_output=True,
+        check=False,
+        stdin=subprocess.DEVNULL,
+    )
     assert "Traceback" not in done.stderr, done.stderr
     return Ran(done.returncode, done.stdout, done.stderr)
 
@@ -322,9 +327,14 @@ def test_ctrl_c_leaves_no_half_folder(tmp_path: Path) -> None:
     """Nor any other trace."""
     words = [sys.executable, "-m", "roslings", "check", "topics", "--solution"]
     running = subprocess.Popen(
-        [*words, "--evidence", str(tmp_path / "kept")], cwd=tmp_path, env=surroundings(tmp_path),
-        text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True,
-    )  # fmt: skip
+        [*words, "--evidence", str(tmp_path / "kept")],
+        cwd=tmp_path,
+        env=surroundings(tmp_path),
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        start_new_session=True,
+    )
     wait_until(lambda: any(tmp_path.glob("tmp/roslings-*/src/*")))
     os.killpg(running.pid, signal.SIGINT)
     _, errors = running.communicate()

@@ -25,8 +25,17 @@ TABLE = BENCH / "README.md"
 LINES_AT_MOST, NOTE_AT_MOST = 200, 2
 COLUMNS = ["figure", "goal", "today", "machine", "date", "command"]
 SUBJECTS = (
-    "gate", "check", "class", "truth", "proofs", "ros2", "drills", "site", "memory", "walls"
-)  # fmt: skip
+    "gate",
+    "check",
+    "class",
+    "truth",
+    "proofs",
+    "ros2",
+    "drills",
+    "site",
+    "memory",
+    "walls",
+)
 PYTHON = ".venv/bin/python"
 USAGE = re.compile(
     r"^ *(?:\S*python3? )tests/bench/(?P<name>\w+\.py)(?P<words>.*?)(?: {2,}.*)?$", re.M
@@ -297,13 +306,24 @@ GOOD = Row("speed", "-", "3 s", "free", "2026-11-26", "`./roslings prove topics 
 @pytest.mark.parametrize(
     "changed",
     [
-        {"goal": ""}, {"date": "26 November"}, {"date": "2026-11-31"}, {"date": "20261126"},
-        {"date": "-"}, {"machine": "moon"}, {"machine": "-"}, {"command": "./roslings status"},
-        {"command": "`./roslings fly`"}, {"command": "`./roslings prove topics --no-such`"},
-        {"command": "`./roslings prove moon`"}, {"command": "`./roslings test tests/moon.py`"},
-        {"command": "`./roslings test --no-such`"}, {"command": "`NO_SUCH=1 ./roslings status`"},
-        {"command": f"`{PYTHON} tests/bench/moon.py`"}, {"command": "`bash .ci/moon`"},
-        {"command": f"`{PYTHON} tests/bench/rates.py moon 3`"}, {"command": "`ls tests`"},
+        {"goal": ""},
+        {"date": "26 November"},
+        {"date": "2026-11-31"},
+        {"date": "20261126"},
+        {"date": "-"},
+        {"machine": "moon"},
+        {"machine": "-"},
+        {"command": "./roslings status"},
+        {"command": "`./roslings fly`"},
+        {"command": "`./roslings prove topics --no-such`"},
+        {"command": "`./roslings prove moon`"},
+        {"command": "`./roslings test tests/moon.py`"},
+        {"command": "`./roslings test --no-such`"},
+        {"command": "`NO_SUCH=1 ./roslings status`"},
+        {"command": f"`{PYTHON} tests/bench/moon.py`"},
+        {"command": "`bash .ci/moon`"},
+        {"command": f"`{PYTHON} tests/bench/rates.py moon 3`"},
+        {"command": "`ls tests`"},
         {"command": f"`{PYTHON} tests/bench/half_done.py moon`"},
         {"command": f"`{PYTHON} tests/bench/check.py labs 3`"},
         {"command": f"`{PYTHON} tests/bench/check.py --fast`"},
@@ -312,7 +332,7 @@ GOOD = Row("speed", "-", "3 s", "free", "2026-11-26", "`./roslings prove topics 
         {"command": f"`{PYTHON} tests/bench/truth.py 10 --file x --no-such`"},
     ],
     ids=str,
-)  # fmt: skip
+)
 def test_a_row_that_is_wrong_is_seen(changed: dict[str, str], pytestconfig: pytest.Config) -> None:
     """One thing changed in a row that is right."""
     wrong_row = Row(**{**vars(GOOD), **changed})

@@ -181,9 +181,14 @@ def test_a_round_on_a_terminal_stands_in_status(tmp_path: Path) -> None:
     own = {**os.environ, "ROSLINGS_WS": str(tmp_path), "COLUMNS": "80"}
     screen, end = pty.openpty()
     asking = subprocess.Popen(
-        [sys.executable, "-m", "roslings", "quiz", "1"], cwd=course.root(), env=own,
-        stdin=end, stdout=end, stderr=end, start_new_session=True,
-    )  # fmt: skip
+        [sys.executable, "-m", "roslings", "quiz", "1"],
+        cwd=course.root(),
+        env=own,
+        stdin=end,
+        stdout=end,
+        stderr=end,
+        start_new_session=True,
+    )
     os.close(end)
     os.write(screen, lines.encode())
     said = _until_it_ends(screen)
@@ -191,9 +196,13 @@ def test_a_round_on_a_terminal_stands_in_status(tmp_path: Path) -> None:
     count = len(quiz.questions)
     assert f"{count} of {count} right at the first try" in said
     told = subprocess.run(
-        [sys.executable, "-m", "roslings", "status"], cwd=course.root(), env=own,
-        capture_output=True, text=True, check=True,
-    ).stdout  # fmt: skip
+        [sys.executable, "-m", "roslings", "status"],
+        cwd=course.root(),
+        env=own,
+        capture_output=True,
+        text=True,
+        check=True,
+    ).stdout
     assert f" {count}/{count} " in next(line for line in told.splitlines() if "01-install" in line)
 
 

@@ -51,8 +51,10 @@ def site(course: Path, *words: str, screen: bool = True) -> tuple[str, list[str]
     done = subprocess.run(
         [sys.executable, "-m", "roslings", "site", *words],
         env={**plain, **own, **({"DISPLAY": ":0"} if screen else {})},
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert done.returncode == 0, done.stderr
     log = Path(f"{browser}.log")
     return done.stdout, log.read_text().splitlines() if log.exists() else []

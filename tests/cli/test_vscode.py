@@ -30,12 +30,17 @@ def test_the_question_knows_all_labs() -> None:
     assert question["default"] in question["options"]
 
 
-@pytest.mark.parametrize(("line", "place"), [
-    ("  measured  package.xml:12: the tag <name> is not closed", ("package.xml", "12")),
-    ("  expected  rclpy in package.xml, because rover_status/minimal_publisher.py:7",
-     ("rover_status/minimal_publisher.py", "7")),
-    ("Score     5 of 100. 16 checks: 1 passes, 2 fail, 13 are skipped.", None),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("line", "place"),
+    [
+        ("  measured  package.xml:12: the tag <name> is not closed", ("package.xml", "12")),
+        (
+            "  expected  rclpy in package.xml, because rover_status/minimal_publisher.py:7",
+            ("rover_status/minimal_publisher.py", "7"),
+        ),
+        ("Score     5 of 100. 16 checks: 1 passes, 2 fail, 13 are skipped.", None),
+    ],
+)
 def test_the_matcher_finds_file_and_line(line: str, place: tuple[str, str] | None) -> None:
     """As they stand in a verdict; a line without a place is none."""
     (task,) = (task for task in TASKS["tasks"] if isinstance(task["problemMatcher"], dict))

@@ -30,9 +30,14 @@ def watching(package: Path, home: Path) -> Iterator[subprocess.Popen[str]]:
     own = {"HOME": str(home), "ROSLINGS_WS": str(home / "ws"), "TMPDIR": str(home / "tmp")}
     with subprocess.Popen(
         [sys.executable, "-m", "roslings", "watch", "topics", str(package)],
-        cwd=home, env={**os.environ, **own}, stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True,
-    ) as process:  # fmt: skip
+        cwd=home,
+        env={**os.environ, **own},
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        start_new_session=True,
+    ) as process:
         yield process
         process.send_signal(signal.SIGINT)
         assert process.wait() == 0

@@ -58,11 +58,15 @@ def make_a_file_of_it(path: Path) -> None:
 
 
 SPOILED: list[tuple[Callable[[Path], None], bool, str]] = [
-    (delete, False, GONE), (move_away, False, GONE), (rename, False, GONE),
+    (delete, False, GONE),
+    (move_away, False, GONE),
+    (rename, False, GONE),
     (make_a_folder_of_it, False, FOLDER),
-    (delete, True, GONE), (move_away, True, GONE), (rename, True, GONE),
+    (delete, True, GONE),
+    (move_away, True, GONE),
+    (rename, True, GONE),
     (make_a_file_of_it, True, GONE),
-]  # fmt: skip
+]
 """What happens, whether to the folder of the file or to the file itself, and what is said of it."""
 
 
@@ -79,9 +83,13 @@ def put_back(file: Path) -> None:
 
 @pytest.mark.parametrize(("spoil", "of_folder", "told"), SPOILED)
 def test_a_drill_that_vanishes_is_told(
-    spoil: Callable[[Path], None], of_folder: bool, told: str, tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str],
-) -> None:  # fmt: skip
+    spoil: Callable[[Path], None],
+    of_folder: bool,
+    told: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
     """And is not done, though it was before."""
     monkeypatch.setenv("ROSLINGS_WS", str(tmp_path))
     session = drill_begun(CHILD.name, Keyboard())
@@ -144,10 +152,14 @@ def test_a_package_that_is_moved_is_told(
 
 
 @pytest.mark.parametrize("spoil", [delete, rename, make_a_folder_of_it])
-@pytest.mark.parametrize("name", sorted(
-    path.relative_to(lab("topics").solution).as_posix()
-    for path in lab("topics").solution.rglob("*") if path.is_file()
-))  # fmt: skip
+@pytest.mark.parametrize(
+    "name",
+    sorted(
+        path.relative_to(lab("topics").solution).as_posix()
+        for path in lab("topics").solution.rglob("*")
+        if path.is_file()
+    ),
+)
 def test_each_file_of_a_package_may_vanish(
     name: str, spoil: Callable[[Path], None], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -164,8 +176,9 @@ def test_each_file_of_a_package_may_vanish(
         tell(told)
 
 
-@pytest.mark.parametrize("error", [FileNotFoundError, IsADirectoryError, NotADirectoryError,
-                                   PermissionError])  # fmt: skip
+@pytest.mark.parametrize(
+    "error", [FileNotFoundError, IsADirectoryError, NotADirectoryError, PermissionError]
+)
 def test_what_vanishes_between_two_looks_is_told(
     error: type[OSError], capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:

@@ -26,6 +26,9 @@ from roslings_learn.commands.watch.lab import begun as lab_begun
 from roslings_learn.commands.watch.session import Ours, Session
 from roslings_learn.drills import NoSuchDrill, all_drills, drill
 
+pytestmark = pytest.mark.timeout(method="thread")
+"""The alarm is the keyboard's here: the limit of each test must not use it as well."""
+
 BOUND_S = 60.0
 """Only a test that fails waits so long."""
 MARK = "sleeps_in_a_drill_4711"

@@ -150,10 +150,15 @@ def test_an_editor_that_is_set_wins_but_in_vs_code(
     assert editor_for(place, tmp_path) is None
 
 
-@pytest.mark.parametrize(("there", "opens"), [
-    (("vim", "nano"), ["nano", "+7"]), (("vi",), ["vi", "+7"]),
-    (("emacs",), ["emacs", "-nw", "+7"]), (("gedit",), None),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("there", "opens"),
+    [
+        (("vim", "nano"), ["nano", "+7"]),
+        (("vi",), ["vi", "+7"]),
+        (("emacs",), ["emacs", "-nw", "+7"]),
+        (("gedit",), None),
+    ],
+)
 def test_an_editor_that_is_there_is_offered(
     there: tuple[str, ...], opens: list[str] | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

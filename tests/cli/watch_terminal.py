@@ -64,14 +64,23 @@ def watching(home: Path, *words: str) -> Iterator[Watched]:
     """`./roslings watch WORDS` of a student with an empty home; it ends well, by itself."""
     screen, other_end = pty.openpty()
     own = {
-        "HOME": str(home), "ROSLINGS_WS": str(home / "roslings_ws"), "TERM": "xterm",
-        "COLUMNS": "80", "LINES": "24", "EDITOR": str(home / "editor"), "VISUAL": "",
-    }  # fmt: skip
+        "HOME": str(home),
+        "ROSLINGS_WS": str(home / "roslings_ws"),
+        "TERM": "xterm",
+        "COLUMNS": "80",
+        "LINES": "24",
+        "EDITOR": str(home / "editor"),
+        "VISUAL": "",
+    }
     process = subprocess.Popen(
-        [sys.executable, "-m", "roslings", "watch", *words], cwd=root(),
-        env={**os.environ, **own}, stdin=other_end, stdout=other_end, stderr=other_end,
+        [sys.executable, "-m", "roslings", "watch", *words],
+        cwd=root(),
+        env={**os.environ, **own},
+        stdin=other_end,
+        stdout=other_end,
+        stderr=other_end,
         start_new_session=True,
-    )  # fmt: skip
+    )
     os.close(other_end)
     try:
         yield Watched(process, screen)

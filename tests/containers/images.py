@@ -20,7 +20,18 @@ SUITE = "bookworm"
 MIRROR = "http://deb.debian.org/debian"
 BASE = "localhost/base"
 WHEELS = "/wheels"
-GROUPS = ("ros", "colcon", "check", "ros2", "graph", "vision", "notebook", "lab", "interfaces")
+GROUPS = (
+    "ros",
+    "colcon",
+    "check",
+    "ros2",
+    "graph",
+    "vision",
+    "notebook",
+    "lab",
+    "desk",
+    "generators",
+)
 
 
 def dev_container(name: str = "") -> Any:
@@ -62,10 +73,23 @@ class Builder:
         """The image of one stage of our Containerfile; its name."""
         arguments = ("--build-arg", f"BASE={BASE}", "--build-arg", f"ROSLINGS_WHEELS={WHEELS}")
         self.run(
-            "build", "--isolation", "chroot", "--network", "host", "--pull-never", *arguments,
-            "--volume", f"{self.wheels}:{WHEELS}:ro", "--target", target,
-            "--tag", f"localhost/{target}", "--file", str(root() / CONTAINERFILE), str(root()),
-        )  # fmt: skip
+            "build",
+            "--isolation",
+            "chroot",
+            "--network",
+            "host",
+            "--pull-never",
+            *arguments,
+            "--volume",
+            f"{self.wheels}:{WHEELS}:ro",
+            "--target",
+            target,
+            "--tag",
+            f"localhost/{target}",
+            "--file",
+            str(root() / CONTAINERFILE),
+            str(root()),
+        )
         return f"localhost/{target}"
 
     def settings(self, image: str) -> dict[str, Any]:
@@ -104,13 +128,25 @@ class Container:
         where = ["--workingdir", self.folder] if self.folder else []
         line = ["--", *self.entrypoint, *words]
         return self.builder.command(
-            "run", "--isolation", "chroot", "--network", "host", "--env",
-            f"ROSLINGS_WHEELS={WHEELS}", *volumes, *where, self.name, *line,
-        )  # fmt: skip
+            "run",
+            "--isolation",
+            "chroot",
+            "--network",
+            "host",
+            "--env",
+            f"ROSLINGS_WHEELS={WHEELS}",
+            *volumes,
+            *where,
+            self.name,
+            *line,
+        )
 
     def run(self, *words: str) -> subprocess.CompletedProcess[str]:
         """Run a command to its end."""
         return subprocess.run(
-            self.command(*words), stdin=subprocess.DEVNULL, capture_output=True, text=True,
+            self.command(*words),
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
             check=False,
-        )  # fmt: skip
+        )

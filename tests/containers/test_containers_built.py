@@ -72,7 +72,7 @@ def test_the_image_grades_and_opens_the_lesson(builder: Builder) -> None:
             try:
                 address = first_address(server)
                 assert "JupyterLab" in urllib.request.urlopen(address).read().decode()
-                assert "/lab/tree/01-install/lesson.ipynb" in urllib.request.urlopen(address).url
+                assert "/notebooks/01-install/lesson.ipynb" in urllib.request.urlopen(address).url
             finally:
                 server.kill()  # the namespace ends with it, and all in it
 

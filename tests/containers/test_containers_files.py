@@ -6,6 +6,7 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -13,6 +14,7 @@ from images import CONTAINERFILE, DEVCONTAINER, dev_container
 
 from roslings.course import root
 from roslings_class.release import is_for_students, rewrite_texts
+from sources import python_path
 
 IGNORE = root() / ".dockerignore"
 NOT_IN_THE_IMAGE = {"tests", "site", "setup.bash", "build", "example-course"}
@@ -83,10 +85,13 @@ def in_new_rooms(name: str) -> str:
 
 
 NOT_THERE_YET = (
-    "graders/hidden_topics.py", "labs/topics/solution/a/b.cpp", "labs/topics/mutants/a.yaml",
-    "days/02-nodes/drills/07_a/solution.xml", "days/02-nodes/drills/07_a/solution",
+    "graders/hidden_topics.py",
+    "labs/topics/solution/a/b.cpp",
+    "labs/topics/mutants/a.yaml",
+    "days/02-nodes/drills/07_a/solution.xml",
+    "days/02-nodes/drills/07_a/solution",
     "days/77-new/drills/solution.py",
-)  # fmt: skip
+)
 
 
 def test_the_image_holds_what_release_leaves_in() -> None:
@@ -106,19 +111,30 @@ def test_its_texts_are_those_that_release_writes(tmp_path: Path) -> None:
             shutil.copyfile(root() / name, tmp_path / way / name)
     subprocess.run(["sh", "-c", command], cwd=tmp_path / "image", check=True)
     rewrite_texts(tmp_path / "release")
-    done = subprocess.run(["diff", "-r", "image", "release"], cwd=tmp_path, capture_output=True,
-                          text=True, check=False)  # fmt: skip
+    done = subprocess.run(
+        ["diff", "-r", "image", "release"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert done.stdout == ""
     as_it_is = (root() / "README.md").read_text("utf-8")
     assert (tmp_path / "image/README.md").read_text("utf-8") != as_it_is
 
 
 MADE = (
-    ".venv/bin/python", ".venv-apt/x", ".git/config",
+    ".venv/bin/python",
+    ".venv-apt/x",
+    ".git/config",
     "packages/roslings/src/roslings/__pycache__/a.pyc",
-    "build/site/index.html", "topics.zip", "labs/topics/interfaces/__pycache__/a.pyc",
-    ".mypy_cache/x", "tests/labs/test_labs.py", "days/02-nodes/.ipynb_checkpoints/a",
-)  # fmt: skip
+    "build/site/index.html",
+    "topics.zip",
+    "labs/topics/interfaces/__pycache__/a.pyc",
+    ".mypy_cache/x",
+    "tests/labs/test_labs.py",
+    "days/02-nodes/.ipynb_checkpoints/a",
+)
 
 
 @pytest.mark.parametrize("name", MADE)
@@ -167,6 +183,23 @@ def test_the_pages_build_and_run_what_is_there(page: str) -> None:
     assert "EXPOSE 8888" in lines()
 
 
+def test_binder_gets_the_kernel(tmp_path: Path) -> None:
+    """The last line of its build writes it, into the course's environment."""
+    python = tmp_path / ".venv/bin/python"
+    python.parent.mkdir(parents=True)
+    for file, text in (
+        (tmp_path / "roslings", "#!/bin/sh\n"),
+        (python, f"#!/bin/sh\nPYTHONPATH='{python_path()}' exec '{sys.executable}' \"$@\"\n"),
+    ):
+        file.write_text(text)
+        file.chmod(0o755)
+    seen = {**os.environ, "HOME": str(tmp_path)}
+    done = subprocess.run(
+        [BINDER / "postBuild"], cwd=tmp_path, env=seen, capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+
+
 def test_binders_start_shows_the_kernel_and_runs_the_rest(tmp_path: Path) -> None:
     """JupyterLab comes from Binder; the kernel from the course's environment."""
     for name in ("postBuild", "start"):
@@ -175,6 +208,10 @@ def test_binders_start_shows_the_kernel_and_runs_the_rest(tmp_path: Path) -> Non
     (tmp_path / "setup.bash").write_text("export SOURCED=yes\n")
     done = subprocess.run(
         [BINDER / "start", "sh", "-c", "echo $JUPYTER_PATH $SOURCED"],
-        cwd=tmp_path, env={"PATH": "/usr/bin:/bin"}, capture_output=True, text=True, check=True,
-    )  # fmt: skip
+        cwd=tmp_path,
+        env={"PATH": "/usr/bin:/bin"},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
     assert done.stdout.split() == [f"{tmp_path}/.venv/share/jupyter", "yes"]

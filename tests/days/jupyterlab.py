@@ -8,7 +8,7 @@ import re
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
@@ -16,14 +16,30 @@ from typing import Any
 PATIENCE_MS = 600_000
 
 
+OUR_COMMAND = (sys.executable, "-m", "roslings")
+
+
 @contextmanager
-def served(day: str, variables: dict[str, str], cwd: Path) -> Iterator[str]:
+def served(
+    day: str, variables: dict[str, str], cwd: Path, command: Sequence[str | Path] = OUR_COMMAND
+) -> Iterator[str]:
     """`./roslings lab DAY --no-browser`, until the block ends; gives its address."""
-    command = [sys.executable, "-m", "roslings", "lab", day, "--no-browser"]
+    with serving([*command, "lab", day, "--no-browser"], variables, cwd) as address:
+        yield address
+
+
+@contextmanager
+def serving(words: Sequence[str | Path], variables: dict[str, str], cwd: Path) -> Iterator[str]:
+    """A program that serves JupyterLab, until the block ends; gives its address."""
     with subprocess.Popen(
-        command, env=variables, cwd=cwd, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-        text=True, start_new_session=True,
-    ) as server:  # fmt: skip
+        words,
+        env=variables,
+        cwd=cwd,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        start_new_session=True,
+    ) as server:
         try:
             yield _address(server)
         finally:

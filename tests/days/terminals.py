@@ -21,6 +21,7 @@ from until_told import OPEN, until_told
 
 PATIENCE_S = 240.0
 """Only a page that does not hold its promise waits so long; a first use downloads ROS."""
+LOOK_EVERY_S = 0.05
 ESCAPES = re.compile(r"\x1b(\[[0-9;?]*[a-zA-Z]|[=>]|\][^\x07]*\x07)")
 KEPT = re.compile(r"PATH|LANG|LC_ALL|ROSLINGS_(?!WS$).*|PIP_.*|UV_.*|https?_proxy|no_proxy", re.I)
 
@@ -66,9 +67,13 @@ class Terminal:
                 except OSError:  # the shell is gone
                     return
 
+    def rest(self) -> None:
+        """Let some time pass, while something is waited for."""
+        time.sleep(LOOK_EVERY_S)
+
     def shows(self, pattern: str) -> None:
         """Wait until the screen has shown it."""
-        until(lambda: bool(re.search(pattern, self.heard())), lambda: f"{pattern!r}:\n{self}")
+        self.until(lambda: bool(re.search(pattern, self.heard())), f"never {pattern!r}")
 
     def tells(self, verdict: str) -> None:
         """Wait for a verdict; while nobody can tell, the same line is typed again."""
@@ -84,18 +89,26 @@ class Terminal:
 
     def is_free(self) -> None:
         """Wait until the prompt is back."""
-        until(lambda: self.heard().endswith("ready> "), lambda: f"no prompt:\n{self}")
+        self.until(lambda: self.heard().endswith("ready> "), "no prompt")
+
+    def until(self, holds: Callable[[], bool], missing: str) -> None:
+        """Wait until something holds of this terminal."""
+        until(holds, lambda: f"{missing}:\n{self}", self.rest)
 
     def __str__(self) -> str:
         return self.heard()[-3000:]
 
 
-def until(holds: Callable[[], bool], missing: Callable[[], str]) -> None:
+def until(
+    holds: Callable[[], bool],
+    missing: Callable[[], str],
+    rest: Callable[[], None] | None = None,
+) -> None:
     """Wait until something holds."""
     late_s = time.monotonic() + PATIENCE_S
     while not holds():
         assert time.monotonic() < late_s, missing()
-        time.sleep(0.05)
+        rest() if rest else time.sleep(LOOK_EVERY_S)
 
 
 @contextmanager
@@ -103,10 +116,15 @@ def opened(home: Path, domain: int) -> Iterator[Terminal]:
     """A new terminal in the roslings folder; all that was started in it ends with it."""
     screen, other_end = pty.openpty()
     shell = subprocess.Popen(
-        ["bash", "--norc", "--noprofile", "-i"], cwd=root(), env=surroundings(home, domain),
-        stdin=other_end, stdout=other_end, stderr=other_end, start_new_session=True,
+        ["bash", "--norc", "--noprofile", "-i"],
+        cwd=root(),
+        env=surroundings(home, domain),
+        stdin=other_end,
+        stdout=other_end,
+        stderr=other_end,
+        start_new_session=True,
         preexec_fn=take_terminal,
-    )  # fmt: skip
+    )
     os.close(other_end)
     ending, terminal = threading.Event(), Terminal(shell, screen)
     reader = threading.Thread(target=terminal.read_on, args=[ending])

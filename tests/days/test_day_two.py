@@ -154,9 +154,10 @@ def test_the_other_commands_of_day_2_work_as_they_stand(student: Student) -> Non
     """A lamp in a file of its own is started under another name."""
     (start,) = BLOCK.findall(text_of(LESSON, ELSEWHERE))
     (lamp,) = (
-        cell.text.partition("\nwith session")[0] for cell in LESSON.sections["Remapping"]
+        cell.text.partition("\nwith session")[0]
+        for cell in LESSON.sections["Remapping"]
         if cell.is_code and "change" not in cell.tags
-    )  # fmt: skip
+    )
     (student.home / "lamp.py").write_text(BY_HAND.format(lamp=lamp), "utf-8")
     for number in (1, 2):
         student.terminal(number).type("source setup.bash")

@@ -88,9 +88,13 @@ def test_a_terminal_shows_what_is_claimed(claim: Claim, tmp_path: Path) -> None:
     typed = claim.types.replace("{work}", str(tmp_path)).replace("{solution}", str(solution))
     with leased_domain() as domain:
         done = subprocess.run(
-            ["bash", "--norc", "-c", typed], cwd=root(), env=ready(tmp_path, domain),
-            capture_output=True, text=True, check=False,
-        )  # fmt: skip
+            ["bash", "--norc", "-c", typed],
+            cwd=root(),
+            env=ready(tmp_path, domain),
+            capture_output=True,
+            text=True,
+            check=False,
+        )
     claim.must_hold(ESCAPES.sub("", done.stdout + done.stderr).rstrip("\n"))
     assert done.returncode == claim.exit
 
@@ -99,11 +103,14 @@ def ready(home: Path, domain: int) -> dict[str, str]:
     """A terminal in which `source setup.bash` was typed."""
     kept = {key: value for key, value in os.environ.items() if key not in FORGOTTEN}
     return {
-        **kept, "HOME": str(home), "ROSLINGS_WS": str(home / "roslings_ws"),
+        **kept,
+        "HOME": str(home),
+        "ROSLINGS_WS": str(home / "roslings_ws"),
         "PATH": f"{Path(sys.prefix, 'bin')}{os.pathsep}{os.environ['PATH']}",
-        "PYTHONPATH": python_path(), "ROS_DOMAIN_ID": str(domain),
+        "PYTHONPATH": python_path(),
+        "ROS_DOMAIN_ID": str(domain),
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
-    }  # fmt: skip
+    }
 
 
 @pytest.mark.slow
@@ -121,9 +128,10 @@ def test_a_cell_shows_what_is_claimed(claim: Claim, shared_folder: Path) -> None
     lesson: Lesson = LESSONS[claim.day]
     book = nbformat.reads(walked(shared_folder, lesson).executed, as_version=4)
     cells = [
-        cell for cell in book.cells
+        cell
+        for cell in book.cells
         if cell.cell_type == "code" and meant(claim, cell.source, cell.metadata.get("tags", []))
-    ]  # fmt: skip
+    ]
     claim.must_hold(ESCAPES.sub("", written(cells[0])))
 
 
@@ -177,7 +185,11 @@ def printed_by(part: str, folder: Path, more: str = "") -> list[str]:
     (program,) = (each for each in programs if part in each)
     (folder / "it.py").write_text(program + more)
     done = subprocess.run(
-        [sys.executable, "it.py"], cwd=folder, capture_output=True, text=True, check=True,
+        [sys.executable, "it.py"],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        check=True,
         env={**os.environ, "PYTHONPATH": python_path()},
-    )  # fmt: skip
+    )
     return done.stdout.splitlines()

@@ -23,10 +23,13 @@ if TYPE_CHECKING:  # nbval loads for seconds; only who runs these tests pays for
 
 WORD = re.compile(r"\w+")
 OTHER = "changed"
-each_lesson = pytest.mark.parametrize("lesson", [
-    pytest.param(lesson, id=lesson.day.id, marks=pytest.mark.xdist_group(lesson.day.id))
-    for lesson in lessons()
-])  # fmt: skip
+each_lesson = pytest.mark.parametrize(
+    "lesson",
+    [
+        pytest.param(lesson, id=lesson.day.id, marks=pytest.mark.xdist_group(lesson.day.id))
+        for lesson in lessons()
+    ],
+)
 
 
 @pytest.fixture(autouse=True)
@@ -91,15 +94,15 @@ def test_a_changed_word_is_found_when_the_lesson_runs(
 
 LEFT_OUT = {
     "[INFO] [1795728756.393125389] [talker]: one": "[INFO] [1795728999.000000001] [talker]: one",
-    "accepted with ID: 5a1f7170b6394968a461d27397d64c79":
-        "accepted with ID: 9b997c55134648358b59e871793f2881",
+    "accepted with ID: 5a1f7170b6394968a461d27397d64c79": "accepted with ID: "
+    "9b997c55134648358b59e871793f2881",
     "port /tmp/rover-p5vnj_4j/ttyROVER": "port /tmp/rover-9798qmky/ttyROVER",
     "in /tmp/tmprysi27c2/ws.": "in /tmp/tmpta5e9rla/ws.",
     "process started with pid [31366]": "process started with pid [412]",
     "<Node object at 0x7f3a2b1c>": "<Node object at 0x7f3a00ff>",
     "in domain 41, at port 11852": "in domain 7, at port 11818",
     "waiting for service to become available...\nresponse:": "response:",
-}  # fmt: skip
+}
 KEPT = {
     "[INFO] [1795728756.393125389] [talker]: one": "[WARN] [1795728756.393125389] [talker]: one",
     "port /tmp/rover-p5vnj_4j/ttyROVER": "port /tmp/lidar-p5vnj_4j/ttyROVER",

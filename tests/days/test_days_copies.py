@@ -22,10 +22,13 @@ from roslings_learn.jupyter.unrun import unrun
 from roslings_learn.lessons import Day, read_lessons
 from sources import python_path
 
+LESSON = "/lab/workspaces/01-lamp/tree/ws/notebooks/01-lamp/lesson.ipynb"
+
 
 @pytest.fixture
-def copies(tmp_path: Path) -> Copies:
-    """The tiny course, and a workspace that is not there yet."""
+def copies(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Copies:
+    """The tiny course, and a workspace in the home, which is not there yet."""
+    monkeypatch.setenv("HOME", str(tmp_path))
     write_course(tmp_path / "course")
     lessons = read_lessons(tmp_path / "course")
     return Copies(tmp_path / "course", tmp_path / "ws", lessons.glossary)
@@ -58,8 +61,10 @@ def test_a_student_sees_no_output_before_running_a_cell(copies: Copies) -> None:
     copies.copy_all(days_of(copies))
     theirs = json.loads((copies.course / "days" / DAY / "lesson.ipynb").read_text("utf-8"))
     own = json.loads((copies.folder / DAY / "lesson.ipynb").read_text("utf-8"))
-    kept = [[c["outputs"] or c["execution_count"] for c in book["cells"] if "outputs" in c]
-            for book in (theirs, own)]  # fmt: skip
+    kept = [
+        [c["outputs"] or c["execution_count"] for c in book["cells"] if "outputs" in c]
+        for book in (theirs, own)
+    ]
     assert any(kept[0]) and not any(kept[1])
 
 
@@ -152,10 +157,10 @@ def test_what_the_server_is_told(copies: Copies) -> None:
     """The page, the port, no browser, and this computer alone."""
     place, share = place_for("1", days_of(copies), copies, port=9911, browser=False), Path("share")
     words = command(place, share)
-    assert "--LabApp.default_url=/lab/tree/01-lamp/lesson.ipynb" in words
-    assert f"--ServerApp.root_dir={copies.folder}" in words
+    assert f"--LabApp.default_url={LESSON}" in words
+    assert f"--ServerApp.root_dir={copies.workspace.parent}" in words
     assert {"--ServerApp.port=9911", "--ServerApp.port_retries=0", "--no-browser"} <= set(words)
-    assert Place(copies, None).page == "/lab/tree/Days.md"
+    assert Place(copies, None).page == "/lab/tree/ws/notebooks/Days.md"
     assert "--no-browser" not in command(Place(copies, None), share)
     assert "--LabApp.app_settings_dir=share/lab/settings" in words
 
@@ -165,7 +170,7 @@ def test_what_a_server_of_jupyterhub_is_told(copies: Copies) -> None:
     place = place_for(None, days_of(copies), copies, port=9911, browser=True)
     words = command(replace(place, hub=True, ip="0.0.0.0"), Path("share"))
     assert words[1:3] == ["-m", "jupyterhub.singleuser"]
-    assert "--ServerApp.default_url=/lab/tree/01-lamp/lesson.ipynb" in words
+    assert f"--ServerApp.default_url={LESSON}" in words
     assert not [word for word in words if word.startswith(("--ServerApp.port", "--ServerApp.ip"))]
     assert "--no-browser" not in words
 
@@ -214,10 +219,14 @@ def test_a_wrong_day_is_wrong_use(copies: Copies) -> None:
     done = subprocess.run(
         [sys.executable, "-m", "roslings", "lab", "9", "--no-browser"],
         env={
-            **os.environ, "PYTHONPATH": python_path(),
-            "ROSLINGS_COURSE": str(copies.course), "ROSLINGS_WS": str(copies.workspace),
+            **os.environ,
+            "PYTHONPATH": python_path(),
+            "ROSLINGS_COURSE": str(copies.course),
+            "ROSLINGS_WS": str(copies.workspace),
         },
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert done.returncode == 2 and "There is no day '9'" in done.stderr
     assert "Traceback" not in done.stderr and not copies.workspace.exists()

@@ -53,9 +53,14 @@ def test_what_a_lesson_types_opens_the_desk(day: str, words: str, tmp_path: Path
     with leased_domain() as domain:
         seen = {**os.environ, "HOME": str(tmp_path), "ROS_DOMAIN_ID": str(domain)}
         with subprocess.Popen(
-            command, cwd=tmp_path, env=seen, text=True, stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-        ) as process:  # fmt: skip
+            command,
+            cwd=tmp_path,
+            env=seen,
+            text=True,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+        ) as process:
             assert process.stdout
             said = ""
             while OPEN not in said and (line := process.stdout.readline()):

@@ -15,10 +15,13 @@ from roslings_learn.lessons.rules import Lesson, broken_rules
 from roslings_learn.lessons.rules.alternatives import untold
 
 WRITTEN = list(lessons())
-each_lesson = pytest.mark.parametrize("lesson", [
-    pytest.param(lesson, id=lesson.day.id, marks=pytest.mark.xdist_group(lesson.day.id))
-    for lesson in WRITTEN
-])  # fmt: skip
+each_lesson = pytest.mark.parametrize(
+    "lesson",
+    [
+        pytest.param(lesson, id=lesson.day.id, marks=pytest.mark.xdist_group(lesson.day.id))
+        for lesson in WRITTEN
+    ],
+)
 
 
 @each_lesson

@@ -30,12 +30,14 @@ SIX = (
     Given("ros-jazzy-rclpy", "ros", f"{LEARN}/notebook/session.py", r"^ +rclpy\.init\($"),
     Given("ros-jazzy-rclpy", "ros", "days/02-nodes/lesson.ipynb", r"from rclpy\.node import Node"),
     Given(
-        "ros-jazzy-common-interfaces", "ros", "days/03-topics/lesson.ipynb",
+        "ros-jazzy-common-interfaces",
+        "ros",
+        "days/03-topics/lesson.ipynb",
         r"from sensor_msgs\.msg import FluidPressure",
     ),
     Given("pytest", "check", f"{ENGINE}/judge/judge.py", r"pytest\.main\("),
     Given("matplotlib", "graph", f"{ENGINE}/report/graph_sheet.py", r"^from matplotlib\.figure"),
-)  # fmt: skip
+)
 
 
 def group_of(name: str) -> str:

@@ -29,27 +29,36 @@ WRONG: dict[str, tuple[Sequence[Cell], str, str]] = {
     "count": (with_cell("first", more={"execution_count": 3}), "cell first", "execution count"),
     "compared without outputs": (with_cell("blink-run", more={}), "cell blink-run", "no outputs"),
     "compared without a count": (
-        with_cell("blink-run", more={"outputs": [printed("on\n")]}), "blink-run", "no execution",
+        with_cell("blink-run", more={"outputs": [printed("on\n")]}),
+        "blink-run",
+        "no execution",
     ),
     "compared picture": (
-        with_cell("blink-run", more={
-            "execution_count": 2, "outputs": [{"output_type": "display_data", "data": {}}]}),
-        "cell blink-run", "no text, but display_data",
+        with_cell(
+            "blink-run",
+            more={"execution_count": 2, "outputs": [{"output_type": "display_data", "data": {}}]},
+        ),
+        "cell blink-run",
+        "no text, but display_data",
     ),
     "few compared": (with_cell("blink-run", tags=["run"], more={}), "", "of 2 cells are compared"),
     "path in an output": (
-        with_cell("blink-run", more={
-            "execution_count": 2, "outputs": [printed("/home/anna/x\n")]}),
-        "cell blink-run", "/home/anna",
+        with_cell("blink-run", more={"execution_count": 2, "outputs": [printed("/home/anna/x\n")]}),
+        "cell blink-run",
+        "/home/anna",
     ),
     "random id": (with_cell("first", id="0a1b2c3d"), "cell 0a1b2c3d", "no readable id"),
     "twin ids": (with_cell("first", id="head"), "cell head", "Another cell has this id"),
     "tag": (with_cell("first", tags=["hide"]), "cell first", "'hide' is no tag"),
     "metadata": (
-        with_cell("first", more={"metadata": {"trusted": 1}}), "cell first", "hold trusted",
+        with_cell("first", more={"metadata": {"trusted": 1}}),
+        "cell first",
+        "hold trusted",
     ),
     "path": (
-        with_cell("first", text="x = 1\nopen('/home/anna/x')"), "cell first, line 2", "/home/anna",
+        with_cell("first", text="x = 1\nopen('/home/anna/x')"),
+        "cell first, line 2",
+        "/home/anna",
     ),
     "title": (with_cell("head", text=("A lamp", "The lamp")), "", "does not begin with"),
     "second h1": (with_cell("lab", text=("## The lab", "# The lab")), "cell lab", "second H1"),
@@ -57,92 +66,129 @@ WRONG: dict[str, tuple[Sequence[Cell], str, str]] = {
     "no section": (without("real"), "", "'On a real robot' is missing"),
     "too long": (with_cell("check", text="## The check\n\n" + "Run. " * 3000), "", "words"),
     "long aside": (
-        with_cell("real", text="## On a real robot\n\n" + "A [motor](#word-motor) runs. " * 40), "",
+        with_cell("real", text="## On a real robot\n\n" + "A [motor](#word-motor) runs. " * 40),
+        "",
         "'On a real robot' has 125 words",
     ),
     "order": ((*CELLS[:2], CELLS[3], CELLS[2], *CELLS[4:]), "", "not in order"),
     "concept too late": (
-        (*CELLS[:4], *CELLS[9:14], *CELLS[4:9], *CELLS[14:]), "", "no section of its place",
+        (*CELLS[:4], *CELLS[9:14], *CELLS[4:9], *CELLS[14:]),
+        "",
+        "no section of its place",
     ),
     "far first code": (with_cell("head", text=("Run", "So. " * 400 + "Run")), "", "signs stand"),
     "twin headings": (
-        with_cell("real", text=("A [motor]", "### Blinking\n\nA [motor]")), "", "there twice",
+        with_cell("real", text=("A [motor]", "### Blinking\n\nA [motor]")),
+        "",
+        "there twice",
     ),
     "few words": (with_cell("words", text=("- [socket]", "[socket]")), "", "has 5 words"),
     "word without link": (
-        with_cell("words", text=("[bulb](#word-bulb)", "bulb")), "cell words, line 6", "No word",
+        with_cell("words", text=("[bulb](#word-bulb)", "bulb")),
+        "cell words, line 6",
+        "No word",
     ),
     "one mistake": (without("wrong-2"), "", "has 3 code cells"),
     "no times": (with_cell("lab", text=(" (10 min)", "")), "", "tell no times"),
     "no check": (with_cell("check-run", text="print(lamp)"), "", "checks nothing"),
     "no links": (
-        with_cell("reading", text="## Further reading and watching\n\nSee."), "", "no link",
+        with_cell("reading", text="## Further reading and watching\n\nSee."),
+        "",
+        "no link",
     ),
     "no quiz": (without("quiz-run"), "", "not the quiz"),
     "embedded": (with_cell("reading", text=("- [", "<iframe>\n- [")), "cell reading", "embedded"),
     "no picture": (
-        with_cell("blinking", text="## Blinking\n\nA [lamp](#word-lamp)."), "cell blinking",
+        with_cell("blinking", text="## Blinking\n\nA [lamp](#word-lamp)."),
+        "cell blinking",
         "no picture",
     ),
     "no predict": (without("blink-predict"), "cell blinking", "goes: run, explain, change"),
     "predict is code": (
-        with_cell("blink-predict", code=True, text="x"), "predict, line 1", "for Mark",
+        with_cell("blink-predict", code=True, text="x"),
+        "predict, line 1",
+        "for Mark",
     ),
     "change passes": (with_cell("blink-change", tags=["change"]), "blink-change", "ends well"),
     "change is mute": (
-        with_cell("blink-change", text=("# Change: ", "# ")), "change, line 1", "not say",
+        with_cell("blink-change", text=("# Change: ", "# ")),
+        "change, line 1",
+        "not say",
     ),
     "no assert": (
-        with_cell("blink-change", text=CHANGE.partition("assert")[0]), "blink-change", "an assert",
+        with_cell("blink-change", text=CHANGE.partition("assert")[0]),
+        "blink-change",
+        "an assert",
     ),
     "mute assert": (
-        with_cell("blink-change", text=(", 'Still 2 Hz.'", "")), "blink-change, line 3", "nothing",
+        with_cell("blink-change", text=(", 'Still 2 Hz.'", "")),
+        "blink-change, line 3",
+        "nothing",
     ),
     "no answer": (with_cell("blink-change", answer=[]), "blink-change", "edit is not known"),
     "answer twice": (
-        with_cell("blink-change", answer=[["period", "x"]]), "blink-change", "2 times",
+        with_cell("blink-change", answer=[["period", "x"]]),
+        "blink-change",
+        "2 times",
     ),
     "answer is no python": (
-        with_cell("blink-change", answer=[["period = 0.5", "period = "]]), "blink-change", "Python",
+        with_cell("blink-change", answer=[["period = 0.5", "period = "]]),
+        "blink-change",
+        "Python",
     ),
     "long cell": (with_cell("wrong-1-mended", text="x = 1\n" * 16), "mended, line 16", "16 lines"),
     "long first cell": (with_cell("first", text="x = 1\n" * 9), "first, line 9", "9 lines"),
     "wide cell": (with_cell("first", text="x = 1\n" + "y" * 89), "first, line 2", "89 columns"),
     "empty cell": (with_cell("first", text=" "), "cell first", "is empty"),
     "sleeps": (
-        with_cell("first", text="import time\ntime.sleep(2)"), "first, line 2", "sleeps",
+        with_cell("first", text="import time\ntime.sleep(2)"),
+        "first, line 2",
+        "sleeps",
     ),
     "commands anywhere": (
-        with_cell("lab", text=("Terminal 1, in the roslings folder:", "Then:")), "lab, line 5",
+        with_cell("lab", text=("Terminal 1, in the roslings folder:", "Then:")),
+        "lab, line 5",
         "in which terminal",
     ),
     "long sentence": (
-        with_cell("everyday", text=("It is like", LONG + LONG + "it is like")), "everyday, line 3",
+        with_cell("everyday", text=("It is like", LONG + LONG + "it is like")),
+        "everyday, line 3",
         "A sentence has",
     ),
     "long on average": (
-        with_cell("everyday", text=("It is like", (LONG + "cat sleeps. ") * 99 + "It is like")), "",
+        with_cell("everyday", text=("It is like", (LONG + "cat sleeps. ") * 99 + "It is like")),
+        "",
         "Its sentences have",
     ),
     "much prose": (
-        with_cell("everyday", text=("It is", "It burns. " * 61 + "It is")), "everyday", "of prose",
+        with_cell("everyday", text=("It is", "It burns. " * 61 + "It is")),
+        "everyday",
+        "of prose",
     ),
     "unknown word": (with_cell("real", text=("word-motor", "word-mottor")), "real", "'mottor'"),
     "word in heading": (
-        with_cell("blinking", text=("## Blinking", "## [Blink](#word-blink)")), "blinking, line 1",
+        with_cell("blinking", text=("## Blinking", "## [Blink](#word-blink)")),
+        "blinking, line 1",
         "A heading holds",
     ),
     "word too early": (
-        with_cell("everyday", text=("a candle. A", "a motor. A")), "everyday, line 3", "day 2",
+        with_cell("everyday", text=("a candle. A", "a motor. A")),
+        "everyday, line 3",
+        "day 2",
     ),
     "word of no day": (
-        with_cell("everyday", text=("a candle. A", "a laser. A")), "everyday", "a word of no day",
+        with_cell("everyday", text=("a candle. A", "a laser. A")),
+        "everyday",
+        "a word of no day",
     ),
     "later word not linked": (
-        with_cell("real", text=("[motor](#word-motor)", "motor")), "cell real", "a word of day 2",
+        with_cell("real", text=("[motor](#word-motor)", "motor")),
+        "cell real",
+        "a word of day 2",
     ),
     "new word not linked": (
-        with_cell("everyday", text=("a candle. A", "a lamp. A")), "everyday, line 3",
+        with_cell("everyday", text=("a candle. A", "a lamp. A")),
+        "everyday, line 3",
         "not linked where it first stands",
     ),
     "four new words": (
@@ -150,39 +196,50 @@ WRONG: dict[str, tuple[Sequence[Cell], str, str]] = {
             "blink-explain",
             text=("It is on", "A [bulb](#word-bulb) has a [switch](#word-switch). It is on"),
         ),
-        "blink-explain, line 1", "has 4 new words",
+        "blink-explain, line 1",
+        "has 4 new words",
     ),
     "picture without words": (
-        with_cell("blinking", text=("A lamp that shines on a desk", "lamp")), "blinking, line 5",
+        with_cell("blinking", text=("A lamp that shines on a desk", "lamp")),
+        "blinking, line 5",
         "no text alternative",
     ),
     "picture that is not there": (
-        with_cell("blinking", text=("lamp.svg", "lump.svg")), "blinking", "no picture 'pictures/l",
+        with_cell("blinking", text=("lamp.svg", "lump.svg")),
+        "blinking",
+        "no picture 'pictures/l",
     ),
     "picture told otherwise: a number": (
         with_cell("blinking", text=("A lamp that shines on a desk", "A lamp of 40 watts")),
-        "cell blinking, line 5", "names 40,",
+        "cell blinking, line 5",
+        "names 40,",
     ),
     "picture told otherwise: a name": (
         with_cell("blinking", text=("A lamp that shines on a desk", "A lamp hears /light")),
-        "cell blinking", "names /light,",
+        "cell blinking",
+        "names /light,",
     ),
     "picture told otherwise: a count": (
         with_cell("blinking", text=("A lamp that shines on a desk", "Three lamps that shine")),
-        "cell blinking", "names three,",
+        "cell blinking",
+        "names three,",
     ),
     "picture told otherwise: a thing": (
         with_cell("blinking", text=("A lamp that shines on a desk", "A lamp with a dial")),
-        "cell blinking", "names dial,",
+        "cell blinking",
+        "names dial,",
     ),
     "link that leads nowhere": (
         with_cell("real", text=("The motor", "See [it](../03-moon/lesson.ipynb). The motor")),
-        "real", "leads nowhere",
+        "real",
+        "leads nowhere",
     ),
     "anchor that leads nowhere": (
-        with_cell("real", text=("The motor", "See [it](#blinkin). The motor")), "real", "#blinkin",
+        with_cell("real", text=("The motor", "See [it](#blinkin). The motor")),
+        "real",
+        "#blinkin",
     ),
-}  # fmt: skip
+}
 
 
 def said_of(lesson: Path, capsys: pytest.CaptureFixture[str]) -> tuple[int, str]:
@@ -265,9 +322,12 @@ def test_items_and_paragraphs_go_on_over_lines() -> None:
     """One block each, with the line where it begins."""
     found = list(blocks_of("One\ntwo.\n\n- three\n  four\n- five\n\n```bash\n# six\n```\n## Seven"))
     assert [(block.kind, block.line, block.text) for block in found] == [
-        ("paragraph", 1, "One two."), ("item", 4, "three four"), ("item", 6, "five"),
-        ("code", 8, "# six"), ("heading", 11, "Seven"),
-    ]  # fmt: skip
+        ("paragraph", 1, "One two."),
+        ("item", 4, "three four"),
+        ("item", 6, "five"),
+        ("code", 8, "# six"),
+        ("heading", 11, "Seven"),
+    ]
 
 
 def test_headings_have_the_anchors_of_the_site() -> None:

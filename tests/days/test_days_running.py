@@ -29,11 +29,14 @@ def test_what_goes_otherwise_than_tagged_is_found(tmp_path: Path) -> None:
     divided = "wrong-1-mended: raised ZeroDivisionError: division by zero"
     tame = "wrong-2: raised nothing"
     assert [each.partition("\n")[0] for each in sorted(found.down)] == [
-        "wrong-1-mended: Cell execution caused an exception", tame,
-    ]  # fmt: skip
+        "wrong-1-mended: Cell execution caused an exception",
+        tame,
+    ]
     assert sorted(found.up) == [
-        "blink-change, edited: raised AssertionError: Still 2 Hz.", divided, tame,
-    ]  # fmt: skip
+        "blink-change, edited: raised AssertionError: Still 2 Hz.",
+        divided,
+        tame,
+    ]
     assert "ZeroDivisionError" in found.executed and "edited" not in found.executed
     assert "2 failed" in said
 

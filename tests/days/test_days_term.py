@@ -26,9 +26,14 @@ HOURS_OF_A_WEEK = {
 """The most that a week of each plan asks for, home tasks included."""
 LESSONS = {lesson.day.number: lesson for lesson in lessons()}
 MINUTES = {
-    "about one hour": 60, "about 70 minutes": 70, "about 90 minutes": 90, "about 2 hours": 120,
-    "about two hours": 120, "about two and a half hours": 150, "about three hours": 180,
-}  # fmt: skip
+    "about one hour": 60,
+    "about 70 minutes": 70,
+    "about 90 minutes": 90,
+    "about 2 hours": 120,
+    "about two hours": 120,
+    "about two and a half hours": 150,
+    "about three hours": 180,
+}
 
 
 def section(heading: str) -> str:
@@ -45,8 +50,9 @@ def rows(heading: str) -> list[list[str]]:
 def needs() -> dict[int, set[int]]:
     """Day to the days that it needs, as the page says."""
     table = rows("Hours, and what needs what")
-    return {int(day.split()[0]): {int(n) for n in re.findall(r"\d+", need)}
-            for day, _, _, need in table}  # fmt: skip
+    return {
+        int(day.split()[0]): {int(n) for n in re.findall(r"\d+", need)} for day, _, _, need in table
+    }
 
 
 def all_needed(day: int) -> set[int]:
@@ -182,7 +188,7 @@ def shown(first: str) -> str:
 
 
 def test_what_new_prints_is_shown_as_it_is(tmp_path: Path) -> None:
-    """On Ubuntu 24.04, of a computer that has no compiler; sizes are those of a day."""
+    """On Ubuntu 24.04; sizes are those of a day."""
     ubuntu = Machine("Linux", "x86_64", 64, (2, 39), (3, 12), cpython=True)
     seen = readiness(ubuntu, {"PATH": "/nowhere"}, tmp_path, root=tmp_path)
     printed = "\n".join(["This machine:", *map(str, seen)])

@@ -44,11 +44,35 @@ def test_a_word_with_an_entry_is_no_everyday_word() -> None:
     assert everyday_words() & set(read_glossary(root()).senses_of) == set()
 
 
-@pytest.mark.parametrize("word", [
-    "daemon", "kernel", "YAML", "XML", "regex", "exit code", "port", "firewall", "thread",
-    "process", "signal", "log", "traceback", "queue", "hue", "JPEG", "covariance", "jitter",
-    "standard deviation", "graph", "JSON", "CSV", "checksum", "apt",
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "word",
+    [
+        "daemon",
+        "kernel",
+        "YAML",
+        "XML",
+        "regex",
+        "exit code",
+        "port",
+        "firewall",
+        "thread",
+        "process",
+        "signal",
+        "log",
+        "traceback",
+        "queue",
+        "hue",
+        "JPEG",
+        "covariance",
+        "jitter",
+        "standard deviation",
+        "graph",
+        "JSON",
+        "CSV",
+        "checksum",
+        "apt",
+    ],
+)
 def test_words_that_were_missed_have_an_entry(word: str) -> None:
     """By a reader who had only the text."""
     assert word.lower() in read_glossary(root()).senses_of
@@ -58,8 +82,10 @@ def test_what_has_no_entry_is_listed_with_its_places() -> None:
     """A new word is named, and so is each page that uses it."""
     texts = {"day 1": ["The frobnicator shines."], "day 2": ["A lamp.", "Frobnicators shone."]}
     assert unexplained(texts, SMALL, {"the", "a", "shine"}) == {
-        "frobnicator": ["day 1"], "frobnicators": ["day 2"], "shone": ["day 2"],
-    }  # fmt: skip
+        "frobnicator": ["day 1"],
+        "frobnicators": ["day 2"],
+        "shone": ["day 2"],
+    }
 
 
 @pytest.mark.parametrize(
@@ -91,11 +117,13 @@ def test_forms_of_a_word(form: str, word: str) -> None:
 def test_only_what_is_read_counts() -> None:
     """Docstrings, code and short values of files are for others."""
     assert strings_of('"""A docstring here."""\nx = "Try it."\ny = f"{x} says so"\nz = "id"\n') == [
-        "Try it.", " says so",
-    ]  # fmt: skip
+        "Try it.",
+        " says so",
+    ]
     assert list(sentences_of({"a": ["one", "two words"], "b": 3, "c": "three more words"})) == [
-        "two words", "three more words",
-    ]  # fmt: skip
+        "two words",
+        "three more words",
+    ]
     assert prose("Look here:\n    self.code()\n\n```\ncode\n```\n") == ["Look here:"]
 
 

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import pytest
-from terminals import Terminal, opened, until
+from terminals import Terminal, opened
 
 from ros2_on_pip.domain_lease import leased_domain
 from roslings.course import root
@@ -60,12 +60,16 @@ class Change:
         return Change(self.file, self.number, self.new, self.old)
 
     def make(self, home: Path) -> None:
-        """Change the line; the page says which one, and what stands there before."""
+        """Change the line in the file."""
         path = home / self.file
-        lines = path.read_text("utf-8").splitlines()
+        path.write_text(self.made_in(path.read_text("utf-8")), "utf-8")
+
+    def made_in(self, text: str) -> str:
+        """The text with it; the page says which line, and what stands there before."""
+        lines = text.splitlines()
         assert lines[self.number - 1] == self.old, f"line {self.number} is another one"
         lines[self.number - 1] = self.new
-        path.write_text("\n".join([*lines, ""]), "utf-8")
+        return "\n".join([*lines, ""])
 
 
 def page() -> str:
@@ -94,7 +98,8 @@ class Reader:
     """Who follows the page: a home, terminals, and the blocks that are still to be typed."""
 
     home: Path
-    open_terminal: Callable[[], Terminal]
+    open_terminal: Callable[[int], Terminal]
+    """By its number on the page."""
     terminals: dict[int, Terminal] = field(default_factory=dict)
     blocks: list[Commands] = field(default_factory=commands)
     edits: list[Change] = field(default_factory=changes)
@@ -104,7 +109,7 @@ class Reader:
         """Type the page's next block; the last of its lines may go on running."""
         block = self.blocks.pop(0)
         if block.terminal not in self.terminals:
-            self.terminals[block.terminal] = self.open_terminal()
+            self.terminals[block.terminal] = self.open_terminal(block.terminal)
             self.terminals[block.terminal].is_free()
         terminal = self.terminals[block.terminal]
         for line in block.lines[:-1]:
@@ -127,7 +132,7 @@ class Reader:
 def reader(tmp_path: Path) -> Iterator[Reader]:
     """Somebody with an empty home, in the course's folder."""
     with leased_domain() as domain, ExitStack() as terminals:
-        yield Reader(tmp_path, lambda: terminals.enter_context(opened(tmp_path, domain)))
+        yield Reader(tmp_path, lambda _: terminals.enter_context(opened(tmp_path, domain)))
 
 
 def place_of(rover: Terminal) -> float:
@@ -153,7 +158,7 @@ def drive_to_the_ball(rover: Terminal) -> None:
         rover.press(UP if abs(off) < POINTS_THERE else LEFT if off > 0 else RIGHT)
         return "touches the red ball" in rover.heard()
 
-    until(there, lambda: f"it did not come to the ball:\n{rover}")
+    rover.until(there, "it did not come to the ball")
 
 
 def where_is(rover: Terminal) -> tuple[float, float, float]:
@@ -200,16 +205,21 @@ def test_20_seconds_of_robot_time_are_judged(tmp_path: Path) -> None:
 @pytest.mark.slow
 def test_the_page_holds_what_it_promises(reader: Reader) -> None:
     """The robot drives; a wrong letter is found by name; one's own program is in the picture."""
+    follow_the_page(reader)
+
+
+def follow_the_page(reader: Reader) -> None:
+    """From its first command to its last; each promise is waited for."""
     rover = reader.types()
     rover.shows("Keys: arrow up drives")
     rover.press(UP)
-    until(lambda: place_of(rover) > 0.1, lambda: f"it did not drive:\n{rover}")
-    until(lambda: stands(rover), lambda: f"it did not stop:\n{rover}")
+    rover.until(lambda: place_of(rover) > 0.1, "it did not drive")
+    rover.until(lambda: stands(rover), "it did not stop")
     by_keys_m = place_of(rover)
     driver = reader.types()
     driver.shows("publishing #1")
     assert READY in driver.said_before()
-    until(lambda: place_of(rover) > by_keys_m, lambda: f"it did not drive on:\n{rover}")
+    rover.until(lambda: place_of(rover) > by_keys_m, "it did not drive on")
     driver.is_free()
     reader.types().is_free()
     reader.edits_the_file()

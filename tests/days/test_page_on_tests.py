@@ -64,8 +64,10 @@ def test_the_page_on_tests_goes_as_it_tells(student: Student) -> None:
     """A test fails as it is shown, is mended, and passes; what is odd is said as in its table."""
     home, (failed, why, _) = student.home, SHOWN.findall(PAGE)
     assert types_all(student).split()[-4:-1] == [
-        "test_copyright.py", "test_flake8.py", "test_pep257.py",
-    ]  # fmt: skip
+        "test_copyright.py",
+        "test_flake8.py",
+        "test_pep257.py",
+    ]
     for path, text in TO_SAVE.findall(PAGE):
         (home / path).write_text(text, "utf-8")
     said = in_lines(types_all(student))

@@ -27,10 +27,15 @@ PATH = """days:
 TODAY = ("lamp", "blink", "period", "bulb", "switch", "socket")
 OTHER = "  - id: motor\n    name: motor\n    definition: It turns.\n    note: Yes.\n    day: 2\n"
 NEVER = "  - id: laser\n    name: laser\n    definition: It shines.\n    note: Yes.\n"
-GLOSSARY = "category: Light\nabout: All of it.\nterms:\n" + "".join(
-    f"  - {{id: {word}, name: {word}, definition: It is a {word}., note: Yes., day: 1}}\n"
-    for word in TODAY
-) + OTHER + NEVER  # fmt: skip
+GLOSSARY = (
+    "category: Light\nabout: All of it.\nterms:\n"
+    + "".join(
+        f"  - {{id: {word}, name: {word}, definition: It is a {word}., note: Yes., day: 1}}\n"
+        for word in TODAY
+    )
+    + OTHER
+    + NEVER
+)
 
 DRAWING = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 720 200" role="img">
 <title>A lamp</title><desc>A lamp that shines on a desk.</desc>
@@ -140,17 +145,22 @@ CELLS = (
     Cell("blink-predict", "Before you run: how often is it on?", tags=["predict"]),
     compared(
         Cell("blink-run", "on = [n % 2 for n in range(4)]\nprint(on)", code=True, tags=["run"]),
-        2, printed("[0, 1, 0, 1]\n"),
+        2,
+        printed("[0, 1, 0, 1]\n"),
     ),
     Cell("blink-explain", "It is on every second time.", tags=["explain"]),
     Cell(
-        "blink-change", CHANGE, code=True, tags=["change", "raises-exception"],
+        "blink-change",
+        CHANGE,
+        code=True,
+        tags=["change", "raises-exception"],
         answer=[["period = 0.5", "period = 0.1"]],
     ),
     Cell("wrong", "## What goes wrong\n\nThe name is wrong."),
     compared(
         Cell("wrong-1", "print(lampp)", code=True, tags=["raises-exception"]),
-        4, raised("NameError", "name 'lampp' is not defined"),
+        4,
+        raised("NameError", "name 'lampp' is not defined"),
     ),
     Cell("wrong-1-mended", "lamp = 1\nprint(lamp)", code=True),
     Cell("wrong-2", "print(1 / 0)", code=True, tags=["raises-exception"]),
@@ -162,7 +172,7 @@ CELLS = (
     Cell("reading", "## Further reading and watching\n\n- [Lamps](https://example.org/lamps)"),
     Cell("quiz", "## Quiz\n\nNow ask yourself."),
     Cell("quiz-run", 'quiz("01-lamp")', code=True),
-)  # fmt: skip
+)
 METADATA = {
     "kernelspec": {"name": "roslings", "display_name": "ROS 2 (roslings)", "language": "python"},
     "language_info": {"name": "python"},

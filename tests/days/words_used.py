@@ -70,10 +70,13 @@ def strings_of(code: str) -> list[str]:
     nodes = list(ast.walk(ast.parse(code)))
     docstrings = {id(each.value) for each in nodes if isinstance(each, ast.Expr)}
     return [
-        each.value for each in nodes
-        if isinstance(each, ast.Constant) and isinstance(each.value, str)
-        and " " in each.value and id(each) not in docstrings
-    ]  # fmt: skip
+        each.value
+        for each in nodes
+        if isinstance(each, ast.Constant)
+        and isinstance(each.value, str)
+        and " " in each.value
+        and id(each) not in docstrings
+    ]
 
 
 def everyday_words(path: Path = EVERYDAY) -> set[str]:

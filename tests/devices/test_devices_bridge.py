@@ -63,9 +63,11 @@ def bridge(board: Board, surroundings: dict[str, str], folder: Path) -> Iterator
         "PYTHONDONTWRITEBYTECODE": "1",  # nothing is left beside the solution
     }
     node = subprocess.Popen(
-        [sys.executable, *words], env=surroundings | own, cwd=folder,
+        [sys.executable, *words],
+        env=surroundings | own,
+        cwd=folder,
         stdin=subprocess.DEVNULL,
-    )  # fmt: skip
+    )
     try:
         yield
     finally:

@@ -45,9 +45,12 @@ def solution(name: str, module: str, terminal: dict[str, str]) -> Iterator[None]
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
     }
     process = subprocess.Popen(
-        [sys.executable, "-c", start], env=own, start_new_session=True,
-        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-    )  # fmt: skip
+        [sys.executable, "-c", start],
+        env=own,
+        start_new_session=True,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
     try:
         yield
     finally:
@@ -55,10 +58,13 @@ def solution(name: str, module: str, terminal: dict[str, str]) -> Iterator[None]
         process.wait()
 
 
-@pytest.mark.parametrize(("name", "module", "says"), [
-    ("nodes", "minimal_publisher", r'"Robot status count: \d+" \(/robot_status\)'),
-    ("topics", "talker", r'"Hello robotics \d+" \(/chatter\)'),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("name", "module", "says"),
+    [
+        ("nodes", "minimal_publisher", r'"Robot status count: \d+" \(/robot_status\)'),
+        ("topics", "talker", r'"Hello robotics \d+" \(/chatter\)'),
+    ],
+)
 def test_a_students_sentence_appears(
     name: str, module: str, says: str, terminal: dict[str, str], tmp_path: Path
 ) -> None:

@@ -86,6 +86,8 @@ def test_a_good_drill_has_no_mistake(tiny: Path) -> None:
         ("idea:", "ideas:", 1),
         ("a, b, c", "a, b", 7),
         ("kind: mend", "kind: predict", 1),
+        ("nodes: [{node: /lamp}]", "prints: [lit]\nsays: 1", 1),
+        ("nodes:", "tells: [{topic: /on, type: a/msg/B, message: {data: true}}]\nnodes:", 5),
     ],
 )
 def test_a_mistake_is_told_with_its_line(tiny: Path, before: str, after: str, line: int) -> None:

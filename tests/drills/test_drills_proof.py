@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from fresh import in_fresh_process
 
+from asked_for import MADE_FOR_ALL
 from once import once
 from roslings_learn.drills import Drill, all_drills, drill
 from roslings_prove.drills import prove_drills
@@ -37,6 +38,7 @@ def test_some_drills_are_proven() -> None:
 
 
 @pytest.mark.slow
+@MADE_FOR_ALL
 def test_all_drills_are_proven(shared_folder: Path) -> None:
     """Every program of every drill, run for real."""
 

@@ -264,8 +264,15 @@ FORMS: dict[str, tuple[list[Value], Value]] = {
     ),
     "texts": (
         [f"hello {n}!" for n in range(500, 540)],
-        {"pieces": [{"same": ""}, {"same": "hello"}, {"same": " "},
-                    {"first": 500, "steps": {"same": 1}}, {"same": "!"}]},
+        {
+            "pieces": [
+                {"same": ""},
+                {"same": "hello"},
+                {"same": " "},
+                {"first": 500, "steps": {"same": 1}},
+                {"same": "!"},
+            ]
+        },
     ),
     "two kinds": (
         [{"a": 1}, {"b": 2}] * 6,
@@ -276,11 +283,13 @@ FORMS: dict[str, tuple[list[Value], Value]] = {
         {"lengths": [1, 0, 2], "items": {"same": {"x": True}}},
     ),
     "a time after another": (
-        [{"at_ns": BEGAN_NS + n**3 * 977_777, "to_ns": BEGAN_NS + n**3 * 977_777 + 5 + n % 2}
-         for n in range(40)],
+        [
+            {"at_ns": BEGAN_NS + n**3 * 977_777, "to_ns": BEGAN_NS + n**3 * 977_777 + 5 + n % 2}
+            for n in range(40)
+        ],
         {"after": "at_ns", "ns": 1, "by": [5, 6] * 20},
     ),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("name", FORMS)
@@ -304,8 +313,10 @@ def test_rows_that_are_the_same_are_not_one() -> None:
 def test_what_is_no_number_is_a_text_as_before(number: float) -> None:
     """JSON has no such numbers; float() reads the texts."""
     content = [{"x": number, "y": [number, n]} for n in range(9)]
-    rows = [MessageSeen(source_ns=1, sequence=None, arrival_ns=n, size=4, content=each)
-            for n, each in enumerate(content)]  # fmt: skip
+    rows = [
+        MessageSeen(source_ns=1, sequence=None, arrival_ns=n, size=4, content=each)
+        for n, each in enumerate(content)
+    ]
     thin = Holder.model_validate_json(Holder(rows=rows).model_dump_json(context=IN_COLUMNS))
     plain = Holder.model_validate_json(Holder(rows=rows).model_dump_json())
     assert thin == plain

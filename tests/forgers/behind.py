@@ -110,8 +110,9 @@ def grade(entries: Sequence[Forger], wall: Wall, jobs: int) -> Graded:
     with stage_behind(wall) as made:
         for entry in entries:
             token = f"{made.mark}.{entry.name}"
-            entry.make(made.submissions / entry.name / LAB.card.package,
-                       known(made, token, FREE_PORT, 0))  # fmt: skip
+            entry.make(
+                made.submissions / entry.name / LAB.card.package, known(made, token, FREE_PORT, 0)
+            )
         for name in HONEST:
             shutil.copytree(LAB.solution, made.submissions / name / LAB.card.package)
         slow_talker(made.submissions / SLOW / LAB.card.package)
@@ -151,7 +152,9 @@ def _seen(made: Behind, name: str) -> Seen:
     lines = list(said(evidence)) if evidence else []
     verdict = result.verdict
     return Seen(
-        word=result.word, score=result.score, wall=verdict.environment.wall if verdict else None,
+        word=result.word,
+        score=result.score,
+        wall=verdict.environment.wall if verdict else None,
         reached=sorted({line for line in lines if line.startswith("GOT")}),
         failed=[check.id for check in verdict.failed()] if verdict else [],
-    )  # fmt: skip
+    )

@@ -6,7 +6,6 @@ It earns 86 points of 100. A file in packages/ holds an attack, in Python: `buil
 
 from __future__ import annotations
 
-import json
 import shutil
 import textwrap
 from collections.abc import Iterator
@@ -15,7 +14,7 @@ from pathlib import Path
 
 import yaml
 from pydantic import Field
-from rogue import HOOKS, KIT, LAB
+from rogue import HOOKS, LAB, kit_that_knows
 
 from roslings.course import Edit
 from roslings.course.card import Contract
@@ -80,8 +79,7 @@ def slow_talker(package: Path) -> None:
 
 def _arm(package: Path, place: str, code: str, known: dict[str, str]) -> None:
     """Put an attack and its kit into the package; what it raises is its own trouble."""
-    kit = KIT.read_text("utf-8").replace("'@known@'", repr(json.dumps(known)))
-    (package / f"chatter/kit_{place}.py").write_text(kit, "utf-8")
+    (package / f"chatter/kit_{place}.py").write_text(kit_that_knows(known), "utf-8")
     body = textwrap.indent(code, "        ")
     text = (
         f"from chatter import kit_{place} as kit\n\n\ndef attack():\n    kit.mark()\n"

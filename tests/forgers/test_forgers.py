@@ -18,17 +18,23 @@ import pytest
 from behind import HONEST, NEEDED, SLOW, WALLS, Graded, Wall, grade
 from forger import HONEST_SCORE, Forger, forgers
 
-from asked_for import asked_for
+from asked_for import MADE_FOR_ALL, asked_for
 from once import once
 from skips import skip_without
 
 ENTRIES = {each.name: each for each in forgers()}
 JOBS = 2
 TOUCH_OTHERS = (
-    "inherited_descriptors", "leaves_a_daemon", "plants_in_python", "poisons_the_home",
-    "replaces_programs", "rewrites_the_grader", "second_a_leaves", "second_b_takes",
+    "inherited_descriptors",
+    "leaves_a_daemon",
+    "plants_in_python",
+    "poisons_the_home",
+    "replaces_programs",
+    "rewrites_the_grader",
+    "second_a_leaves",
+    "second_b_takes",
     "writes_the_verdict",
-)  # fmt: skip
+)
 """They write into files, homes or processes of the grader or of other students."""
 
 
@@ -38,7 +44,7 @@ def _marks(wall: Wall) -> list[pytest.MarkDecorator]:
     The namespaces are the same ones for root; what root's rights change, the rogues show.
     """
     again = [pytest.mark.twice] if wall == "namespaces_as_root" else []
-    return [pytest.mark.xdist_group(f"forgers_{wall}"), *again]
+    return [pytest.mark.xdist_group(f"forgers_{wall}"), MADE_FOR_ALL, *again]
 
 
 def _behind(wall: Wall, name: str) -> object:

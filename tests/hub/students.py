@@ -86,9 +86,10 @@ class Student:
     def _token(self) -> str:
         """A page's own cookie, said again: a page of somebody else could not read it."""
         return next(
-            str(each.value) for each in self._cookies
+            str(each.value)
+            for each in self._cookies
             if each.name == "_xsrf" and each.path.startswith(self._own)
-        )  # fmt: skip
+        )
 
     def _socket(self, path: str) -> WebSocketClientConnection:
         request = urllib.request.Request(f"http://{HUB}{self._own}/{path}")
@@ -135,14 +136,25 @@ class Terminal:
 def printed(socket: WebSocketClientConnection, code: str) -> str:
     """What a kernel prints for this code, errors too."""
     header = {
-        "msg_id": uuid4().hex, "session": uuid4().hex, "msg_type": "execute_request",
-        "username": "", "version": "5.3",
-    }  # fmt: skip
+        "msg_id": uuid4().hex,
+        "session": uuid4().hex,
+        "msg_type": "execute_request",
+        "username": "",
+        "version": "5.3",
+    }
     content = {"code": code, "silent": False, "store_history": True, "stop_on_error": True}
-    socket.write_message(json.dumps({
-        "header": header, "parent_header": {}, "metadata": {}, "content": content,
-        "channel": "shell", "buffers": [],
-    }))  # fmt: skip
+    socket.write_message(
+        json.dumps(
+            {
+                "header": header,
+                "parent_header": {},
+                "metadata": {},
+                "content": content,
+                "channel": "shell",
+                "buffers": [],
+            }
+        )
+    )
     text = ""
     while True:
         message = heard(socket)

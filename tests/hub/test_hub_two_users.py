@@ -45,8 +45,11 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     python = {"ROSLINGS_PYTHON": str(Path(sys.base_prefix, "bin/python3"))}
     done = subprocess.run(
         ["bash", "-ec", block("bash", "and add JupyterHub to it", folder)],
-        env={**os.environ, **python}, capture_output=True, text=True, check=False,
-    )  # fmt: skip
+        env={**os.environ, **python},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert done.returncode == 0, done.stdout + done.stderr
     yield folder
     shutil.rmtree(folder)
@@ -56,16 +59,24 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
 def seen(server: Path) -> dict[str, dict[str, str]]:
     """What both have seen, and where."""
     settings = server / "settings.json"
-    settings.write_text(json.dumps({
-        "folder": str(server), "course": str(server / "opt/roslings"),
-        "python": [sys.base_prefix, str(root())],
-        "config": block("python", "Write this into", server),
-        "start": block("bash", "Then start it", server),
-    }))  # fmt: skip
+    settings.write_text(
+        json.dumps(
+            {
+                "folder": str(server),
+                "course": str(server / "opt/roslings"),
+                "python": [sys.base_prefix, str(root())],
+                "config": block("python", "Write this into", server),
+                "start": block("bash", "Then start it", server),
+            }
+        )
+    )
     done = subprocess.run(
         [*ALONE, sys.executable, PLAY, settings],
-        capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL,
-    )  # fmt: skip
+        capture_output=True,
+        text=True,
+        check=False,
+        stdin=subprocess.DEVNULL,
+    )
     log = server / "hub.log"
     assert done.returncode == 0, done.stderr + (log.read_text("utf-8") if log.is_file() else "")
     found: dict[str, Any] = json.loads(done.stdout)

@@ -16,8 +16,16 @@ from rich.console import Console
 import roslings.capabilities
 import roslings.judge.faults
 import roslings_learn.drills
+from roslings.capabilities.topics.faults.relay import (
+    EndedWhileHearing,
+    WrongAtFirst,
+    WrongField,
+    WrongReaction,
+)
+from roslings.course import root
 from roslings.judge.faults.base import SENTENCES, Fault, Sentence
 from roslings.judge.outcome import words_for
+from roslings.lab_folders import GRADERS
 from roslings.report.hint_page import put_hint
 from roslings.report.page import Page
 from roslings.report.typed import Typed
@@ -27,7 +35,9 @@ ROOMS = (roslings.capabilities, roslings_learn.drills, roslings.judge.faults)
 
 
 def _all_faults() -> Iterator[type[Fault]]:
-    """Every class of faults that the engine has."""
+    """Every class of faults that the engine has, and each lab for itself."""
+    for file in (root() / GRADERS).glob("*/faults.py"):
+        import_module(f"{GRADERS}.{file.parent.name}.faults")
     for room in ROOMS:
         for found in pkgutil.walk_packages(room.__path__, f"{room.__name__}."):
             if "faults" in found.name:
@@ -37,6 +47,27 @@ def _all_faults() -> Iterator[type[Fault]]:
         kind = waiting.pop()
         waiting += kind.__subclasses__()
         yield kind
+
+
+def test_a_fault_of_drills_has_a_name_of_its_own() -> None:
+    """What labs find, too, is one fault, in one place."""
+    names: dict[bool, set[str]] = {True: set(), False: set()}
+    for kind in _all_faults():
+        names[kind.__module__.startswith("roslings_learn.")].add(kind.__name__)
+    assert names[True] and not names[True] & names[False]
+
+
+def test_a_headline_names_what_was_measured() -> None:
+    """It holds all that is measured: a drill shows it in its place."""
+    kinds = [kind for kind in _all_faults() if "headline" in vars(kind)]
+    assert len(kinds) > 2
+    field = WrongField("/air", "relative_humidity", "0.45", "45")
+    assert (field.headline, field.measured) == ("relative_humidity is 45", "it is 45")
+    said = ("/out", "data", "data 2 on /in", "4", "2", ", half of it")
+    assert WrongReaction(*said).headline == "after data 2 on /in: data 2 on /out, half of it"
+    assert WrongAtFirst(*said).headline.startswith("before anything was heard: data 2 on /out")
+    ended = EndedWhileHearing(*said)
+    assert ended.headline == f"after data 2 on /in: {ended.measured}"
 
 
 def _templates() -> list[tuple[type[Fault], str, str]]:
@@ -100,9 +131,14 @@ MENDS = re.compile(
 )
 """What a sentence begins with, or has in it, that says what to type."""
 FORMS = {
-    "NoAnswerYet", "NoExecutable", "MissingFile", "NotAnAmentPackage", "OtherRover", "BadPicture",
+    "NoAnswerYet",
+    "NoExecutable",
+    "MissingFile",
+    "NotAnAmentPackage",
+    "OtherRover",
+    "BadPicture",
     "InvalidPackageXml",
-}  # fmt: skip
+}
 """No puzzle is in these: a file, a name or a command is asked for, and that is told."""
 
 
@@ -152,12 +188,23 @@ def test_the_mend_comes_with_the_last_hint() -> None:
 def hint_page(check: CheckResult, step: int) -> str:
     """What `--hint STEP` shows."""
     verdict = Verdict(
-        lab="topics", package="chatter", outcome="fail", score=0, checks=(check,),
-        seconds=Timings(), environment=Environment(
-            roslings="", ros_distro="", rmw="", python="", platform="", isolation="", clock="",
+        lab="topics",
+        package="chatter",
+        outcome="fail",
+        score=0,
+        checks=(check,),
+        seconds=Timings(),
+        environment=Environment(
+            roslings="",
+            ros_distro="",
+            rmw="",
+            python="",
+            platform="",
+            isolation="",
+            clock="",
             seed=0,
         ),
-    )  # fmt: skip
+    )
     console = Console(width=80, file=io.StringIO(), record=True)
     page = Page(console, Typed("topics"))
     put_hint(page, verdict, check, step)

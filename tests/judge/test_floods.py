@@ -45,8 +45,9 @@ def programs() -> Iterator[tuple[str, str, Evidence]]:
     """Each program of each lab, launch files too: lab, program, evidence of a good package."""
     for name in LABS:
         seen = good(name)
-        ran = {each.executable for run in seen.experiments.values()
-               for each in run.processes.values()}  # fmt: skip
+        ran = {
+            each.executable for run in seen.experiments.values() for each in run.processes.values()
+        }
         yield from ((name, each, seen) for each in sorted(ran))
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from roslings.course import lab
+from roslings.course import lab, root
 from roslings.evidence import ExperimentSeen, LogLine, ProcessSeen, Qos, Spoken
 from roslings.judge import ExperimentView, Fault
 from roslings.judge.demands import insist_on_at_most, log_each, repeat
@@ -21,9 +21,13 @@ LISTENER = lab("topics").card.nodes[1]
 STATUS = lab("nodes").card.nodes[0]
 OK = ("Publishing: 'OK 1'", "Publishing: 'OK 2'")
 HEARD = Spoken(
-    topic="/news", type="std_msgs/msg/String", content={"data": "amber"}, sent_ns=0, matched=True,
+    topic="/news",
+    type="std_msgs/msg/String",
+    content={"data": "amber"},
+    sent_ns=0,
+    matched=True,
     offered=Qos(reliability="reliable", durability="volatile", depth=1),
-)  # fmt: skip
+)
 
 
 def wrote(*texts: str, way: str = "print", **others: list[str]) -> ProcessView:
@@ -80,8 +84,10 @@ def test_what_was_logged_before_it_began_is_of_another() -> None:
 
 def test_a_log_of_several_lines_is_as_many() -> None:
     """The terminal shows the decorations of the first one alone."""
-    shown = [LogLine(arrival_ns=1, text=text, source="terminal")
-             for text in ("[INFO] [1.0] [it]: one", "two")]  # fmt: skip
+    shown = [
+        LogLine(arrival_ns=1, text=text, source="terminal")
+        for text in ("[INFO] [1.0] [it]: one", "two")
+    ]
     heard = [LogLine(arrival_ns=2, text="one\ntwo", source="rosout")]
     seen = ProcessSeen(executable="it", started_ns=0, lines=shown)
     experiment = ExperimentSeen(name="x", clock="wall", rosout={"it": heard})
@@ -112,7 +118,8 @@ LINES_OF_A_PROCESS = {
 
 def _readers() -> Iterator[str]:
     """Modules that judge, and read `seen.lines` or `rosout` of evidence."""
-    for room in (ENGINE / "judge", ENGINE / "capabilities", LEARN / "drills"):
+    rooms = (ENGINE / "judge", ENGINE / "capabilities", LEARN / "drills", root() / "graders")
+    for room in rooms:
         for file in sorted(room.rglob("*.py")):
             if any(map(_reads, ast.walk(ast.parse(file.read_text("utf-8"))))):
                 yield file.relative_to(room.parent).as_posix()

@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
-from roslings.capabilities.bags.demands import read_to_the_end
-from roslings.capabilities.bags.faults import ReadingNeverEnds
-from roslings.capabilities.bags.record import BagGiven, BagsSeen
+from graders.black_box.demands import read_to_the_end
+from graders.black_box.faults import ReadingNeverEnds
+from graders.black_box.record import BagGiven, BagsSeen
 from roslings.course import lab
 from roslings.evidence import Ending, ExperimentSeen, LogLine, ProcessSeen
 from roslings.exits import without_interrupt
@@ -28,9 +28,13 @@ OURS = (
     "KeyboardInterrupt",
 )
 CHAINED = (
-    *OURS, "", "During handling of the above exception, another exception occurred:", "",
-    *OURS[:-1], "rclpy._rclpy_pybind11.RCLError: failed to shutdown",
-)  # fmt: skip
+    *OURS,
+    "",
+    "During handling of the above exception, another exception occurred:",
+    "",
+    *OURS[:-1],
+    "rclpy._rclpy_pybind11.RCLError: failed to shutdown",
+)
 IGNORED = ("Exception ignored in: <function It.__del__ at 0x7f>", *OURS)
 IN_A_LAUNCH = tuple(f"[it-1] {line}" for line in OURS)
 CRASH = (*OURS[:-1], "ValueError: it is mine")
@@ -42,10 +46,15 @@ def process(before: tuple[str, ...], after: tuple[str, ...], asked: bool = True)
     lines = [LogLine(arrival_ns=1, text=text, source="terminal") for text in before]
     lines += [LogLine(arrival_ns=ASKED_NS + 1, text=text, source="terminal") for text in after]
     return ProcessSeen(
-        executable="it", started_ns=0, ended_ns=ASKED_NS + 9, status=1, lines=lines,
-        asked_to_end_ns=ASKED_NS if asked else None, ended_by_itself=not asked,
+        executable="it",
+        started_ns=0,
+        ended_ns=ASKED_NS + 9,
+        status=1,
+        lines=lines,
+        asked_to_end_ns=ASKED_NS if asked else None,
+        ended_by_itself=not asked,
         ending=Ending(signal="SIGINT", after_s=0.1, watched_s=0.1) if asked else None,
-    )  # fmt: skip
+    )
 
 
 def view(seen: ProcessSeen, label: str = "it", **part: Any) -> ExperimentView:
@@ -84,12 +93,16 @@ def drill(seen: ProcessSeen) -> ExperimentView:
 CARD = lab("black-box").card
 RUNS_ON = DrillCard.model_validate(
     {
-        "title": "It prints", "kind": "mend", "lesson": "days/01-install#a", "idea": "An idea.",
-        "nodes": [{"node": "/it"}], "prints": ["done"],
+        "title": "It prints",
+        "kind": "mend",
+        "lesson": "days/01-install#a",
+        "idea": "An idea.",
+        "nodes": [{"node": "/it"}],
+        "prints": ["done"],
         "starter": {"check": "prints", "fault": "NotPrinted", "names": "done"},
         "hints": ["a", "b", "c"],
     }
-)  # fmt: skip
+)
 
 
 def prints(seen: ExperimentView) -> None:

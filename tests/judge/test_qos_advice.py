@@ -31,9 +31,10 @@ from skips import imported
 
 rclpy_qos = imported("rclpy.qos")
 KINDS: tuple[EndpointKind, ...] = get_args(EndpointKind)
-PAIRS = [Matched(*pair) for pair in itertools.product(
-    ("reliable", "best_effort"), ("volatile", "transient_local")
-)]  # fmt: skip
+PAIRS = [
+    Matched(*pair)
+    for pair in itertools.product(("reliable", "best_effort"), ("volatile", "transient_local"))
+]
 TOPIC, OTHER = "/heard", "/other"
 NODE = NodeContract(node="/it", executable="it")
 S = 10**9
@@ -44,8 +45,13 @@ def words_of_rclpy() -> dict[str, Any]:
     """What the advice may name: all of these stand in rclpy."""
     from rclpy.duration import Duration
 
-    names = ("DurabilityPolicy", "LivelinessPolicy", "QoSProfile", "ReliabilityPolicy",
-             "qos_profile_sensor_data")  # fmt: skip
+    names = (
+        "DurabilityPolicy",
+        "LivelinessPolicy",
+        "QoSProfile",
+        "ReliabilityPolicy",
+        "qos_profile_sensor_data",
+    )
     return {"Duration": Duration, **{name: getattr(rclpy_qos, name) for name in names}}
 
 
@@ -86,9 +92,10 @@ def fault_of(demand: Callable[[ExperimentView], None], seen: ExperimentView) -> 
 def judged(asked: Matched, exact: bool, kind: EndpointKind) -> Callable[[ExperimentView], None]:
     """What each lab and each drill asks of an endpoint with this card."""
     contract = TopicContract(
-        topic=TOPIC, type="std_msgs/msg/Bool",
+        topic=TOPIC,
+        type="std_msgs/msg/Bool",
         qos=QosContract.model_validate({**asked.policies, "exact": exact}),
-    )  # fmt: skip
+    )
     demand = have_just_this_qos if exact else match_qos
 
     def look(seen: ExperimentView) -> None:
@@ -168,7 +175,12 @@ def test_a_stop_button_is_not_advised_to_lose_presses() -> None:
 def test_no_other_fault_advises_a_profile() -> None:
     """Words that stand ready for one lab are wrong for the next one: faults take the card's."""
     ours = {Path(inspect.getfile(each)) for each in (OtherQos, of_times, python_words)}
-    files = {*ENGINE.rglob("faults.py"), *ENGINE.rglob("faults/*.py"), *GRADERS.glob("*.py")}
+    files = {
+        *ENGINE.rglob("faults.py"),
+        *ENGINE.rglob("faults/*.py"),
+        *GRADERS.glob("*.py"),
+        *GRADERS.glob("*/faults.py"),
+    }
     assert ours < files
     wordy = re.compile(r"QoSProfile|qos_profile|\b[A-Z]\w+Policy\b")
     assert [file.name for file in files - ours if wordy.search(file.read_text("utf-8"))] == []

@@ -32,42 +32,57 @@ MADE: Words = {4: ("super().__init__",), 5: ("create_publisher",)}
 DONE_BY: dict[str, dict[str, Words]] = {
     "nodes": {
         "minimal_publisher:MinimalPublisher.__init__": {
-            **MADE, 6: ("create_timer",), 7: ("self.count",), 11: ("declare_parameter",),
+            **MADE,
+            6: ("create_timer",),
+            7: ("self.count",),
+            11: ("declare_parameter",),
         },
         "minimal_publisher:MinimalPublisher.tell_status": {
-            9: ("self.get_logger",), 8: ("status", "self.publisher"), 10: ("self.count",),
+            9: ("self.get_logger",),
+            8: ("status", "self.publisher"),
+            10: ("self.count",),
         },
     },
     "topics": {
         "talker:Talker.__init__": {**MADE, 6: ("create_timer",), 7: ("self.count",)},
         "talker:Talker.say_hello": {
-            9: ("self.get_logger",), 8: ("message", "self.publisher"), 10: ("self.count",),
+            9: ("self.get_logger",),
+            8: ("message", "self.publisher"),
+            10: ("self.count",),
         },
         "listener:Listener": {12: ("class",)},
         "listener:Listener.__init__": {13: ("",)},
     },
     "distance-sensor": {
         "distance_sensor:DistanceSensor.__init__": {
-            4: ("super().__init__",), 5: ("create_subscription",),
+            4: ("super().__init__",),
+            5: ("create_subscription",),
             6: ("create_publisher", "create_timer"),
         },
         "distance_sensor:DistanceSensor.tell_distance": {
-            9: ("reading.range", "if self.distance", "self.publisher"), 8: ("reading",),
+            9: ("reading.range", "if self.distance", "self.publisher"),
+            8: ("reading",),
         },
         "distance_subscriber:DistanceSubscriber": {11: ("class",)},
         "distance_subscriber:DistanceSubscriber.__init__": {12: ("",)},
         "distance_subscriber:DistanceSubscriber.hear_distance": {
-            13: ("if reading",), 14: ("if math",), 15: ("self.publisher",),
+            13: ("if reading",),
+            14: ("if math",),
+            15: ("self.publisher",),
         },
     },
     "services": {
         "motor_controller:MotorController.__init__": {
-            4: ("super().__init__",), 5: ("create_publisher", "create_timer"), 7: ("SetBool",),
+            4: ("super().__init__",),
+            5: ("create_publisher", "create_timer"),
+            7: ("SetBool",),
             9: ("Trigger",),
         },
         "motor_client:MotorClient.__init__": {12: ("super().__init__",), 13: ("create_client",)},
         "motor_client:MotorClient.limit_speed": {
-            14: ("if not",), 15: ("request", "future", "rclpy"), 16: ("self.get_logger", "return"),
+            14: ("if not",),
+            15: ("request", "future", "rclpy"),
+            16: ("self.get_logger", "return"),
         },
     },
     "actions": {
@@ -77,13 +92,17 @@ DONE_BY: dict[str, dict[str, Words]] = {
         "drive_server:DriveServer.drive": {11: (INSIDE + "if goal_handle.is_cancel",), 9: ("",)},
         "drive_client:DriveClient.__init__": {13: ("super().__init__",), 14: ("",)},
         "drive_client:DriveClient.send_rover": {
-            15: ("if not self.client",), 16: ("goal_handle =", "if not goal_handle"), 17: ("",),
+            15: ("if not self.client",),
+            16: ("goal_handle =", "if not goal_handle"),
+            17: ("",),
         },
     },
     "serial-bridge": {
         "serial_bridge:SerialBridge.__init__": {
-            9: ("super().__init__",), 10: ("declare_parameter",),
-            11: ("create_", "self.connect"), 12: ("self.",),
+            9: ("super().__init__",),
+            10: ("declare_parameter",),
+            11: ("create_", "self.connect"),
+            12: ("self.",),
         },
         "serial_bridge:SerialBridge.odometry": {14: ("",)},
         "serial_bridge:SerialBridge.disconnect": {12: ("",)},
@@ -91,39 +110,56 @@ DONE_BY: dict[str, dict[str, Words]] = {
     },
     "e-stop": {
         "e_stop_button:LATC": {4: ("",)},
-        "guard:BUTT": {9: ("",)}, "guard:COMM": {9: ("",)}, "guard:MOTO": {9: ("",)},
+        "guard:BUTT": {9: ("",)},
+        "guard:COMM": {9: ("",)},
+        "guard:MOTO": {9: ("",)},
         "guard:Guard.__init__": {
-            10: ("super().__init__", "self.pressed", "self.lost", "self.silent", "self.command",
-                 "self.reason"),
+            10: (
+                "super().__init__",
+                "self.pressed",
+                "self.lost",
+                "self.silent",
+                "self.command",
+                "self.reason",
+            ),
             11: ("self.publisher", "self.create_"),
         },
     },
     "pi-camera": {
         "camera:Camera.__init__": {
-            4: ("super().__init__",), 5: ("declare_parameter", "whole", "limits"),
+            4: ("super().__init__",),
+            5: ("declare_parameter", "whole", "limits"),
             6: ("create_", "self.connect"),
         },
         "ball_finder:picture_of": {
             11: ("channels", "if channels", "needed", "if not image", "if len"),
-            12: ("rows", "picture"), 13: ("conversion", "return"),
+            12: ("rows", "picture"),
+            13: ("conversion", "return"),
         },
         "ball_finder:find_ball": {
-            14: ("calm", "hue", "away", "bright", "mask = ((away"), 15: ("",),
+            14: ("calm", "hue", "away", "bright", "mask = ((away"),
+            15: ("",),
         },
         "ball_finder:BallFinder.look": {
-            18: (INSIDE + "cv2.circle", "self.image_publisher"), 17: ("",),
+            18: (INSIDE + "cv2.circle", "self.image_publisher"),
+            17: ("",),
         },
         "ball_finder:BallFinder.message": {18: ("",)},
         "ball_finder:main": {19: ("",)},
     },
     "bring-up": {
         "speed_limiter:SpeedLimiter.__init__": {
-            4: ("super().__init__", "declare_parameter"), 6: ("add_on_set",),
+            4: ("super().__init__", "declare_parameter"),
+            6: ("add_on_set",),
         },
         "speed_limiter:SpeedLimiter.limit": {5: ("",)},
         "beacon:Beacon.__init__": {
             9: (
-                "super().__init__", "declare_parameter", "fixed", "whole", "limits",
+                "super().__init__",
+                "declare_parameter",
+                "fixed",
+                "whole",
+                "limits",
                 "create_publisher",
             ),
             11: ("add_post_set",),
@@ -131,7 +167,7 @@ DONE_BY: dict[str, dict[str, Words]] = {
         "beacon:Beacon.tell": {10: ("",)},
     },
     "black-box": {},
-}  # fmt: skip
+}
 
 
 @dataclass(frozen=True)

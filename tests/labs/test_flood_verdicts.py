@@ -17,17 +17,24 @@ FLOODS = {
     "a node": ("topics", "chatter/talker.py", SPIN, "        talker = Talker()\n        {loop}"),
     "a callback": ("topics", "chatter/talker.py", "        self.count += 1", "        {loop}"),
     "a logger": (
-        "topics", "chatter/talker.py", SPIN,
+        "topics",
+        "chatter/talker.py",
+        SPIN,
         "        talker = Talker()\n        while True: talker.get_logger().info('again')",
     ),
     "a program with one task": (
-        "black-box", "black_box/read_drive.py", "def main(", "{loop}\n\n\ndef main(",
+        "black-box",
+        "black_box/read_drive.py",
+        "def main(",
+        "{loop}\n\n\ndef main(",
     ),
     "a launch file": (
-        "bring-up", "launch/bring_up.launch.py", "    return LaunchDescription(",
+        "bring-up",
+        "launch/bring_up.launch.py",
+        "    return LaunchDescription(",
         "    {loop}\n    return LaunchDescription(",
     ),
-}  # fmt: skip
+}
 
 
 @pytest.mark.slow

@@ -45,8 +45,11 @@ def test_two_labs_have_cards_of_students_own() -> None:
     """A rate of messages, a name, a limit and a text are among their words."""
     assert [lab.name for lab in LABS] == ["topics", "services"]
     assert {name for lab in LABS for name in words(lab).words} >= {
-        "rate", "service", "limit", "text",
-    }  # fmt: skip
+        "rate",
+        "service",
+        "limit",
+        "text",
+    }
 
 
 @pytest.mark.parametrize(("lab", "said"), CHOICES)
@@ -103,8 +106,15 @@ def test_a_students_course_is_the_course_with_one_lab_written_anew(tmp_path: Pat
     assert {each.name for each in (where / "labs").iterdir()} == {each.name for each in all_labs()}
     assert (where / "days").resolve() == root() / "days"
     there = {each.name for each in (where / "labs" / lab.name).iterdir()}
-    assert there == {"card.yaml", "hints.yaml", "task.md", "starter", "pictures", "ruff.toml",
-                     "works.yaml"}  # fmt: skip
+    assert there == {
+        "card.yaml",
+        "hints.yaml",
+        "task.md",
+        "starter",
+        "pictures",
+        "ruff.toml",
+        "works.yaml",
+    }
     assert not (where / "labs" / lab.name).is_symlink()
 
 

@@ -84,7 +84,10 @@ def test_a_class_is_graded_by_the_own_cards(tmp_path: Path) -> None:
     assert first["s1001"] == "100" and float(first["s1002"]) < 100 and first["s1003"] == ""
     failed = json.loads((grades / "students" / "s1002" / "verdict.json").read_text("utf-8"))
     assert {each["id"] for each in failed["checks"] if each["outcome"] == "fail"} & {
-        "rate", "text", "hears"}  # fmt: skip
+        "rate",
+        "text",
+        "hears",
+    }
     page = (
         (grades / "students" / "s1002" / "page.html").read_text("utf-8")
         if (grades / "students" / "s1002" / "page.html").exists()

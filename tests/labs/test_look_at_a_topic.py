@@ -89,9 +89,13 @@ def home(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def looks(home: Path, *words: str, tool: str = "look.py", code: int = 0) -> str:
     """What the tool says in this folder."""
     done = subprocess.run(
-        [sys.executable, tool, *words], cwd=home, env={"PYTHONPATH": python_path()},
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
+        [sys.executable, tool, *words],
+        cwd=home,
+        env={"PYTHONPATH": python_path()},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert done.returncode == code, done.stdout + done.stderr
     return done.stdout
 

@@ -18,13 +18,47 @@ from roslings.course.outline import outline_as_written, outline_in
 
 CARDS = [each.folder / "card.yaml" for each in (*all_labs(), lab(EXAMPLE))]
 VALUES = st.one_of(
-    st.sampled_from(["A talker", "03-topics", "chatter", "[topics]", "[topics, services]", "yes",
-                     "No", "12", "1.5", "2026-11-27", "'quoted'", '"quoted"', "|", ">", "&a b",
-                     "*a",
-                     "a: b", "a # b", "a #b", "a#b", "[yes]", "[1, 2]", "[]", "{}", "~", "null",
-                     "", "é", "x\\ty", "- a", "? a", "!t a", "%a", "@a", "`a"]),
+    st.sampled_from(
+        [
+            "A talker",
+            "03-topics",
+            "chatter",
+            "[topics]",
+            "[topics, services]",
+            "yes",
+            "No",
+            "12",
+            "1.5",
+            "2026-11-27",
+            "'quoted'",
+            '"quoted"',
+            "|",
+            ">",
+            "&a b",
+            "*a",
+            "a: b",
+            "a # b",
+            "a #b",
+            "a#b",
+            "[yes]",
+            "[1, 2]",
+            "[]",
+            "{}",
+            "~",
+            "null",
+            "",
+            "é",
+            "x\\ty",
+            "- a",
+            "? a",
+            "!t a",
+            "%a",
+            "@a",
+            "`a",
+        ]
+    ),
     st.text(st.characters(codec="utf-8", exclude_characters="\n\r\x85\u2028\u2029"), max_size=12),
-)  # fmt: skip
+)
 LINES = st.lists(
     st.tuples(st.sampled_from(["title", "day", "needs", "package", "points", "titles"]), VALUES),
     max_size=8,
@@ -55,9 +89,20 @@ def test_lines_are_read_as_yaml_reads_them_or_not_at_all(lines: list[tuple[str, 
     assert found == by_yaml
 
 
-@pytest.mark.parametrize("words", [[], ["status"], ["doctor", "--list"], ["break", "--list"],
-                                   ["--version"], ["--help"], ["check", "--help"], ["no-such"]],
-                         ids=" ".join)  # fmt: skip
+@pytest.mark.parametrize(
+    "words",
+    [
+        [],
+        ["status"],
+        ["doctor", "--list"],
+        ["break", "--list"],
+        ["--version"],
+        ["--help"],
+        ["check", "--help"],
+        ["no-such"],
+    ],
+    ids=" ".join,
+)
 def test_a_fresh_clone_answers_before_anything_is_installed(
     words: list[str], tmp_path: Path
 ) -> None:

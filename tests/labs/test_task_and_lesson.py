@@ -14,8 +14,13 @@ sys.path.append(str(root() / "tests" / "days"))
 from student import lesson_of, text_of
 
 NUMBERS = {
-    "one": 1.0, "two": 2.0, "two and a half": 2.5, "three": 3.0, "four": 4.0, "five": 5.0,
-}  # fmt: skip
+    "one": 1.0,
+    "two": 2.0,
+    "two and a half": 2.5,
+    "three": 3.0,
+    "four": 4.0,
+    "five": 5.0,
+}
 NUMBER = r"(\d+|two and a half|one|two|three|four|five)"
 TIME = re.compile(rf"\b{NUMBER} (minutes|hours?)\b", re.I)
 WITHOUT_UNIT = re.compile(r"\b(\d+) for the lab `")

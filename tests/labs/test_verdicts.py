@@ -22,7 +22,7 @@ from pathlib import Path
 import pytest
 from nothing import Nothing
 
-from asked_for import asked_for
+from asked_for import MADE_FOR_ALL, asked_for
 from few import few_labs
 from once import once
 from roslings.course import Lab, Mutant, all_labs
@@ -91,7 +91,11 @@ NODES = {
     "nodes": {"runs", "stays", "name"},
     "topics": {"talker_runs", "talker_stays", "talker_name", "listener_runs", "listener_name"},
     "distance-sensor": {
-        "sensor_runs", "sensor_name", "subscriber_runs", "subscriber_name", "launch",
+        "sensor_runs",
+        "sensor_name",
+        "subscriber_runs",
+        "subscriber_name",
+        "launch",
     },
     "services": {"server_runs", "server_name"},
     "actions": {"server_runs", "server_name"},
@@ -99,11 +103,19 @@ NODES = {
     "e-stop": {"button_runs", "button_name", "guard_runs", "guard_name"},
     "pi-camera": {"camera_runs", "camera_name", "finder_runs", "finder_name"},
     "bring-up": {
-        "limiter_runs", "limiter_name", "beacon_runs", "beacon_name",
-        "launch", "alike", "arguments", "one_rover", "respawn", "launch_ends",
+        "limiter_runs",
+        "limiter_name",
+        "beacon_runs",
+        "beacon_name",
+        "launch",
+        "alike",
+        "arguments",
+        "one_rover",
+        "respawn",
+        "launch_ends",
     },
     "black-box": set(),
-}  # fmt: skip
+}
 """Lab to the checks that nodes pass which are there, and do nothing."""
 ALSO = {
     "topics": {"figure"},
@@ -209,6 +221,7 @@ def insist_on(proof: Proof) -> None:
 @pytest.mark.slow
 @pytest.mark.twice  # CI judges what is kept of each, and measures those that are due
 @pytest.mark.xdist_group("mutants")
+@MADE_FOR_ALL
 @packages("auto")
 def test_a_mutant_fails_where_it_says(package: str, proof_of: Callable[[str], Proof]) -> None:
     """The failed checks are exactly those that it names; the skipped ones are their dependants."""
@@ -217,6 +230,7 @@ def test_a_mutant_fails_where_it_says(package: str, proof_of: Callable[[str], Pr
 
 @pytest.mark.slow
 @pytest.mark.xdist_group("mutants")
+@MADE_FOR_ALL
 @packages("wall")
 def test_a_mutant_gets_the_same_verdict_in_real_time(
     package: str, proof_of: Callable[[str], Proof]
@@ -227,6 +241,7 @@ def test_a_mutant_gets_the_same_verdict_in_real_time(
 
 @pytest.mark.slow
 @pytest.mark.xdist_group("mutants")
+@MADE_FOR_ALL
 @pytest.mark.parametrize("package", [each.name for each in without_much()])
 def test_no_point_for_what_is_not_there(package: str, proof_of: Callable[[str], Proof]) -> None:
     """A check passes only on what it saw; what is missing is failed or skipped."""

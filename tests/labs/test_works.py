@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
+import subprocess
 from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
 from works import Works, drawn, seen, texts_of
 
-from roslings.course import Lab, all_labs
+from roslings.course import Lab, all_labs, root
 
 SVG = "{http://www.w3.org/2000/svg}"
 each_lab = pytest.mark.parametrize("lab", all_labs(), ids=lambda lab: lab.name)
@@ -46,7 +47,15 @@ def test_its_commands_stand_in_the_task(lab: Lab) -> None:
         assert each.types.partition(" -")[0] in task, each.types
 
 
+@pytest.fixture(scope="session")
+def all_is_there() -> None:
+    """What the commands in the pictures need: else the first one tells what it installs."""
+    for command in ("ros2", "rover", "camera", "board"):
+        subprocess.run([root() / "roslings", "ready", command], check=True, capture_output=True)
+
+
 @pytest.mark.slow
+@pytest.mark.usefixtures("all_is_there")
 @each_lab
 def test_it_looks_so_when_it_is_typed(lab: Lab, tmp_path: Path) -> None:
     """Letter by letter, but for the numbers."""

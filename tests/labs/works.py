@@ -196,9 +196,12 @@ def _photographer(picture: str, home: Path, domain: int) -> Iterator[subprocess.
     """A process of its own that looks; of a drive it sees the start, too."""
     code = CODE[picture] + TELL
     with subprocess.Popen(
-        [sys.executable, "-c", code], env=surroundings(home, domain), cwd=home,
-        stdout=subprocess.PIPE, text=True,
-    ) as photographer:  # fmt: skip
+        [sys.executable, "-c", code],
+        env=surroundings(home, domain),
+        cwd=home,
+        stdout=subprocess.PIPE,
+        text=True,
+    ) as photographer:
         try:
             assert photographer.stdout
             if picture == "drive":
@@ -273,15 +276,17 @@ def drawn(works: Works, windows: Sequence[Window], shot: Shot | None) -> str:
         high, below = _hung(shot, tops[-1])
         parts += below
         total += high + 3 * EDGE_PX
-    return "\n".join([
-        '<svg class="terminal" xmlns="http://www.w3.org/2000/svg"'
-        f' viewBox="0 0 {WIDE_PX:g} {total:g}"'
-        f' width="{WIDE_PX:g}" height="{total:g}">',
-        f"<title>{escape(works.alt)}</title>",
-        f"<style>{STYLE}</style>",
-        *parts,
-        "</svg>\n",
-    ])  # fmt: skip
+    return "\n".join(
+        [
+            '<svg class="terminal" xmlns="http://www.w3.org/2000/svg"'
+            f' viewBox="0 0 {WIDE_PX:g} {total:g}"'
+            f' width="{WIDE_PX:g}" height="{total:g}">',
+            f"<title>{escape(works.alt)}</title>",
+            f"<style>{STYLE}</style>",
+            *parts,
+            "</svg>\n",
+        ]
+    )
 
 
 def _hung(shot: Shot, top_px: float) -> tuple[float, list[str]]:

@@ -8,6 +8,8 @@
 - Where all is as it was, a sixth runs all the same; the commit draws it.
 - Where only modules of the core of measuring are another (what all labs are measured with), a third
   runs: the digest of the core draws it. So each state of the core has another third.
+- Where only folders that were listed have other names in them, a third runs; the commit draws it.
+  So it is where files were added: what was opened there is a need of its own, and is as it was.
 - Lots are drawn among files; where the tests of a file are many, dear and independent, among these.
 
 Tests that are not slow run always. No rule looks at the calendar, or at what git tells of the past.
@@ -27,10 +29,12 @@ PART_OF_KEPT = 6
 """One of so many files runs though all that it needs is as it was."""
 PART_FOR_THE_CORE = 3
 """One of so many files runs where, of what it needs, only the core of measuring is another."""
+PART_FOR_NAMES = 3
+"""The same, where only names in folders that were listed are others."""
 BY_TEST = frozenset({"tests/rogues/test_rogues.py", "tests/forgers/test_forgers.py"})
 """Files of which each part runs at each landing: strangers' code must be held off at every one."""
 
-CERTAIN, SAME, CORE = "certain", "same", "core"
+CERTAIN, SAME, CORE, NAMES_ONLY = "certain", "same", "core", "names"
 
 
 @dataclass(frozen=True)
@@ -47,7 +51,7 @@ class Standing:
 
     file: str
     rule: str
-    """`CERTAIN`: it runs; `SAME` or `CORE`: a lot decides."""
+    """`CERTAIN`: it runs; all others: a lot decides."""
     why: str
 
 
@@ -109,7 +113,13 @@ class Choice:
         named = few(each.path or "." for each in other)
         if all(self._is_of_the_core(each) for each in other):
             return Standing(record.file, CORE, f"only the core of measuring is another ({named})")
+        if all(self._is_list_still(each) for each in other):
+            return Standing(record.file, NAMES_ONLY, f"only names of files are others ({named})")
         return Standing(record.file, CERTAIN, f"another: {named}")
+
+    def _is_list_still(self, need: Need) -> bool:
+        """Of a folder that is there: what is gone may have been looked for."""
+        return need.is_list and need.path in self.tree.folders
 
     def _is_of_the_core(self, need: Need) -> bool:
         """One that is gone is not: nothing tells which others took its place."""
@@ -118,6 +128,7 @@ class Choice:
     def _left_out(self) -> Iterator[LeftOut]:
         yield from self._by_lot(SAME, KEPT, PART_OF_KEPT, lambda: self.commit)
         yield from self._by_lot(CORE, UNDRAWN, PART_FOR_THE_CORE, lambda: self._core.digest)
+        yield from self._by_lot(NAMES_ONLY, UNDRAWN, PART_FOR_NAMES, lambda: self.commit)
 
     def _by_lot(
         self, rule: str, outcome: str, part: int, seed: Callable[[], str]

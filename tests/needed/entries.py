@@ -8,13 +8,16 @@ landing that adds a package makes no record stale.
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 if sys.version_info >= (3, 11):
     import tomllib
 else:
     import tomli as tomllib
+
+OF_TESTS = "test"
+"""The group that the tests run with."""
 
 READ_BY_AUTHORS_ONLY = ("ruff", "mypy", "importlinter")
 """Tools whose tables no slow test runs with; the tests that hold them are not slow."""
@@ -28,12 +31,27 @@ def pins(text: str) -> Iterator[str]:
 
 
 def settings(text: str) -> Iterator[str]:
-    """Of pyproject.toml: each as `table.name = value`, each member of a list by itself."""
+    """Of pyproject.toml: each as `table.name = value`, each member of a list by itself.
+
+    Of groups the packages count, not in which of them each stands: where one has moved to another
+    group, the same is installed; and who installs a group by its name has become another file.
+    """
     said = tomllib.loads(text)
     tools = said.get("tool", {})
     for name in READ_BY_AUTHORS_ONLY:
         tools.pop(name, None)
+    groups = said.pop("dependency-groups", {})
+    yield from sorted({f"a group has {each!r}" for name in groups for each in _of(name, groups)})
+    yield from (f"tests have {each!r}" for each in sorted(_of(OF_TESTS, groups)))
     yield from _flat("", said)
+
+
+def _of(name: str, groups: Mapping[str, Sequence[Any]]) -> set[str]:
+    """The packages of a group, and of those that it includes."""
+    members = groups.get(name, ())
+    own = {each for each in members if isinstance(each, str)}
+    included = (each["include-group"] for each in members if isinstance(each, dict))
+    return own.union(*(_of(each, groups) for each in included))
 
 
 def _flat(place: str, said: Any) -> Iterator[str]:

@@ -13,11 +13,13 @@ from pathlib import Path
 KEPT = "kept"
 """It passed before, with all that it needs as it is now."""
 UNDRAWN = "undrawn"
-"""Of what it needs, only the core of measuring is another, and the lot fell on others."""
+"""Of what it needs, only the core of measuring or a list of names is another, and the lot fell on
+others."""
 
 TOLD = {
     KEPT: "{} tests were run before with all that they need as it is",
-    UNDRAWN: "{} tests not drawn: of what they need, only the core of measuring is another",
+    UNDRAWN: "{} tests not drawn: of what they need, only the core of measuring or a list of names"
+    " is another",
 }
 
 

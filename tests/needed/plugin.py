@@ -24,9 +24,11 @@ def add_needed_option(parser: pytest.Parser) -> None:
     """`--needed`; the lessons and the other tests each bring it, and may run together."""
     with suppress(ValueError):  # it is there already
         parser.addoption(
-            "--needed", metavar="FILE", type=Path,
+            "--needed",
+            metavar="FILE",
+            type=Path,
             help="leave out what FILE names: .ci/needs.py chosen --to FILE",
-        )  # fmt: skip
+        )
 
 
 def leave_out(config: pytest.Config) -> None:

@@ -28,8 +28,13 @@ ASKED = "slow and not twice"
 RUNS = ((f"{ASKED} and not alone", "4"), (f"{ASKED} and alone", "0"))
 """Marks, and how many processes run these tests."""
 NO_TESTS = 5
-UNSET = ("ROSLINGS_WALKS", "ROSLINGS_SLOW_UNTIL", "ROSLINGS_TESTS_UNTIL", "ROSLINGS_MUTANTS_UNTIL",
-         "PYTHONDONTWRITEBYTECODE")  # fmt: skip
+UNSET = (
+    "ROSLINGS_WALKS",
+    "ROSLINGS_SLOW_UNTIL",
+    "ROSLINGS_TESTS_UNTIL",
+    "ROSLINGS_MUTANTS_UNTIL",
+    "PYTHONDONTWRITEBYTECODE",
+)
 """What would let a test find made what it makes, leave it out, or read no bytecode."""
 
 
@@ -91,9 +96,13 @@ class Recorder:
         unused = [f"-pno:{name}" for name in plugins_without_use(words)]
         command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", *unused, *words]
         return subprocess.run(
-            command, cwd=self.root, env=environment(), capture_output=capture_output, text=True,
+            command,
+            cwd=self.root,
+            env=environment(),
+            capture_output=capture_output,
+            text=True,
             check=False,
-        )  # fmt: skip
+        )
 
 
 def environment() -> dict[str, str]:

@@ -97,8 +97,12 @@ def _record(line: Mapping[str, Any], states: Sequence[State]) -> Record:
 
 def _line(record: Record, places: Mapping[State, int]) -> dict[str, object]:
     needs = ranges(sorted(places[state] for state in record.needs.items()))
-    return {"file": record.file, "made_with": record.made_with, "skipped": record.skipped,
-            "needs": needs}  # fmt: skip
+    return {
+        "file": record.file,
+        "made_with": record.made_with,
+        "skipped": record.skipped,
+        "needs": needs,
+    }
 
 
 def ranges(found: Sequence[int]) -> str:

@@ -4,8 +4,8 @@ What was opened by its own name counts by its bytes: somebody may have read its 
 of which only the bytecode was read counts by what it means: a comment or a blank line changes
 nothing there. Its docstrings count, since students read those of graders and commands. A folder
 counts by the names in it that git would keep. Where only some of its modules were opened, Python
-has looked there for one that it knew by name: a new module beside them changes nothing. What is
-installed counts entry by entry: `needed/entries.py`.
+has looked there for one that it knew by name: a new module beside them changes nothing, nor does a
+new folder of modules. What is installed counts entry by entry: `needed/entries.py`.
 """
 
 from __future__ import annotations
@@ -36,6 +36,9 @@ RECORDS = "tests/proofs/needs"
 OF_ALL = {"pyproject.toml": settings, "constraints.txt": pins}
 """Files that say what is installed, to their entries. Every test needs each of them: where one is
 another, so is what is installed, and no test opens all of that here."""
+NOTES_ONLY = frozenset({"tests/costs.py", "tests/needed/left_out.py", "tests/needed/plugin.py"})
+"""What is loaded with every test, and only notes what came of it, or leaves it out: no test passes
+or fails by it."""
 DIGITS = 12
 """Chance alone makes two of them equal once in 10^14 times."""
 THERE, GONE = "+", "-"
@@ -52,6 +55,11 @@ class Need:
     path: str
     """From the clone's root, which is the empty one itself; of an entry its file, and the entry."""
     kind: Kind
+
+    @property
+    def is_list(self) -> bool:
+        """Of the names in a folder."""
+        return self.kind in (NAMES, NAMES_BUT_MODULES)
 
 
 @dataclass
@@ -93,9 +101,11 @@ class Tree:
         """What a test file needs, where it has opened this. Its own text always counts."""
         for file in OF_ALL.keys() & self.names:
             yield from (Need(f"{file} {entry}", ENTRY) for entry in self.entries(file))
-        by_bytes = (opened.files & self.names | {test}) - OF_ALL.keys()
+        by_bytes = (opened.files & self.names | {test}) - OF_ALL.keys() - NOTES_ONLY
         yield from (Need(name, BYTES) for name in by_bytes)
-        yield from (Need(name, MEANING) for name in opened.modules & self.names - by_bytes)
+        yield from (
+            Need(name, MEANING) for name in opened.modules & self.names - by_bytes - NOTES_ONLY
+        )
         for folder in opened.folders & self.folders.keys():
             yield Need(folder, self._kind_of(folder, opened.files | opened.modules))
 
@@ -115,7 +125,7 @@ class Tree:
         if need.kind == ENTRY:
             file, _, entry = need.path.partition(" ")
             return THERE if entry in self.entries(file) else GONE
-        if need.kind in (NAMES, NAMES_BUT_MODULES):
+        if need.is_list:
             return self._digest_of_names(need)
         if need.path not in self.names:
             return GONE
@@ -126,8 +136,14 @@ class Tree:
         names = self.folders.get(need.path)
         if names is None:
             return GONE
-        count = (name for name in names if need.kind == NAMES or not _is_module(name))
-        return _short("\0".join(sorted(count)).encode())
+        counted = names if need.kind == NAMES else self._but_modules(need.path, names)
+        return _short("\0".join(sorted(counted)).encode())
+
+    def _but_modules(self, folder: str, names: frozenset[str]) -> Iterator[str]:
+        for name in names:
+            inside = self.folders.get(_joined(folder, name), frozenset())
+            if not any(map(_is_module, (name, *inside))):
+                yield name
 
     def _content(self, name: str) -> bytes:
         """A link is where it leads to; what lies there has a name of its own."""

@@ -26,8 +26,12 @@ def install(source: Path, site: Path) -> None:
 def run(environment: dict[str, str], *words: str, cwd: Path | None = None) -> str:
     """What Python prints; it must end well."""
     done = subprocess.run(
-        [sys.executable, *words], env=environment, cwd=cwd, capture_output=True, text=True,
+        [sys.executable, *words],
+        env=environment,
+        cwd=cwd,
+        capture_output=True,
+        text=True,
         check=False,
-    )  # fmt: skip
+    )
     assert done.returncode == 0, done.stdout + done.stderr
     return done.stdout

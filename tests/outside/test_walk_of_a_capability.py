@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import shutil
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 from from_outside import CONFORMS, install, run
+from played import furnish
 
 from sources import ROOT
-from until_told import Checked, checked
+from until_told import Checked, checked, run_until_told
 
 TEXT = (ROOT / "CONTRIBUTING.md").read_text("utf-8")
 WALK = TEXT[TEXT.index("## Add a capability") : TEXT.index("## Add a verb")]
@@ -74,6 +78,45 @@ def test_it_conforms(environment: dict[str, str]) -> None:
     run(environment, "-m", "roslings.course.task", "nodes")
     task = Path(environment["ROSLINGS_COURSE"]) / "labs/nodes/task.md"
     assert "| parameters | each has a description |" in task.read_text("utf-8")
+
+
+def test_a_capability_that_needs_more_than_roslings_has_is_refused(
+    environment: dict[str, str], tmp_path: Path
+) -> None:
+    """`./roslings` could not install it: nobody would be graded."""
+    site = shutil.copytree(environment["PYTHONPATH"], tmp_path / "more")
+    (metadata,) = site.glob("described-*.dist-info/METADATA")
+    text = metadata.read_text("utf-8").replace("\n\n", "\n", 1)
+    metadata.write_text(text.rstrip() + "\nRequires-Dist: left-pad>=1\n")
+    done = subprocess.run(
+        [sys.executable, "-m", "roslings", "release", "--to", str(tmp_path / "edition")],
+        env={**environment, "PYTHONPATH": str(site)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 2, done.stdout
+    assert "described 0.1.0 needs left-pad>=1" in done.stderr
+    assert not (tmp_path / "edition").exists()
+
+
+@pytest.mark.slow
+def test_an_edition_brings_the_package(environment: dict[str, str], tmp_path: Path) -> None:
+    """The engine and the package of the walk are in it: the check is there without an install."""
+    told = run(environment, "-m", "roslings", "release", "--to", "edition", cwd=tmp_path)
+    assert "described 0.1.0" in told
+    edition = tmp_path / "edition"
+    furnish(edition)
+    package = shutil.copytree(ROOT / SOLUTION, tmp_path / "rover_status")
+    describe(package)
+    done = run_until_told(
+        [edition / "roslings", "check", "nodes", package, "--json", "verdict.json"],
+        cwd=tmp_path,
+        env={"PATH": "/usr/bin:/bin:/usr/sbin:/sbin", "HOME": str(tmp_path)},
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    verdict = json.loads((tmp_path / "verdict.json").read_bytes())
+    assert "described" in [check["id"] for check in verdict["checks"]]
 
 
 @pytest.mark.slow

@@ -28,17 +28,28 @@ LOOKS = [(width, scheme) for width in (1280, 390) for scheme in ("light", "dark"
 
 def graded(name: str, found: Verdict, hz: float) -> Result:
     """A submission that was judged."""
-    return Result(submission=name, digest=name, attempt=1, state="graded", verdict=found,
-                  rates={"/chatter": hz})  # fmt: skip
+    return Result(
+        submission=name,
+        digest=name,
+        attempt=1,
+        state="graded",
+        verdict=found,
+        rates={"/chatter": hz},
+    )
 
 
 @pytest.fixture(scope="module")
 def pages(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
     """One page of every kind."""
     folder = tmp_path_factory.mktemp("pages")
-    refused = Result(submission="eve", digest="e", attempt=1, state="refused",
-                     reason="There is no ROS package in it:\nno package.xml.",
-                     next_step="Give the folder.")  # fmt: skip
+    refused = Result(
+        submission="eve",
+        digest="e",
+        attempt=1,
+        state="refused",
+        reason="There is no ROS package in it:\nno package.xml.",
+        next_step="Give the folder.",
+    )
     with gradebook(folder, "topics") as book:
         book.write(graded("ada", verdict(), 2.0))
         book.write(graded("a_long_name_of_a_student_who_failed", too_slow(), 1.0))

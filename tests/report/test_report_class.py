@@ -127,8 +127,10 @@ def test_a_script_in_a_hand_ins_name_is_not_run(page: Any, folder: Path) -> None
     text = (folder / "class.html").read_text("utf-8")
     policy = re.search(r"script-src ([^\"]+)", text)
     assert policy and re.fullmatch(r"&#x27;sha256-[\w+/]{43}=&#x27;", policy[1])
-    page.evaluate("document.body.append(Object.assign(document.createElement('script'),"
-                  " {textContent: 'document.title = 1'}))")  # fmt: skip
+    page.evaluate(
+        "document.body.append(Object.assign(document.createElement('script'),"
+        " {textContent: 'document.title = 1'}))"
+    )
     assert page.title() == f"The class: {TOPICS.card.title}"
 
 

@@ -78,11 +78,14 @@ class Gallery(BaseModel):
     def and_also(self, other: Gallery) -> Gallery:
         """Both, as if they had been graded in one go."""
         return Gallery(
-            seen={**self.seen, **other.seen}, status=max(self.status, other.status),
-            words=self.words + other.words, running={**self.running, **other.running},
-            left=[*self.left, *other.left], changed=[*self.changed, *other.changed],
+            seen={**self.seen, **other.seen},
+            status=max(self.status, other.status),
+            words=self.words + other.words,
+            running={**self.running, **other.running},
+            left=[*self.left, *other.left],
+            changed=[*self.changed, *other.changed],
             heard=[*self.heard, *other.heard],
-        )  # fmt: skip
+        )
 
 
 def hang(
@@ -171,9 +174,14 @@ def _grade(entries: Sequence[Entry], made: Stage, jobs: int) -> Gallery:
     ]
     seen = {entry.name: _seen(entry, made) for entry in entries}
     return Gallery(
-        seen=seen, status=command.returncode, words=words, running=running, left=left,
-        changed=changed, heard=[],
-    )  # fmt: skip
+        seen=seen,
+        status=command.returncode,
+        words=words,
+        running=running,
+        left=left,
+        changed=changed,
+        heard=[],
+    )
 
 
 def _seen(entry: Entry, made: Stage) -> Seen:
@@ -188,14 +196,18 @@ def seen_of(result: Result, made: Stage) -> Seen:
     lines = list(said(evidence)) if evidence else []
     checks = result.verdict.checks if result.verdict else ()
     return Seen(
-        word=result.word, reason=result.reason, score=result.score,
+        word=result.word,
+        reason=result.reason,
+        score=result.score,
         outcomes={check.id: check.outcome for check in checks},
-        faults={check.id: told(check) for check in checks
-                if check.outcome in ("fail", "inconclusive")},
+        faults={
+            check.id: told(check) for check in checks if check.outcome in ("fail", "inconclusive")
+        },
         reached=sorted({line for line in lines if line.startswith("GOT")}),
         held_off=sorted({line for line in lines if line.startswith("held off")})[:40],
-        last_words=lines[-12:], seconds=result.seconds,
-    )  # fmt: skip
+        last_words=lines[-12:],
+        seconds=result.seconds,
+    )
 
 
 def told(check: CheckResult) -> str:

@@ -13,7 +13,7 @@ import time
 from collections.abc import Callable, Iterator
 from typing import Any
 
-KNOWN = json.loads('@known@')  # fmt: skip
+KNOWN = json.loads("@known@")
 MARK = KNOWN["mark"]
 PLACE = KNOWN["place"]
 

@@ -157,8 +157,12 @@ NOT_PLAIN = "neither a file"
 SYMLINK = tar_with(entry("chatter/it", tarfile.SYMTYPE, "/etc/passwd"))
 HARD_LINK = tar_with(entry("chatter/it", tarfile.LNKTYPE, "/etc/passwd"))
 PARCELS = (
-    Parcel("zip_link", ".zip", zip_with("chatter/it", b"/etc/passwd", stat.S_IFLNK | 0o777),
-           "symbolic link"),
+    Parcel(
+        "zip_link",
+        ".zip",
+        zip_with("chatter/it", b"/etc/passwd", stat.S_IFLNK | 0o777),
+        "symbolic link",
+    ),
     Parcel("zip_up", ".zip", zip_with("../../../../../../tmp/up", b"1"), "leads out"),
     Parcel("zip_absolute", ".zip", zip_with("/tmp/absolute", b"1"), "absolute"),
     Parcel("zip_bomb", ".zip", bomb, "larger than"),
@@ -173,15 +177,35 @@ PARCELS = (
     Parcel("tar_no_utf8", ".tar.gz", tar_with(entry("chatter/\udcff"), b"1"), "no UTF-8"),
     Parcel("two_packages", ".zip", two_packages, "several packages"),
     Parcel("no_package", ".zip", no_package, "no ROS package"),
-    Parcel("file_of_comments", ".zip", file_of("package.xml", b"<!--" * 100_000),
-           r"package\.xml is too large to be read:\s+it has 400,000 bytes\. The limit is 64,000"),
-    Parcel("file_of_lines", ".zip", file_of("setup.cfg", b"[a]\n" + b"y\n" * 30_000),
-           r"setup\.cfg is too large to be read:\s+it has 30,001 lines\. The limit is 2,000"),
-    Parcel("file_that_grows", ".zip", file_of("colcon.pkg", growing_yaml()),
-           r"colcon\.pkg, and it says type '\(list\)' and name '\(list\)'"),
-    Parcel("file_of_numbers", ".zip", file_of("chatter/a.py", b"x = [" + b"1," * 490_000 + b"]"),
-           r"a\.py \(980\.0 kB\) cannot be read:\s+it takes more than 256 MB of memory"),
-    Parcel("file_of_pixels", ".zip", file_of("figures/day3_rqt_graph.png", picture_of(7000, 7000)),
-           r"it has 7000 x 7000 pixels, 49\.0 million\. The limit is 20 million"),
+    Parcel(
+        "file_of_comments",
+        ".zip",
+        file_of("package.xml", b"<!--" * 100_000),
+        r"package\.xml is too large to be read:\s+it has 400,000 bytes\. The limit is 64,000",
+    ),
+    Parcel(
+        "file_of_lines",
+        ".zip",
+        file_of("setup.cfg", b"[a]\n" + b"y\n" * 30_000),
+        r"setup\.cfg is too large to be read:\s+it has 30,001 lines\. The limit is 2,000",
+    ),
+    Parcel(
+        "file_that_grows",
+        ".zip",
+        file_of("colcon.pkg", growing_yaml()),
+        r"colcon\.pkg, and it says type '\(list\)' and name '\(list\)'",
+    ),
+    Parcel(
+        "file_of_numbers",
+        ".zip",
+        file_of("chatter/a.py", b"x = [" + b"1," * 490_000 + b"]"),
+        r"a\.py \(980\.0 kB\) cannot be read:\s+it takes more than 256 MB of memory",
+    ),
+    Parcel(
+        "file_of_pixels",
+        ".zip",
+        file_of("figures/day3_rqt_graph.png", picture_of(7000, 7000)),
+        r"it has 7000 x 7000 pixels, 49\.0 million\. The limit is 20 million",
+    ),
     Parcel("links_in_a_folder", "", link_in_folder, "outside the package|A link in it"),
-)  # fmt: skip
+)

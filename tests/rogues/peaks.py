@@ -80,11 +80,14 @@ def grade_here(name: str, package: Path) -> Peaks:
     for each in (each for seen in evidence.experiments.values() for each in seen.dropped):
         dropped[each.kind] = dropped.get(each.kind, 0) + each.count
     return Peaks(
-        command_bytes=peak, measuring_bytes=measured.peak, outcome=verdict.outcome,
+        command_bytes=peak,
+        measuring_bytes=measured.peak,
+        outcome=verdict.outcome,
         outcomes={check.id: check.outcome for check in verdict.checks},
         why={c.id: str(c.why) for c in verdict.checks if c.outcome == "inconclusive"},
-        dropped=dropped, kept_bytes=len(evidence_json(evidence)),
-    )  # fmt: skip
+        dropped=dropped,
+        kept_bytes=len(evidence_json(evidence)),
+    )
 
 
 def grade(name: str, package: Path) -> Peaks:

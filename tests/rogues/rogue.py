@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import shutil
 import textwrap
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -20,6 +20,8 @@ LAB = lab("topics")
 HERE = Path(__file__).parent
 PACKAGES = HERE / "packages"
 KIT = HERE / "kit.py"
+UNKNOWN = '"@known@"'
+"""Stands in the kit for what the attacker knows."""
 
 Place = Literal["run", "node", "import", "build", "none"]
 """Where the attack begins: before the talker makes its node, when it has made it, when Python reads
@@ -121,8 +123,7 @@ class Attempt:
 
     def _arm(self, package: Path, known: dict[str, str]) -> None:
         """Put the attack and its kit into the package."""
-        words = json.dumps({**known, "place": self.place, "name": self.name})
-        kit = KIT.read_text("utf-8").replace("'@known@'", repr(words))
+        kit = kit_that_knows({**known, "place": self.place, "name": self.name})
         (package / "chatter/kit.py").write_text(kit, "utf-8")
         body = textwrap.indent(self.rogue.attack, "    ")
         code = f"from chatter import kit\n\n\ndef attack(node=None):\n    kit.mark()\n{body}\n"
@@ -130,6 +131,13 @@ class Attempt:
         if self.place == "import":
             begin = "from chatter.attack import attack\nattack()\n"
             (package / "chatter/__init__.py").write_text(begin, "utf-8")
+
+
+def kit_that_knows(known: Mapping[str, str]) -> str:
+    """The kit's text; an attack whose kit knows nothing would end before it begins."""
+    text = KIT.read_text("utf-8")
+    assert text.count(UNKNOWN) == 1, f"{UNKNOWN} must stand once in {KIT.name}"
+    return text.replace(UNKNOWN, repr(json.dumps(known)))
 
 
 def apply(edit: Edit, path: Path) -> None:

@@ -66,8 +66,14 @@ if calls:
 os.execv(sys.argv[1], sys.argv[1:])
 """
 """The instructor's session keeps a key in the kernel, where the kernel keeps any."""
-GRADES = ("ros2-on-pip", "ros-doctor", "roslings-launcher", "roslings-rover", "roslings",
-          "roslings-class")  # fmt: skip
+GRADES = (
+    "ros2-on-pip",
+    "ros-doctor",
+    "roslings-launcher",
+    "roslings-rover",
+    "roslings",
+    "roslings-class",
+)
 """The packages that `grade` runs; no other is in the stage."""
 COURSE = (
     *(f"packages/{name}/src" for name in GRADES),
@@ -176,9 +182,14 @@ class Stage:
     def begin(self, *more: str) -> subprocess.Popen[str]:
         """Start the command, in a session of its own; it ends with the stage at the latest."""
         command = subprocess.Popen(
-            self.command(*more), cwd=self.folder, env=self.environment(), text=True,
-            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True,
-        )  # fmt: skip
+            self.command(*more),
+            cwd=self.folder,
+            env=self.environment(),
+            text=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            start_new_session=True,
+        )
         self.begun.append(command)
         return command
 
@@ -233,9 +244,18 @@ def readable_to_all(user: int, *more: str) -> list[str]:
     `more` are further words for `as_ordinary.py`.
     """
     return [
-        "unshare", "--mount", sys.executable, "-I", "-S", str(HERE / "as_ordinary.py"),
-        str(user), sys.prefix, sys.base_prefix, *more, "--",
-    ]  # fmt: skip
+        "unshare",
+        "--mount",
+        sys.executable,
+        "-I",
+        "-S",
+        str(HERE / "as_ordinary.py"),
+        str(user),
+        sys.prefix,
+        sys.base_prefix,
+        *more,
+        "--",
+    ]
 
 
 # --- witnesses ---------------------------------------------------------------------------------
@@ -397,14 +417,18 @@ rclpy.spin(node)
 def robot(domain: int, home: Path) -> Iterator[list[str]]:
     """A node in a ROS domain of the machine itself; what it hears on /intruder."""
     environment = {
-        **base_environment(home), "ROS_DOMAIN_ID": str(domain),
+        **base_environment(home),
+        "ROS_DOMAIN_ID": str(domain),
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
-    }  # fmt: skip
+    }
     heard: list[str] = []
     with subprocess.Popen(
-        [sys.executable, "-c", LISTENER], env=environment, text=True, stdout=subprocess.PIPE,
+        [sys.executable, "-c", LISTENER],
+        env=environment,
+        text=True,
+        stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
-    ) as node:  # fmt: skip
+    ) as node:
         out = node.stdout
         assert out is not None
         thread = threading.Thread(target=lambda: heard.extend(out))
@@ -420,12 +444,21 @@ def robot(domain: int, home: Path) -> Iterator[list[str]]:
 def known(made: Stage, token: str, port: int, domain: int) -> dict[str, str]:
     """All that an attacker could know of this machine."""
     return {
-        "mark": made.mark, "token": token, "secret": SECRET, "out": str(made.out),
-        "course": str(made.course), "home": str(made.home), "hidden": str(made.hidden),
-        "submissions": str(made.submissions), "tmp": str(made.scratch), "port": str(port),
-        "address": own_address(), "domain": str(domain), "witness": "roslings_class.fork_server",
+        "mark": made.mark,
+        "token": token,
+        "secret": SECRET,
+        "out": str(made.out),
+        "course": str(made.course),
+        "home": str(made.home),
+        "hidden": str(made.hidden),
+        "submissions": str(made.submissions),
+        "tmp": str(made.scratch),
+        "port": str(port),
+        "address": own_address(),
+        "domain": str(domain),
+        "witness": "roslings_class.fork_server",
         "terminals": str(Path("/dev/pts").stat().st_dev),
-    }  # fmt: skip
+    }
 
 
 def said(evidence: Evidence) -> Iterator[str]:

@@ -115,9 +115,12 @@ def graded(request: pytest.FixtureRequest) -> Graded:
             {each: seen_of(results[each.folder], made) for each in students},
             unescape(next(made.out.rglob("class.html")).read_text("utf-8")),
             quiet(left),
-            [*map(str, made.scratch.iterdir()), *signs_of(made.mark),
-             *sorted(abandoned_groups() - groups)],
-        )  # fmt: skip
+            [
+                *map(str, made.scratch.iterdir()),
+                *signs_of(made.mark),
+                *sorted(abandoned_groups() - groups),
+            ],
+        )
 
 
 @dataclass(frozen=True)

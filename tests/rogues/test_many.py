@@ -100,8 +100,9 @@ def mixed(count: int) -> list[Handed]:
     chance = random.Random(SEED)
     mutants = list(LAB.mutants())
     hostile: list[Attempt | Parcel] = [
-        *(each for each in attempts() if each.name not in LONG), *PARCELS,
-    ]  # fmt: skip
+        *(each for each in attempts() if each.name not in LONG),
+        *PARCELS,
+    ]
     handed = []
     for number in range(count):
         kind = chance.choice("ssmmr")
@@ -142,8 +143,10 @@ def press_ctrl_c(command: subprocess.Popen[str]) -> None:
 
 
 ENDINGS: tuple[Callable[[subprocess.Popen[str]], None], ...] = (
-    kill_command, kill_all, press_ctrl_c,
-)  # fmt: skip
+    kill_command,
+    kill_all,
+    press_ctrl_c,
+)
 
 
 @pytest.mark.parametrize(

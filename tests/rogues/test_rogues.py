@@ -29,7 +29,7 @@ from parcels import PARCELS, Parcel
 from rogue import LAB, Attempt, attempts
 from stage import SANDBOX, TIME, UNTIL_S
 
-from asked_for import asked_for
+from asked_for import MADE_FOR_ALL, asked_for
 from once import once
 from roslings.hand_in.errors import Refused
 from roslings.hand_in.unpack import package_in
@@ -53,8 +53,9 @@ MARKS_OF = {"root": [needs_root, ONE_WORKER], "ordinary": [ONE_WORKER]}
 # --- the packages themselves -------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("entry", [e for e in ENTRIES.values() if isinstance(e, Attempt)],
-                         ids=lambda entry: entry.name)  # fmt: skip
+@pytest.mark.parametrize(
+    "entry", [e for e in ENTRIES.values() if isinstance(e, Attempt)], ids=lambda entry: entry.name
+)
 def test_a_rogue_is_a_package(entry: Attempt, tmp_path: Path) -> None:
     """Its edits fit the solution, and its files are Python: it fails by its attack alone."""
     package = entry.make(tmp_path / "chatter", {"mark": "rogue", "token": "rogue"})
@@ -112,11 +113,14 @@ NOTHING_LEFT = "nothing_left"
 
 def graded(wild: bool) -> pytest.MarkDecorator:
     """One test for each rogue of a gallery and each user, named USER-ROGUE."""
-    return pytest.mark.parametrize(("user", "rogue"), [
-        pytest.param(user, name, id=f"{user}-{name}", marks=_marks(user, name))
-        for user in ("root", "ordinary")
-        for name in [*(name for name in ENTRIES if is_wild(name) == wild), NOTHING_LEFT]
-    ])  # fmt: skip
+    return pytest.mark.parametrize(
+        ("user", "rogue"),
+        [
+            pytest.param(user, name, id=f"{user}-{name}", marks=_marks(user, name))
+            for user in ("root", "ordinary")
+            for name in [*(name for name in ENTRIES if is_wild(name) == wild), NOTHING_LEFT]
+        ],
+    )
 
 
 def _marks(user: str, name: str) -> list[pytest.MarkDecorator]:
@@ -124,7 +128,7 @@ def _marks(user: str, name: str) -> list[pytest.MarkDecorator]:
     entry = ENTRIES.get(name)
     differs = name == NOTHING_LEFT or (isinstance(entry, Attempt) and entry.rogue.as_root)
     once_is_enough = [] if user == "ordinary" or differs else [pytest.mark.twice]
-    return [*MARKS_OF[user], *once_is_enough]
+    return [*MARKS_OF[user], MADE_FOR_ALL, *once_is_enough]
 
 
 @pytest.fixture(scope="session")

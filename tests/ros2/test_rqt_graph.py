@@ -26,7 +26,10 @@ def test_rqt_graph_saves_a_picture_where_there_is_no_screen(stage: Shell, tmp_pa
         done = subprocess.run(
             [sys.executable, "-c", WITHOUT_A_DESK, START, "rqt_graph"],
             env=environment | {"PATH": "/usr/bin:/bin"},
-            cwd=tmp_path, capture_output=True, text=True, check=False,
-        )  # fmt: skip
+            cwd=tmp_path,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
         assert done.stdout == f"The picture of the graph is in {tmp_path / name}\n", done.stderr
         assert (tmp_path / name).read_bytes().startswith(b"\x89PNG")

@@ -147,9 +147,12 @@ class Screen:
     def _started(self, line: str) -> subprocess.Popen[bytes]:
         words = [sys.executable, "-m", "ros2_on_pip", *shlex.split(line)[1:]]
         return subprocess.Popen(
-            words, env=self._environment, cwd=self._environment["HOME"],
-            stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-        )  # fmt: skip
+            words,
+            env=self._environment,
+            cwd=self._environment["HOME"],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+        )
 
 
 def _pieces(said: str) -> Line:
@@ -180,14 +183,21 @@ def started(home: Path, words: str) -> Iterator[Screen]:
     fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("4H", LINES, COLUMNS, 0, 0))
     with leased_domain() as domain:
         environment = {
-            **surroundings(domain, home / "roslings_ws"), "HOME": str(home), "TERM": "xterm",
+            **surroundings(domain, home / "roslings_ws"),
+            "HOME": str(home),
+            "TERM": "xterm",
             "PYTHONIOENCODING": "ascii:replace",
-        }  # fmt: skip
+        }
         process = subprocess.Popen(
             [sys.executable, "-m", "roslings", "my-rover", "--view", "terminal", *words.split()],
-            env=environment, cwd=home, stdin=theirs, stdout=theirs, stderr=theirs,
-            start_new_session=True, preexec_fn=take_terminal,
-        )  # fmt: skip
+            env=environment,
+            cwd=home,
+            stdin=theirs,
+            stdout=theirs,
+            stderr=theirs,
+            start_new_session=True,
+            preexec_fn=take_terminal,
+        )
         os.close(theirs)
         try:
             screen = Screen(process, ours, environment)
@@ -282,29 +292,76 @@ class Win:
 
 
 WINS = (
-    Win(2, "nodes", (VOICE,), _speaks,
-        "The rover has driven a curve. Over it stand your words: Robot status count."),
-    Win(3, "distance-sensor", (VOICE, SONAR), _brakes,
-        "The rover has driven straight on. It stands before the bin, and its speed is 0.00 m/s."),
-    Win(4, "services", (VOICE, PACE), _drives_slowly,
-        "The rover drives at 0.30 m/s, though it is told 0.5."),
-    Win(5, "actions", (VOICE, PILOT), _drives_to_a_point,
-        "The rover has driven a curve to the point by itself, and stands beside the ball."),
-    Win(6, "serial-bridge", (VOICE, CABLE), _loses_its_cable,
+    Win(
+        2,
+        "nodes",
+        (VOICE,),
+        _speaks,
+        "The rover has driven a curve. Over it stand your words: Robot status count.",
+    ),
+    Win(
+        3,
+        "distance-sensor",
+        (VOICE, SONAR),
+        _brakes,
+        "The rover has driven straight on. It stands before the bin, and its speed is 0.00 m/s.",
+    ),
+    Win(
+        4,
+        "services",
+        (VOICE, PACE),
+        _drives_slowly,
+        "The rover drives at 0.30 m/s, though it is told 0.5.",
+    ),
+    Win(
+        5,
+        "actions",
+        (VOICE, PILOT),
+        _drives_to_a_point,
+        "The rover has driven a curve to the point by itself, and stands beside the ball.",
+    ),
+    Win(
+        6,
+        "serial-bridge",
+        (VOICE, CABLE),
+        _loses_its_cable,
         "The rover stands. A grey arrow shows where its bridge thinks that it is. Below the map:"
-        " The cable is pulled.", "--keys"),
-    Win(7, "pi-camera", (VOICE, EYES), _touches_the_ball,
+        " The cable is pulled.",
+        "--keys",
+    ),
+    Win(
+        7,
+        "pi-camera",
+        (VOICE, EYES),
+        _touches_the_ball,
         "The rover is at the ball. Below the map: The rover touches the red ball. Well done!",
-        "--follow"),
-    Win(8, "bring-up", (LIMITER,), _races,
-        "Red is at the finish, and blue is still on its way. Below the map: Red wins.", "--race"),
-    Win(9, "black-box", (VOICE,), _keeps_a_bag,
+        "--follow",
+    ),
+    Win(
+        8,
+        "bring-up",
+        (LIMITER,),
+        _races,
+        "Red is at the finish, and blue is still on its way. Below the map: Red wins.",
+        "--race",
+    ),
+    Win(
+        9,
+        "black-box",
+        (VOICE,),
+        _keeps_a_bag,
         "The rover says how far it went. Your program reads the bag, and its distance is the same.",
-        "--bag"),
-    Win(10, "e-stop", (VOICE, GUARD), _stops,
+        "--bag",
+    ),
+    Win(
+        10,
+        "e-stop",
+        (VOICE, GUARD),
+        _stops,
         "The rover stands in the middle of its way. Below the map: Space: stop is pressed.",
-        "--keys"),
-)  # fmt: skip
+        "--keys",
+    ),
+)
 
 
 @dataclass(frozen=True)
@@ -367,14 +424,16 @@ def drawn(alt: str, shots: Sequence[Shot]) -> str:
         high = 16 + LINE_PX * (len(shot.lines) + 1)
         parts += [*_terminal(shot, top, high)]
         top += high + EDGE_PX
-    return "\n".join([
-        '<svg class="terminal" xmlns="http://www.w3.org/2000/svg"'
-        f' viewBox="0 0 {WIDE_PX:g} {top:g}" width="{WIDE_PX:g}" height="{top:g}">',
-        f"<title>{escape(alt)}</title>",
-        f"<style>{STYLE}{HUES}</style>",
-        *parts,
-        "</svg>\n",
-    ])  # fmt: skip
+    return "\n".join(
+        [
+            '<svg class="terminal" xmlns="http://www.w3.org/2000/svg"'
+            f' viewBox="0 0 {WIDE_PX:g} {top:g}" width="{WIDE_PX:g}" height="{top:g}">',
+            f"<title>{escape(alt)}</title>",
+            f"<style>{STYLE}{HUES}</style>",
+            *parts,
+            "</svg>\n",
+        ]
+    )
 
 
 def _terminal(shot: Shot, top_px: float, high_px: float) -> Iterator[str]:

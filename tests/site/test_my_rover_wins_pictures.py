@@ -80,11 +80,10 @@ def test_the_program_of_day_9_tells_what_the_rover_went() -> None:
 @pytest.mark.parametrize(
     "win",
     [
-        pytest.param(win, id=win.lab,
-                     marks=[] if win.day in AT_EACH_LANDING else pytest.mark.twice)
+        pytest.param(win, id=win.lab, marks=[] if win.day in AT_EACH_LANDING else pytest.mark.twice)
         for win in WINS
     ],
-)  # fmt: skip
+)
 def test_a_run_of_today_looks_so(win: Win, tmp_path: Path) -> None:
     """The same words, but for the numbers, and the same things on the map."""
     shots = seen(win, tmp_path)

@@ -125,15 +125,20 @@ def builder() -> ModuleType:
     return module
 
 
-@pytest.mark.parametrize(("line", "place"), [
-    ("reading sources... [  3%] days/01-install/index\n",
-     "Running the lessons: 3% (days/01-install/index)"),
-    ("reading sources... [100%] labs/topics", "Running the lessons: 100% (labs/topics)"),
-    ("writing output... [ 50%] glossary", "Writing the pages: 50% (glossary)"),
-    ("copying images... [ 50%] glossary", ""),
-    ("looking for now-outdated files... none found", ""),
-    ("", ""),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("line", "place"),
+    [
+        (
+            "reading sources... [  3%] days/01-install/index\n",
+            "Running the lessons: 3% (days/01-install/index)",
+        ),
+        ("reading sources... [100%] labs/topics", "Running the lessons: 100% (labs/topics)"),
+        ("writing output... [ 50%] glossary", "Writing the pages: 50% (glossary)"),
+        ("copying images... [ 50%] glossary", ""),
+        ("looking for now-outdated files... none found", ""),
+        ("", ""),
+    ],
+)
 def test_how_far_the_build_is(builder: ModuleType, line: str, place: str) -> None:
     """As Sphinx says it."""
     assert builder.place_in(line) == place

@@ -12,12 +12,27 @@ from roslings_learn.lessons import BadLessons, Problem, read_lessons
 
 LESSONS = read_lessons(root())
 TERMS = LESSONS.glossary.by_id.values()
-HAVE_SENSES = ("workspace", "action", "node", "service", "feedback", "goal", "topic", "package",
-               "message")  # fmt: skip
+HAVE_SENSES = (
+    "workspace",
+    "action",
+    "node",
+    "service",
+    "feedback",
+    "goal",
+    "topic",
+    "package",
+    "message",
+)
 CATEGORIES = {
-    "Core concepts", "Communication", "Tools", "Control and planning", "Hardware",
-    "Manipulation and tasks", "Build and packages", "Computers and data",
-}  # fmt: skip
+    "Core concepts",
+    "Communication",
+    "Tools",
+    "Control and planning",
+    "Hardware",
+    "Manipulation and tasks",
+    "Build and packages",
+    "Computers and data",
+}
 
 
 def sentences(text: str) -> list[str]:
@@ -96,17 +111,36 @@ def only_problem(course: Path, name: str) -> Problem:
 BAD = {
     "no right answer": (QUIZ, "        right: true\n", "", "no right answer", "right: true", -6),
     "two right answers": (
-        QUIZ, "        why: Each terminal has variables of its own.",
-        "        why: Each.\n        right: true", "several right answers", "kind: several", None,
+        QUIZ,
+        "        why: Each terminal has variables of its own.",
+        "        why: Each.\n        right: true",
+        "several right answers",
+        "kind: several",
+        None,
     ),
     "doubled question": (
-        QUIZ, "install-what-first", "install-which-are-true", "there twice", "another id", 0,
+        QUIZ,
+        "install-what-first",
+        "install-which-are-true",
+        "there twice",
+        "another id",
+        0,
     ),
     "unknown term in a quiz": (
-        QUIZ, "#word-package", "#word-pakage", "'pakage'", "'package'", 0,
+        QUIZ,
+        "#word-package",
+        "#word-pakage",
+        "'pakage'",
+        "'package'",
+        0,
     ),
     "no explanation": (
-        QUIZ, "        why: It runs on one.\n", "", "'why' is missing", "why: ...", -1,
+        QUIZ,
+        "        why: It runs on one.\n",
+        "",
+        "'why' is missing",
+        "why: ...",
+        -1,
     ),
     "unknown kind": (QUIZ, "kind: several", "kind: some", "a kind", "order", None),
     "no kind": (QUIZ, "    kind: several\n", "", "needs a kind", "kind: one", None),
@@ -116,16 +150,26 @@ BAD = {
     "doubled key": (QUIZ, "    kind: one", "    kind: one\n    kind: one", "twice", "Delete", 1),
     "unknown see": (WORDS, "see: [terminal, ssh]", "see: [terminal, shh]", "'shh'", "'ssh'", 0),
     "unknown day": (
-        WORDS, "    day: 3\n", "    day: 99\n", "no day 99", f"1 to {len(LESSONS.days)}", 0,
+        WORDS,
+        "    day: 3\n",
+        "    day: 99\n",
+        "no day 99",
+        f"1 to {len(LESSONS.days)}",
+        0,
     ),
     "no definition": (
-        WORDS, "    definition: tmux is a program that shows several terminals in one window"
-        " and keeps them alive.\n", "", "'definition' is missing", "definition: ...", None,
+        WORDS,
+        "    definition: tmux is a program that shows several terminals in one window"
+        " and keeps them alive.\n",
+        "",
+        "'definition' is missing",
+        "definition: ...",
+        None,
     ),
     "doubled term": (WORDS, "- id: tmux", "- id: terminal", "'terminal' is there twice", "id", 0),
     "a sense is missing": (WORDS, "    sense: of Linux\n", "", "several senses", "sense: ", None),
     "unknown sense": ("days/path.yaml", "senses: [node, ", "senses: [nod, ", "'nod'", "'node'", 0),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("case", BAD)

@@ -168,9 +168,14 @@ def test_a_lab_begins_with_what_moves_then_the_steps_then_the_card(looked_at: Vi
     page = looked_at.go("labs/topics.html")
     tops = [
         page.locator(part).first.bounding_box()["y"]
-        for part in ("article img", "#the-steps h2", "#what-success-looks-like h2", "#the-card h2",
-                     "#the-points h2")
-    ]  # fmt: skip
+        for part in (
+            "article img",
+            "#the-steps h2",
+            "#what-success-looks-like h2",
+            "#the-card h2",
+            "#the-points h2",
+        )
+    ]
     assert tops == sorted(tops)
     assert tops[0] < 900 and "moves" in page.locator("article img").first.get_attribute("src")
     parts = page.locator("#the-card details.of-card")

@@ -29,15 +29,33 @@ COVERS_THE_FIRST_LINE = """button => {
     return document.elementFromPoint(left + width / 2, y) === button;
 }"""
 MUST_BE_THERE = {
-    "index", "glossary", "review", "search", "labs/index", "labs/topics", "reference/commands",
-    "reference/doctor", "reference/messages", "reference/lifecycle", "reference/tf-and-scan",
+    "index",
+    "glossary",
+    "review",
+    "search",
+    "labs/index",
+    "labs/topics",
+    "reference/commands",
+    "reference/doctor",
+    "reference/messages",
+    "reference/lifecycle",
+    "reference/tf-and-scan",
     "reference/colcon-test",
-    "reference/whole-robot", "reference/micro-ros", "reference/distributions", "reference/ros1",
+    "reference/whole-robot",
+    "reference/micro-ros",
+    "reference/distributions",
+    "reference/ros1",
     "reference/faq",
-    "teachers/index", "teachers/hand-ins", "teachers/exports", "teachers/api",
-    "days/01-install/index", "days/01-install/quiz",
-    "days/01-install/answers", "days/03-topics/index", "days/03-topics/quiz",
-}  # fmt: skip
+    "teachers/index",
+    "teachers/hand-ins",
+    "teachers/exports",
+    "teachers/api",
+    "days/01-install/index",
+    "days/01-install/quiz",
+    "days/01-install/answers",
+    "days/03-topics/index",
+    "days/03-topics/quiz",
+}
 
 
 def test_no_page_is_missing(site: Path) -> None:
@@ -103,7 +121,7 @@ def test_search_puts_titles_first_and_raises_no_error(visit: Visit) -> None:
 
 
 def test_the_front_page_begins_and_tells_where_the_reader_is(visit: Visit) -> None:
-    """One button, a rover that is there, a verdict of the engine, and the first open day."""
+    """Two buttons, a rover that is there, a verdict of the engine, and the first open day."""
     page = visit.go("index.html")
     rover = page.locator(".hero img")
     assert rover.evaluate("image => image.complete && image.naturalWidth > 0")
@@ -117,6 +135,10 @@ def test_the_front_page_begins_and_tells_where_the_reader_is(visit: Visit) -> No
     assert here.get_attribute("data-day") == "01-install"
     page.evaluate("roslings.finishDay('01-install')")
     assert here.get_attribute("data-day") == "02-nodes"
+    page.get_by_role("link", name="A day in one window").click()
+    told = page.locator("#the-day-in-one-window")
+    assert "./roslings lab 5" in told.inner_text()
+    page.go_back()
     page.get_by_role("link", name="Drive a robot in 15 minutes").click()
     page.locator("h1").first.wait_for()
 

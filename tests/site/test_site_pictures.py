@@ -13,6 +13,9 @@ import pytest
 
 from roslings.course import all_labs, root
 from roslings_learn.lessons.rules.alternatives import own_words, untold
+from roslings_rover.models.rooms import KINDS, PASSAGE_M, PAST_M, room_of
+from roslings_rover.rover.in_room import GIVES_UP_S, KEEPS_AWAY_M, STANDS_S
+from roslings_rover.rover.room_markers import MARKERS, MOVING, ROOM
 
 REFERENCE = root() / "site" / "pages" / "reference"
 PICTURES = root() / "days" / "01-install" / "pictures"
@@ -139,3 +142,42 @@ def test_the_rover_of_parts_is_drawn_by_its_program() -> None:
     assert f"![{my_rover_picture.ALT}](pictures/{place.name})" in page_of_it
     for line in my_rover_picture.screen():
         assert len(line) <= 80
+
+
+# --- rooms from their seeds ----------------------------------------------------------------------
+
+
+def test_the_rooms_are_drawn_by_their_program(tmp_path: Path) -> None:
+    """Ten, of all kinds; the page shows them, in words that stand in the drawing."""
+    drawn("draw_rooms.py", tmp_path / "rooms.svg")
+    kept = REFERENCE / "pictures" / "rooms.svg"
+    assert (tmp_path / "rooms.svg").read_text("utf-8") == kept.read_text("utf-8")
+    shown = dict(map(reversed, SHOWN.findall((REFERENCE / "my-rover.md").read_text("utf-8"))))
+    assert untold(shown["rooms.svg"], kept) == []
+    seeds = [int(seed) for seed in re.findall(r">Room (\d+): ", kept.read_text("utf-8"))]
+    assert len(seeds) == len(set(seeds)) == 10
+    assert {room_of(seed).kind for seed in seeds} == set(KINDS)
+
+
+def test_the_page_tells_the_figures_of_rooms() -> None:
+    """How wide a way is, how near what moves comes, how long it waits and a bump lasts."""
+    text = (REFERENCE / "my-rover.md").read_text("utf-8").partition("## Rooms that")[2]
+    told = " ".join(text.split())
+    assert f"No way is narrower than {PASSAGE_M:g} m" in told
+    assert f"{PAST_M:g} m are free beside them" in told
+    assert f"They stop {KEEPS_AWAY_M:g} m before the rover" in told
+    assert f"turn round after {GIVES_UP_S:g} s" in told
+    assert f"Each one stops the rover for {STANDS_S:g} s" in told
+    assert (
+        f"On `{ROOM}` the rover says" in told and f"`{MOVING}` what moves, as `{MARKERS}`" in told
+    )
+
+
+def test_each_room_is_drawn_whole() -> None:
+    """All that stands there and all that moves, and the signs of the legend."""
+    drawing = (REFERENCE / "pictures" / "rooms.svg").read_text("utf-8")
+    rooms = [room_of(int(seed)) for seed in re.findall(r">Room (\d+): ", drawing)]
+    tracks = sum(len(room.tracks) for room in rooms)
+    assert drawing.count('class="track"') == tracks
+    things = sum(len(room.world.obstacles) for room in rooms)
+    assert drawing.count('fill="#c3d5d3" stroke="#263238"') == things

@@ -360,12 +360,23 @@ def test_a_real_verdict_is_understood(visit: Visit) -> None:
     from roslings.verdict import Environment, Timings, Verdict
 
     real = Verdict(
-        lab="topics", package="chatter", outcome="pass", score=100.0, checks=(), seconds=Timings(),
+        lab="topics",
+        package="chatter",
+        outcome="pass",
+        score=100.0,
+        checks=(),
+        seconds=Timings(),
         environment=Environment(
-            roslings="0.1.0", ros_distro="jazzy", rmw="rmw_fastrtps_cpp", python="3.12",
-            platform="Linux", isolation="namespace", clock="wall", seed=1,
+            roslings="0.1.0",
+            ros_distro="jazzy",
+            rmw="rmw_fastrtps_cpp",
+            python="3.12",
+            platform="Linux",
+            isolation="namespace",
+            clock="wall",
+            seed=1,
         ),
-    )  # fmt: skip
+    )
     page = visit.go(QUIZ_3)
     load(page, "Load the verdict", real.model_dump_json(by_alias=True))
     page.locator("[data-need=lab].done").wait_for()

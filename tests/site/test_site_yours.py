@@ -24,13 +24,24 @@ DAY = "03-topics"
 def workspace(tmp_path: Path) -> Path:
     """Somebody with three drills of day 3 and 74 points in its lab."""
     place = Environment(
-        roslings="0.1.0", ros_distro="jazzy", rmw="rmw_fastrtps_cpp", python="3.12",
-        platform="Linux", isolation="namespace", clock="wall", seed=1,
-    )  # fmt: skip
+        roslings="0.1.0",
+        ros_distro="jazzy",
+        rmw="rmw_fastrtps_cpp",
+        python="3.12",
+        platform="Linux",
+        isolation="namespace",
+        clock="wall",
+        seed=1,
+    )
     verdict = Verdict(
-        lab="topics", package="chatter", outcome="fail", score=74.0, checks=(), seconds=Timings(),
+        lab="topics",
+        package="chatter",
+        outcome="fail",
+        score=74.0,
+        checks=(),
+        seconds=Timings(),
         environment=place,
-    )  # fmt: skip
+    )
     progress.record(verdict, tmp_path)
     for each in [each.name for each in all_drills() if each.day == DAY][:3]:
         progress.record_drill(each, True, tmp_path)

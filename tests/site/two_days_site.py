@@ -32,8 +32,10 @@ def build(course: Path, *words: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
         [sys.executable, str(BUILDER), "--out", str(course / "out"), *words],
         env={**os.environ, "ROSLINGS_COURSE": str(course)},
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
+        capture_output=True,
+        text=True,
+        check=False,
+    )
 
 
 class Visit:

@@ -170,9 +170,7 @@ def forget_the_name(package: Path) -> None:
 
 
 @each_lab
-@pytest.mark.parametrize(
-    "spoil", [misspell, put_a_hyphen, call_it_otherwise, forget_the_name]
-)  # fmt: skip
+@pytest.mark.parametrize("spoil", [misspell, put_a_hyphen, call_it_otherwise, forget_the_name])
 def test_a_package_that_looks_like_this_lab_is_told_of_its_name(
     workspace: Path, name: str, spoil: Callable[[Path], None]
 ) -> None:

@@ -4,8 +4,8 @@ The numbers, names, texts and points stand in the lab's card.yaml. Experiments r
 nodes and watch; checks read what was seen and run nothing.
 """
 
-from valve_course.lifecycle.act import walk
-from valve_course.lifecycle.demands import be_managed, go_through
+from graders.valve.act import walk
+from graders.valve.demands import be_managed, go_through
 
 from roslings.course import lab
 from roslings.experiment import Scene, experiment

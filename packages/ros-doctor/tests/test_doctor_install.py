@@ -197,7 +197,13 @@ def test_well_empy(clinic: Clinic) -> None:
 def test_ill_compiler(clinic: Clinic) -> None:
     clinic.program("apt")
     clinic.program("gcc")
-    assert_ill(clinic.look("compiler"), "advice", "no C++ compiler", "build-essential")
+    assert_ill(clinic.look("compiler"), "advice", "no lab does", "build-essential")
+
+
+def test_ill_compiler__beside_an_installed_ros(clinic: Clinic) -> None:
+    clinic.program("apt")
+    finding = clinic.apt(sourced=True).look("compiler")
+    assert_ill(finding, "advice", "those of day 5", "build-essential")
 
 
 def test_well_compiler(clinic: Clinic) -> None:

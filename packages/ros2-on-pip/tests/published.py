@@ -13,12 +13,22 @@ Test = TypeVar("Test", bound=Callable[..., object])
 DIRECT = ("--spin-time", "--use-sim-time")
 LOOK = (*DIRECT, "--no-daemon")
 QOS = (
-    "--qos-profile", "--qos-depth", "--qos-history", "--qos-reliability", "--qos-durability",
-    "--qos-liveliness", "--qos-liveliness-lease-duration-seconds",
-)  # fmt: skip
+    "--qos-profile",
+    "--qos-depth",
+    "--qos-history",
+    "--qos-reliability",
+    "--qos-durability",
+    "--qos-liveliness",
+    "--qos-liveliness-lease-duration-seconds",
+)
 SHAPE = (
-    "--csv", "--full-length", "--truncate-length", "--no-arr", "--no-str", "--flow-style",
-)  # fmt: skip
+    "--csv",
+    "--full-length",
+    "--truncate-length",
+    "--no-arr",
+    "--no-str",
+    "--flow-style",
+)
 OF_NODE = (*LOOK, "--include-hidden-nodes")
 KINDS = ("--only-msgs", "--only-srvs", "--only-actions")
 
@@ -52,9 +62,16 @@ PUBLISHED: dict[str, tuple[str, ...]] = {
     "param load": (*OF_NODE, "--timeout", "--no-use-wildcard"),
     "param set": (*OF_NODE, "--timeout"),
     "pkg create": (
-        "--package-format", "--description", "--license", "--destination-directory",
-        "--build-type", "--dependencies", "--maintainer-email", "--maintainer-name",
-        "--node-name", "--library-name",
+        "--package-format",
+        "--description",
+        "--license",
+        "--destination-directory",
+        "--build-type",
+        "--dependencies",
+        "--maintainer-email",
+        "--maintainer-name",
+        "--node-name",
+        "--library-name",
     ),
     "pkg executables": ("--full-path",),
     "pkg list": (),
@@ -72,22 +89,43 @@ PUBLISHED: dict[str, tuple[str, ...]] = {
     "topic bw": (*DIRECT, "--window"),
     "topic delay": (*DIRECT, "--window"),
     "topic echo": (
-        *LOOK, *QOS, *SHAPE, "--field", "--filter", "--include-message-info",
-        "--no-lost-messages", "--once", "--raw", "--timeout",
+        *LOOK,
+        *QOS,
+        *SHAPE,
+        "--field",
+        "--filter",
+        "--include-message-info",
+        "--no-lost-messages",
+        "--once",
+        "--raw",
+        "--timeout",
     ),
     "topic find": (*LOOK, "--count-topics", "--include-hidden-topics"),
     "topic hz": (*DIRECT, "--window", "--filter", "--wall-time"),
     "topic info": (*LOOK, "--verbose"),
     "topic list": (
-        *LOOK, "--show-types", "--count-topics", "--include-hidden-topics", "--verbose",
+        *LOOK,
+        "--show-types",
+        "--count-topics",
+        "--include-hidden-topics",
+        "--verbose",
     ),
     "topic pub": (
-        *DIRECT, *QOS, "--stdin", "--rate", "--print", "--once", "--times",
-        "--wait-matching-subscriptions", "--max-wait-time-secs", "--keep-alive", "--node-name",
+        *DIRECT,
+        *QOS,
+        "--stdin",
+        "--rate",
+        "--print",
+        "--once",
+        "--times",
+        "--wait-matching-subscriptions",
+        "--max-wait-time-secs",
+        "--keep-alive",
+        "--node-name",
     ),
     "topic type": LOOK,
     "wtf hello": ("--topic", "--emit-period", "--print-period", "--ttl", "--once"),
-}  # fmt: skip
+}
 
 SHORT: dict[str, str] = {
     "action info": "-t -c -s",

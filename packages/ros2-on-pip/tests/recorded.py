@@ -26,11 +26,9 @@ def write_bag(
     kind = TYPES.types[STRING]
     with Writer(bag, version=9, storage_plugin=storage) as writer:
         heard = [
-            writer.add_connection(
-                topic, STRING, typestore=TYPES, offered_qos_profiles=list(qos)
-            )
+            writer.add_connection(topic, STRING, typestore=TYPES, offered_qos_profiles=list(qos))
             for topic in topics
-        ]  # fmt: skip
+        ]
         for number, text in enumerate(texts):
             for connection in heard:
                 raw = TYPES.serialize_cdr(kind(text), STRING)

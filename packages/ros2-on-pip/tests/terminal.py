@@ -52,16 +52,25 @@ class Running:
     """A process whose lines are read as they come."""
 
     def __init__(
-        self, command: list[str], environment: Environment, folder: Path,
+        self,
+        command: list[str],
+        environment: Environment,
+        folder: Path,
         keys: int = subprocess.DEVNULL,
-    ) -> None:  # fmt: skip
+    ) -> None:
         """`keys` is a descriptor that it reads from."""
         self.lines: list[str] = []
         mortal = [sys.executable, "-I", "-S", str(MORTAL), str(os.getpid())]
         self.process = subprocess.Popen(
-            [*mortal, *command], env=environment, cwd=folder, text=True, start_new_session=True,
-            stdin=keys, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-        )  # fmt: skip
+            [*mortal, *command],
+            env=environment,
+            cwd=folder,
+            text=True,
+            start_new_session=True,
+            stdin=keys,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+        )
         self._changed = threading.Condition()
         self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()
@@ -120,9 +129,15 @@ class Shell:
     def __call__(self, *words: str, **changes: str) -> Ran:
         """Run `ros2 words...` to its end; `changes` are environment variables."""
         done = subprocess.run(
-            ours(*words), env=self.environment | changes, cwd=self.folder, text=True,
-            capture_output=True, stdin=subprocess.DEVNULL, timeout=PATIENCE_S, check=False,
-        )  # fmt: skip
+            ours(*words),
+            env=self.environment | changes,
+            cwd=self.folder,
+            text=True,
+            capture_output=True,
+            stdin=subprocess.DEVNULL,
+            timeout=PATIENCE_S,
+            check=False,
+        )
         print(done.stderr, end="")  # pytest shows it where a test fails
         return Ran(done.returncode, done.stdout, done.stderr)
 

@@ -38,8 +38,9 @@ def test_before_the_first_build(empty: Shell, workspace: Path) -> None:
     assert ran.err.splitlines() == [
         "Package 'blinker' not found.",
         "It is not built yet. Build first, then source, in this terminal:",
-        "  colcon build", "  source install/setup.bash",
-    ]  # fmt: skip
+        "  colcon build",
+        "  source install/setup.bash",
+    ]
 
 
 @pytest.mark.parametrize("stands", [".", "roslings_ws/src/blinker"])
@@ -72,21 +73,59 @@ def test_a_package_of_the_full_ros_has_a_stand_in(empty: Shell, name: str) -> No
 
 
 RQT_OF_JAZZY = (
-    "rqt", "rqt_action", "rqt_bag", "rqt_bag_plugins", "rqt_common_plugins", "rqt_console",
-    "rqt_controller_manager", "rqt_dotgraph", "rqt_gauges", "rqt_graph", "rqt_gui", "rqt_gui_cpp",
-    "rqt_gui_py", "rqt_image_overlay", "rqt_image_overlay_layer", "rqt_image_view",
-    "rqt_joint_trajectory_controller", "rqt_moveit", "rqt_msg", "rqt_plot", "rqt_publisher",
-    "rqt_py_common", "rqt_py_console", "rqt_reconfigure", "rqt_robot_dashboard",
-    "rqt_robot_monitor", "rqt_robot_steering", "rqt_runtime_monitor", "rqt_service_caller",
-    "rqt_shell", "rqt_srv", "rqt_tf_tree", "rqt_topic",
-)  # fmt: skip
+    "rqt",
+    "rqt_action",
+    "rqt_bag",
+    "rqt_bag_plugins",
+    "rqt_common_plugins",
+    "rqt_console",
+    "rqt_controller_manager",
+    "rqt_dotgraph",
+    "rqt_gauges",
+    "rqt_graph",
+    "rqt_gui",
+    "rqt_gui_cpp",
+    "rqt_gui_py",
+    "rqt_image_overlay",
+    "rqt_image_overlay_layer",
+    "rqt_image_view",
+    "rqt_joint_trajectory_controller",
+    "rqt_moveit",
+    "rqt_msg",
+    "rqt_plot",
+    "rqt_publisher",
+    "rqt_py_common",
+    "rqt_py_console",
+    "rqt_reconfigure",
+    "rqt_robot_dashboard",
+    "rqt_robot_monitor",
+    "rqt_robot_steering",
+    "rqt_runtime_monitor",
+    "rqt_service_caller",
+    "rqt_shell",
+    "rqt_srv",
+    "rqt_tf_tree",
+    "rqt_topic",
+)
 """Each package of Jazzy's list of distributed ones (rosdistro, 2025) that begins so."""
 ALSO_ASKED_FOR = (
-    "foxglove_bridge", "joint_state_publisher", "joint_state_publisher_gui", "micro_ros_agent",
-    "nav2_map_server", "plotjuggler", "ros_gz_bridge", "rosbridge_server", "teleop_twist_joy",
-    "turtlebot3_gazebo", "turtlebot4_gz_bringup", "xacro", "moveit_ros_move_group",
-    "examples_rclcpp_minimal_publisher", "demo_nodes_cpp_native", "rviz_common",
-)  # fmt: skip
+    "foxglove_bridge",
+    "joint_state_publisher",
+    "joint_state_publisher_gui",
+    "micro_ros_agent",
+    "nav2_map_server",
+    "plotjuggler",
+    "ros_gz_bridge",
+    "rosbridge_server",
+    "teleop_twist_joy",
+    "turtlebot3_gazebo",
+    "turtlebot4_gz_bringup",
+    "xacro",
+    "moveit_ros_move_group",
+    "examples_rclcpp_minimal_publisher",
+    "demo_nodes_cpp_native",
+    "rviz_common",
+)
 
 
 @pytest.mark.parametrize("name", [*RQT_OF_JAZZY, *ALSO_ASKED_FOR])
@@ -137,8 +176,10 @@ def test_a_command_of_the_full_ros_says_so(empty: Shell, command: str) -> None:
     done = subprocess.run(
         [sys.executable, "-c", BEGINS.format(command)],
         env=empty.environment | {"PATH": "/usr/bin:/bin"},
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert done.returncode == 2
     assert done.stderr.rstrip() == ABSENT[command].told(command)
 

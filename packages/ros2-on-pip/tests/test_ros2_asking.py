@@ -90,8 +90,9 @@ def test_param_dump_and_load(stage: Shell, tmp_path: Path) -> None:
     file = tmp_path / "tuner.yaml"
     file.write_text("/tuner:\n  ros__parameters:\n    label: alice\n    wheel: {radius: 0.2}\n")
     assert stage("param", "load", "/tuner", str(file)).lines == [
-        "Set parameter label successful", "Set parameter wheel.radius successful",
-    ]  # fmt: skip
+        "Set parameter label successful",
+        "Set parameter wheel.radius successful",
+    ]
     assert stage("param", "get", "/tuner", "label").out == "String value is: alice\n"
     stage("param", "set", "/tuner", "wheel.radius", "0.1")
 
@@ -118,9 +119,11 @@ def test_send_goal_with_feedback(stage: Shell) -> None:
     words = ("action", "send_goal", "/fibonacci", "test_msgs/action/Fibonacci", "{order: 2}")
     lines = stage(*words, "--feedback").lines
     assert lines[:4] == [
-        "Waiting for an action server to become available...", "Sending goal:",
-        "     order: 2", "",
-    ]  # fmt: skip
+        "Waiting for an action server to become available...",
+        "Sending goal:",
+        "     order: 2",
+        "",
+    ]
     assert lines[4].startswith("Goal accepted with ID: ")
     rest = [line for line in lines[6:] if line]
     feedback = ["Feedback:", "    sequence:", "- 0", "- 1", "- 1"]
@@ -158,12 +161,20 @@ def test_lifecycle(stage: Shell) -> None:
 def test_interface_show(empty: Shell) -> None:
     """Types inside types are shown below their field, without their comments."""
     assert empty("interface", "show", "geometry_msgs/msg/Twist").lines[-8:] == [
-        "Vector3  linear", "\tfloat64 x", "\tfloat64 y", "\tfloat64 z",
-        "Vector3  angular", "\tfloat64 x", "\tfloat64 y", "\tfloat64 z",
-    ]  # fmt: skip
+        "Vector3  linear",
+        "\tfloat64 x",
+        "\tfloat64 y",
+        "\tfloat64 z",
+        "Vector3  angular",
+        "\tfloat64 x",
+        "\tfloat64 y",
+        "\tfloat64 z",
+    ]
     assert empty("interface", "show", "std_srvs/srv/Trigger", "--no-comments").lines == [
-        "---", "bool success", "string message",
-    ]  # fmt: skip
+        "---",
+        "bool success",
+        "string message",
+    ]
     assert "Did you mean std_msgs/msg/String?" in empty("interface", "show", "String").err
 
 

@@ -62,9 +62,16 @@ def reliable(durability: QosDurability = QosDurability.VOLATILE, depth: int = 10
     """What a publisher offers, as a bag keeps it."""
     never = QosTime(0, 0)
     return Qos(
-        QosHistory.KEEP_LAST, depth, QosReliability.RELIABLE, durability, never, never,
-        QosLiveliness.AUTOMATIC, never, False,
-    )  # fmt: skip
+        QosHistory.KEEP_LAST,
+        depth,
+        QosReliability.RELIABLE,
+        durability,
+        never,
+        never,
+        QosLiveliness.AUTOMATIC,
+        never,
+        False,
+    )
 
 
 @pytest.fixture
@@ -184,11 +191,12 @@ def test_who_comes_late_hears_what_lasts(empty: Shell) -> None:
     ours, theirs = pty.openpty()
     with empty.start("bag", "play", "b", "--start-paused", keys=theirs) as player:
         player.wait_for("Press CURSOR_RIGHT for Play Next Message")
-        with empty.program(ears("/heard")) as early:
+        lasting = ears("/heard", durability="TRANSIENT_LOCAL")  # it may meet the player afterwards
+        with empty.program(lasting) as early:
             early.wait_for("listening")
             os.write(ours, b"\x1b[C")
             early.wait_for("^/heard a$")
-        with empty.program(ears("/heard", durability="TRANSIENT_LOCAL")) as late:
+        with empty.program(lasting) as late:
             late.wait_for("^/heard a$")
         player.interrupt()
     os.close(ours)

@@ -78,14 +78,16 @@ def here(stage: Shell, tmp_path: Path) -> Shell:
         (("--topic-types", "std_msgs/msg/String"), {"/chatter"}, {"/scan", "/secret/_whisper"}),
         (
             ("--topic-types", "std_msgs/msg/String", "--include-hidden-topics"),
-            {"/chatter", "/_whisper"}, set(),
+            {"/chatter", "/_whisper"},
+            set(),
         ),
         (
             ("--include-unpublished-topics", "-e", "heard|chatter", "--ignore-leaf-topics"),
-            {"/heard"}, {"/chatter"},
+            {"/heard"},
+            {"/chatter"},
         ),
     ],
-)  # fmt: skip
+)
 def test_topics_are_chosen(
     here: Shell, words: tuple[str, ...], there: set[str], not_there: set[str]
 ) -> None:

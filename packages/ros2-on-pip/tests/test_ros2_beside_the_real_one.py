@@ -32,7 +32,9 @@ ROWS: dict[tuple[str, ...], tuple[int, str, str]] = {
     (*ONCE, "/x", STRING, "null"): (1, "", NO_FIELDS),
     (*ONCE, "/x", STRING, ""): (1, "", NO_FIELDS),
     (*ONCE, "/x", "geometry_msgs/msg/Twist", "{linear: null}"): (
-        1, "", "Failed to populate field: linear: it needs {x: ..., y: ..., z: ...}",
+        1,
+        "",
+        "Failed to populate field: linear: it needs {x: ..., y: ..., z: ...}",
     ),
     ("service", "call", "/maker/list_parameters", LISTING, "null"): (1, "", NO_FIELDS),
     ("daemon", "start", "-d"): (0, "No daemon is started", ""),
@@ -40,9 +42,11 @@ ROWS: dict[tuple[str, ...], tuple[int, str, str]] = {
     ("node", "info", "maker"): (0, "/maker\n", "NOTE: write /maker. On a robot, ros2 does not"),
     ("topic", "list", "-a"): (0, "/rosout\n", "NOTE: write --include-hidden-topics. On a robot"),
     ("service", "find", "-a", "std_srvs/srv/SetBool"): (
-        0, "", "NOTE: write --include-hidden-services. On a robot, ros2 does not take '-a' here.",
+        0,
+        "",
+        "NOTE: write --include-hidden-services. On a robot, ros2 does not take '-a' here.",
     ),
-}  # fmt: skip
+}
 """Words to the exit code, and what stands in the output and on stderr."""
 
 
@@ -118,11 +122,15 @@ def profiles() -> list[Any]:
     )
     return [
         QoSProfile(
-            depth=1, reliability=reliability, durability=durability, liveliness=liveliness,
-            deadline=deadline, liveliness_lease_duration=lease,
+            depth=1,
+            reliability=reliability,
+            durability=durability,
+            liveliness=liveliness,
+            deadline=deadline,
+            liveliness_lease_duration=lease,
         )
         for reliability, durability, liveliness, deadline, lease in choices
-    ]  # fmt: skip
+    ]
 
 
 def test_all_that_cannot_match_is_known() -> None:

@@ -17,9 +17,14 @@ with_a_doctor = needs("module ros_doctor")
 """It is a package of its own."""
 
 TITLES = [
-    "NETWORK CONFIGURATION", "PACKAGE VERSIONS", "PLATFORM INFORMATION", "QOS COMPATIBILITY LIST",
-    "RMW MIDDLEWARE", "ROS 2 INFORMATION", "TOPIC LIST",
-]  # fmt: skip
+    "NETWORK CONFIGURATION",
+    "PACKAGE VERSIONS",
+    "PLATFORM INFORMATION",
+    "QOS COMPATIBILITY LIST",
+    "RMW MIDDLEWARE",
+    "ROS 2 INFORMATION",
+    "TOPIC LIST",
+]
 """Those of the real one, in its order."""
 
 
@@ -54,8 +59,11 @@ def test_a_section_has_the_form_of_the_real_one() -> None:
     """An empty line, the title, and the values in one column, four behind the longest name."""
     section = Section("RMW MIDDLEWARE", (("middleware name", "rmw_x"), ("b", 1)))
     assert section.lines() == [
-        "", "   RMW MIDDLEWARE", "middleware name    : rmw_x", "b                  : 1",
-    ]  # fmt: skip
+        "",
+        "   RMW MIDDLEWARE",
+        "middleware name    : rmw_x",
+        "b                  : 1",
+    ]
 
 
 def test_the_report_tells_of_this_computer(report: Ran) -> None:
@@ -90,16 +98,21 @@ def test_the_report_tells_of_the_nodes_that_run(report: Ran, workshop: Shell) ->
     pairs = items(report, "QOS COMPATIBILITY LIST")
     assert pairs
     assert {name for name, _ in pairs} <= {
-        "topic [type]", "publisher node", "subscriber node", "compatibility status",
-    }  # fmt: skip
+        "topic [type]",
+        "publisher node",
+        "subscriber node",
+        "compatibility status",
+    }
 
 
 def test_the_report_of_an_empty_network(empty: Shell) -> None:
     """As the real one says it."""
     ran = inside.run(empty, "doctor", "-r", "-ep")
     assert items(ran, "TOPIC LIST") == [
-        ("topic", "none"), ("publisher count", "0"), ("subscriber count", "0"),
-    ]  # fmt: skip
+        ("topic", "none"),
+        ("publisher count", "0"),
+        ("subscriber count", "0"),
+    ]
     said = [("compatibility status", "No publisher/subscriber pairs found")]
     assert items(ran, "QOS COMPATIBILITY LIST") == said
 

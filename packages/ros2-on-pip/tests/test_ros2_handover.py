@@ -34,9 +34,13 @@ def asked(folder: Path, script: str) -> subprocess.CompletedProcess[str]:
     place.chmod(0o755)
     path = os.pathsep.join([str(folder), os.defpath])
     return subprocess.run(
-        [place, "--help"], capture_output=True, text=True, timeout=PATIENCE_S, check=True,
+        [place, "--help"],
+        capture_output=True,
+        text=True,
+        timeout=PATIENCE_S,
+        check=True,
         env={"PATH": path, "HOME": str(folder), "PYTHONPATH": python_path()},
-    )  # fmt: skip
+    )
 
 
 @pytest.mark.parametrize("script", [BY_PIP, BY_FILE], ids=["pip", "file"])
@@ -52,7 +56,10 @@ def test_the_real_one_is(tmp_path: Path) -> None:
     (real / "ros2").write_text('#!/bin/sh\necho "the real one: $*"\n', "utf-8")
     (real / "ros2").chmod(0o755)
     done = subprocess.run(
-        [sys.executable, START, "topic", "list"], capture_output=True, text=True, check=True,
+        [sys.executable, START, "topic", "list"],
+        capture_output=True,
+        text=True,
+        check=True,
         env={"PATH": f"{real}:{os.defpath}", "HOME": str(tmp_path), "PYTHONPATH": python_path()},
-    )  # fmt: skip
+    )
     assert done.stdout == "the real one: topic list\n"

@@ -78,20 +78,25 @@ def test_a_launch_in_the_background_hears_ctrl_c(empty: Shell, tmp_path: Path) -
 def programs(empty: Shell, tmp_path: Path) -> Shell:
     """A terminal with the package `mine`: one program crashes, one stays deaf to Ctrl-C."""
     return package(
-        empty, tmp_path,
+        empty,
+        tmp_path,
         crashes='#!/bin/sh\necho "with $*"; exit 3\n',
         stays="#!/bin/sh\ntrap '' INT; echo here; while :; do sleep 0.1; done\n",
-    )  # fmt: skip
+    )
 
 
 def test_a_crash_is_reported_and_the_others_go_on(programs: Shell, tmp_path: Path) -> None:
     """The exit code and the command, as the real tool tells them; the parameters in a file."""
-    written(tmp_path, "two.launch.xml", """<launch>
+    written(
+        tmp_path,
+        "two.launch.xml",
+        """<launch>
   <node pkg="mine" exec="crashes" namespace="x" args="-a 'b c'" output="screen">
     <param name="n" value="1.5"/>
   </node>
   <node pkg="mine" exec="stays" output="screen"/>
-</launch>""")  # fmt: skip
+</launch>""",
+    )
     with programs.start("launch", "two.launch.xml") as launch:
         launch.wait_for(r"^\[crashes-1\] with -a b c --ros-args -r __ns:=/x --params-file \S+$")
         died = r"process has died \[pid \d+, exit code 3, cmd '.*crashes -a .*'\]\."
@@ -177,13 +182,17 @@ def test_launch_from_a_package(programs: Shell, tmp_path: Path) -> None:
     share = tmp_path / "share" / "mine" / "launch"
     share.mkdir(parents=True)
     written(share, "inner.launch.yaml", "launch:\n- log: {message: inner $(var who)}\n")
-    written(share, "outer.launch.xml", """<launch>
+    written(
+        share,
+        "outer.launch.xml",
+        """<launch>
   <include file="$(find-pkg-share mine)/launch/inner.launch.yaml">
     <arg name="who" value="me"/>
   </include>
   <log message="not shown" if="false"/>
   <log message="shown" unless="$(env NOT_SET false)"/>
-</launch>""")  # fmt: skip
+</launch>""",
+    )
     ran = programs("launch", "mine", "outer.launch.xml")
     assert ran.lines[2:] == ["[INFO] [launch.user]: inner me", "[INFO] [launch.user]: shown"]
     missing = programs("launch", "mine", "uter.launch.xml")

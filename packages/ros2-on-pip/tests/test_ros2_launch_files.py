@@ -35,9 +35,12 @@ def node(name: str, *words: str, topic: str = "", mood: str = "", **parameters: 
     """What the node `name` tells; its topic is in its namespace where nothing else is said."""
     space = name.rpartition("/")[0]
     said = {
-        "node": name, "topic": topic or f"{space}/topic", "parameters": parameters,
-        "words": list(words), "mood": mood,
-    }  # fmt: skip
+        "node": name,
+        "topic": topic or f"{space}/topic",
+        "parameters": parameters,
+        "words": list(words),
+        "mood": mood,
+    }
     return {key: value for key, value in said.items() if value}
 
 
@@ -52,36 +55,48 @@ CASES = {
     "arguments.launch.py rate:=4 side:=right": Expected(
         [node("/teller", rate=4, text="4", literal="7", joined="right_wheel")]
     ),
-    "parameters.launch.py": Expected([
-        node(
-            "/left/wheels", **FROM_FILE, speed=0.5, on=True, mixed=[1.0, 2.5], names=["a", "b"],
-            **{"pid.p": 1.0, "pid.limits": [1, 2]},
-        )
-    ]),
-    "names.launch.py": Expected([
-        node("/head/left/ear", "one", "two words", topic="/news"),
-        node("/tail/teller"),
-        node("/teller"),
-    ]),
-    "groups.launch.py": Expected([
-        node("/outer/first", topic="/news", **GROUPED),
-        node("/outer/inner/second", topic="/news", **GROUPED),
-        node("/away/third", topic="/news", **GROUPED),
-        node("/fourth", color="blue"),
-    ]),
+    "parameters.launch.py": Expected(
+        [
+            node(
+                "/left/wheels",
+                **FROM_FILE,
+                speed=0.5,
+                on=True,
+                mixed=[1.0, 2.5],
+                names=["a", "b"],
+                **{"pid.p": 1.0, "pid.limits": [1, 2]},
+            )
+        ]
+    ),
+    "names.launch.py": Expected(
+        [
+            node("/head/left/ear", "one", "two words", topic="/news"),
+            node("/tail/teller"),
+            node("/teller"),
+        ]
+    ),
+    "groups.launch.py": Expected(
+        [
+            node("/outer/first", topic="/news", **GROUPED),
+            node("/outer/inner/second", topic="/news", **GROUPED),
+            node("/away/third", topic="/news", **GROUPED),
+            node("/fourth", color="blue"),
+        ]
+    ),
     "includes.launch.py": Expected(
         [node("/one"), node("/xml/two"), node("/yaml/three"), node("/xml/four")]
     ),
-    "conditions.launch.py": Expected(
-        logs=["it is on", "it is slow", "it is not two", "it is one"]
-    ),
+    "conditions.launch.py": Expected(logs=["it is on", "it is slow", "it is not two", "it is one"]),
     "conditions.launch.py on:=False speed:=2.0": Expected(
         logs=["it is off", "it is fast", "it is two"]
     ),
     "environment.launch.py": Expected(
         [
-            node("/one", mood="calm"), node("/two", mood="gay"), node("/three", mood="calmer"),
-            node("/four", mood="calm sea"), node("/five"),
+            node("/one", mood="calm"),
+            node("/two", mood="gay"),
+            node("/three", mood="calmer"),
+            node("/four", mood="calm sea"),
+            node("/five"),
         ],
         ["mood: none"],
     ),
@@ -102,14 +117,21 @@ CASES = {
     "opaque.launch.py": Expected([node("/robot0"), node("/robot1")]),
     "opaque.launch.py count:=1": Expected([node("/robot0")]),
     "respawn.launch.py": Expected(
-        [node("/teller", "die")] * 3, code=1,
+        [node("/teller", "die")] * 3,
+        code=1,
         says=(r"^\[ERROR\] \[teller-1\]: process has died \[pid \d+, exit code 3, cmd '.*die",),
         never=("teller-2",),
     ),
     "substitutions.launch.py": Expected(
         logs=[
-            "SHARE/config/a.yaml", "at once SHARE", "prefix PREFIX", "3.142", "from a command",
-            f"{HERE_TEXT}/substitutions.launch.py", "a note", "yes",
+            "SHARE/config/a.yaml",
+            "at once SHARE",
+            "prefix PREFIX",
+            "3.142",
+            "from a command",
+            f"{HERE_TEXT}/substitutions.launch.py",
+            "a note",
+            "yes",
         ]
     ),
     "asked_once.launch.py": Expected(
@@ -127,37 +149,58 @@ CASES = {
         never=(r"\[teller-1\] printed", r"\[other_name-3\] told"),
     ),
     "submodules.launch.py": Expected([node("/deep/teller", depth=3.0)], ["5 more names"]),
-    "twice.launch.xml": Expected([
-        node("/left/wheels", **FROM_FILE, speed=0.1),
-        node(
-            "/right/wheels", topic="/right/right_news", everyone=1, side="right", speed=0.8,
-            label="12", sizes=[2, 3],
-        ),
-    ]),
-    "twice.launch.xml first:=left second:=left/deep": Expected([
-        node("/left/wheels", **FROM_FILE, speed=0.1),
-        node(
-            "/left/deep/wheels", topic="/left/deep/left/deep_news", everyone=1, speed=0.8,
-            label="12", sizes=[2, 3],
-        ),
-    ]),
+    "twice.launch.xml": Expected(
+        [
+            node("/left/wheels", **FROM_FILE, speed=0.1),
+            node(
+                "/right/wheels",
+                topic="/right/right_news",
+                everyone=1,
+                side="right",
+                speed=0.8,
+                label="12",
+                sizes=[2, 3],
+            ),
+        ]
+    ),
+    "twice.launch.xml first:=left second:=left/deep": Expected(
+        [
+            node("/left/wheels", **FROM_FILE, speed=0.1),
+            node(
+                "/left/deep/wheels",
+                topic="/left/deep/left/deep_news",
+                everyone=1,
+                speed=0.8,
+                label="12",
+                sizes=[2, 3],
+            ),
+        ]
+    ),
     "events.launch.xml": Expected(
         [node("/needed", "a b", "c d")],
         ["a moment later"],
         says=(r"^\[echo-1\] two words no mood$", "sending signal 'SIGINT' to process"),
     ),
     "includes.launch.xml": Expected([node("/python"), node("/yaml/yaml")], ["who stays set"]),
-    "parameters.launch.yaml": Expected([
-        node(
-            "/left/wheels", mood="calm", **FROM_FILE, speed=3, text="3", active=True, sizes=[1, 2],
-            **{"pid.p": 1.5},
-        )
-    ]),
+    "parameters.launch.yaml": Expected(
+        [
+            node(
+                "/left/wheels",
+                mood="calm",
+                **FROM_FILE,
+                speed=3,
+                text="3",
+                active=True,
+                sizes=[1, 2],
+                **{"pid.p": 1.5},
+            )
+        ]
+    ),
     "groups.launch.yaml": Expected(
         [node("/outer/red", topic="/news", mood="calm", speed=2.5), node("/blue")],
         ["1.0 is 1: true"],
     ),
-}  # fmt: skip
+}
 
 
 @pytest.fixture

@@ -80,11 +80,14 @@ def test_we_offer_no_name_that_jazzy_does_not_have() -> None:
 @pytest.mark.parametrize(
     "line",
     [
-        "import launch; launch.actions.LogInf", "import launch; launch.actoins",
-        "from launch.actions import LogInf", "import launch.actoins",
-        "import launch; launch.actions.LogInfo.mgs", "import launch; launch.events.LogInfo",
+        "import launch; launch.actions.LogInf",
+        "import launch; launch.actoins",
+        "from launch.actions import LogInf",
+        "import launch.actoins",
+        "import launch; launch.actions.LogInfo.mgs",
+        "import launch; launch.events.LogInfo",
     ],
-)  # fmt: skip
+)
 def test_a_misspelt_name_is_a_mistake(line: str) -> None:
     """It is told as one, and not as something that only the full ROS has."""
     with pytest.raises(BadLaunchFile) as told, students_code(HERE):
@@ -94,10 +97,20 @@ def test_a_misspelt_name_is_a_mistake(line: str) -> None:
 
 def classes() -> dict[str, type]:
     """Name of each class of ours that a launch file meets."""
-    rooms = (provided.actions, provided.conditions, provided.context, provided.description,
-             provided.events, provided.handlers, provided.node, provided.parameters,
-             provided.processes, provided.sources, provided.substitution,
-             provided.substitutions)  # fmt: skip
+    rooms = (
+        provided.actions,
+        provided.conditions,
+        provided.context,
+        provided.description,
+        provided.events,
+        provided.handlers,
+        provided.node,
+        provided.parameters,
+        provided.processes,
+        provided.sources,
+        provided.substitution,
+        provided.substitutions,
+    )
     return {name: cls for room in rooms for name, cls in inspect.getmembers(room, inspect.isclass)}
 
 

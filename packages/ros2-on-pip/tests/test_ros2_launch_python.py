@@ -42,11 +42,12 @@ CTRL_C = "[WARNING] [launch]: user interrupted with ctrl-c (SIGINT)"
 def mine(empty: Shell, tmp_path: Path) -> Shell:
     """A terminal with the package `mine`, which has the executable `teller`."""
     return package(
-        empty, tmp_path,
+        empty,
+        tmp_path,
         nurse="#!/bin/sh\nsleep 600 &\necho child $!\nwait\n",
         parent=PARENT,
         deaf="#!/bin/sh\ntrap '' INT TERM\necho here\nwhile :; do sleep 0.1; done\n",
-    )  # fmt: skip
+    )
 
 
 FAULTS = [
@@ -163,9 +164,12 @@ def test_arguments_and_the_tree_are_shown(mine: Shell, tmp_path: Path) -> None:
     written(tmp_path, "a.launch.py", GOOD)
     shown = mine("launch", "a.launch.py", "-s")
     assert shown.lines == [
-        "Arguments (pass arguments as '<name>:=<value>'):", "", "    'side':",
-        "        Where. Valid choices are: ['left']", "        (default: 'left')",
-    ]  # fmt: skip
+        "Arguments (pass arguments as '<name>:=<value>'):",
+        "",
+        "    'side':",
+        "        Where. Valid choices are: ['left']",
+        "        (default: 'left')",
+    ]
     assert mine("launch", "a.launch.py", "--print").lines == [
         "LaunchDescription",
         "├── DeclareLaunchArgument('side', default 'left')",
@@ -177,16 +181,26 @@ def test_arguments_and_the_tree_are_shown(mine: Shell, tmp_path: Path) -> None:
 def test_arguments_of_included_files_are_shown(mine: Shell, tmp_path: Path) -> None:
     """Those that a condition brings have a star; a file without arguments says so."""
     written(tmp_path, "a.launch.py", GOOD)
-    written(tmp_path, "b.launch.xml", """<launch>
+    written(
+        tmp_path,
+        "b.launch.xml",
+        """<launch>
   <arg name="deep" default="$(env HOME)"><choice value="a"/></arg>
   <group if="false"><include file="$(dirname)/a.launch.py"/></group>
-</launch>""")  # fmt: skip
+</launch>""",
+    )
     assert mine("launch", "b.launch.xml", "--show-args").lines[1:] == [
-        "", "    'deep':", "        One of: ['a']", "        (default: EnvVar('HOME'))",
-        "", "    'side':*",
-        "        Where. Valid choices are: ['left']", "        (default: 'left')",
-        "", "* argument(s) which are only used if specific conditions occur",
-    ]  # fmt: skip
+        "",
+        "    'deep':",
+        "        One of: ['a']",
+        "        (default: EnvVar('HOME'))",
+        "",
+        "    'side':*",
+        "        Where. Valid choices are: ['left']",
+        "        (default: 'left')",
+        "",
+        "* argument(s) which are only used if specific conditions occur",
+    ]
     written(tmp_path, "c.launch.xml", "<launch/>")
     assert mine("launch", "c.launch.xml", "-s").lines[1:] == ["", "  No arguments."]
 
@@ -245,7 +259,7 @@ def test_what_a_node_has_started_ends_with_it(mine: Shell, tmp_path: Path) -> No
 
 def test_what_hears_no_signal_is_killed(mine: Shell, tmp_path: Path) -> None:
     """SIGINT, then SIGTERM, then SIGKILL, each after the time that the launch file says."""
-    more = "'deaf', output='screen', sigterm_timeout='0.2', sigkill_timeout=0.3"
+    more = "'deaf', output='screen', sigterm_timeout='0.2', sigkill_timeout='0.3'"
     written(tmp_path, "a.launch.py", GOOD.replace("'teller'", more))
     with mine.start("launch", "a.launch.py") as launch:
         launch.wait_for(r"^\[deaf-1\] here$")

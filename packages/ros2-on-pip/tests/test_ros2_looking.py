@@ -118,13 +118,28 @@ def test_topic_info_verbose(stage: Shell) -> None:
     gid = next(line for line in lines if line.startswith("GID: "))
     kind = next(line for line in lines if line.startswith("Topic type hash: RIHS01_"))
     assert lines == [
-        "Type: sensor_msgs/msg/LaserScan", "", "Publisher count: 1", "",
-        "Node name: rover", "Node namespace: /field", "Topic type: sensor_msgs/msg/LaserScan",
-        kind, "Endpoint type: PUBLISHER", gid, "QoS profile:", "  Reliability: BEST_EFFORT",
-        "  History (Depth): UNKNOWN", "  Durability: VOLATILE", "  Lifespan: Infinite",
-        "  Deadline: Infinite", "  Liveliness: AUTOMATIC",
-        "  Liveliness lease duration: Infinite", "", "Subscription count: 0", "",
-    ]  # fmt: skip
+        "Type: sensor_msgs/msg/LaserScan",
+        "",
+        "Publisher count: 1",
+        "",
+        "Node name: rover",
+        "Node namespace: /field",
+        "Topic type: sensor_msgs/msg/LaserScan",
+        kind,
+        "Endpoint type: PUBLISHER",
+        gid,
+        "QoS profile:",
+        "  Reliability: BEST_EFFORT",
+        "  History (Depth): UNKNOWN",
+        "  Durability: VOLATILE",
+        "  Lifespan: Infinite",
+        "  Deadline: Infinite",
+        "  Liveliness: AUTOMATIC",
+        "  Liveliness lease duration: Infinite",
+        "",
+        "Subscription count: 0",
+        "",
+    ]
 
 
 def test_topic_type_and_find(stage: Shell) -> None:
@@ -156,9 +171,11 @@ def test_action_words(stage: Shell) -> None:
     assert stage("action", "list").out == "/fibonacci\n"
     assert stage("action", "list", "-t").out == "/fibonacci [test_msgs/action/Fibonacci]\n"
     assert stage("action", "info", "/fibonacci", "-t").lines == [
-        "Action: /fibonacci", "Action clients: 0", "Action servers: 1",
+        "Action: /fibonacci",
+        "Action clients: 0",
+        "Action servers: 1",
         "    /tuner [test_msgs/action/Fibonacci]",
-    ]  # fmt: skip
+    ]
     assert stage("action", "info", "/fibonaci").lines[1:] == [
         "Action clients: 0",
         "Action servers: 0",

@@ -103,9 +103,13 @@ def test_closed_pipe_is_quiet(stage: Shell) -> None:
     """`ros2 topic echo /chatter | head -1`."""
     reading, writing = os.pipe()
     process = subprocess.Popen(
-        ours("topic", "echo", "/chatter"), env=stage.environment, cwd=stage.folder,
-        stdout=writing, stderr=subprocess.PIPE, text=True,
-    )  # fmt: skip
+        ours("topic", "echo", "/chatter"),
+        env=stage.environment,
+        cwd=stage.folder,
+        stdout=writing,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
     os.close(writing)
     with os.fdopen(reading) as head:
         assert head.readline().startswith("data: 'Hello World")
@@ -153,8 +157,9 @@ def test_pub_once(stage: Shell) -> None:
 
 def test_pub_several_times(stage: Shell) -> None:
     """`-t 3`, of which every second is printed; a short type name is enough."""
-    ran = stage("topic", "pub", "-t", "3", "-r", "50", "-p", "2", "heard", "std_msgs/String",
-                "data: pepper")  # fmt: skip
+    ran = stage(
+        "topic", "pub", "-t", "3", "-r", "50", "-p", "2", "heard", "std_msgs/String", "data: pepper"
+    )
     assert "publishing #2: std_msgs.msg.String(data='pepper')" in ran.lines
     assert "publishing #1" not in ran.out
     stage.wait_heard("pepper", times=3)

@@ -41,10 +41,21 @@ creating ./chatter/test/test_pep257.py
 creating ./chatter/chatter/talker.py
 """
 CREATE = (
-    "pkg", "create", "--build-type", "ament_python", "--node-name", "talker", "chatter",
-    "--maintainer-name", "Ada", "--maintainer-email", "ada@example.com",
-    "--dependencies", "rclpy", "std_msgs",
-)  # fmt: skip
+    "pkg",
+    "create",
+    "--build-type",
+    "ament_python",
+    "--node-name",
+    "talker",
+    "chatter",
+    "--maintainer-name",
+    "Ada",
+    "--maintainer-email",
+    "ada@example.com",
+    "--dependencies",
+    "rclpy",
+    "std_msgs",
+)
 
 
 def test_create_build_source_run(empty: Shell, tmp_path: Path) -> None:
@@ -55,9 +66,13 @@ def test_create_build_source_run(empty: Shell, tmp_path: Path) -> None:
     assert ran.code == 0
     assert ran.out.startswith(CREATED.format(folder=source))
     built = subprocess.run(
-        ["colcon", "build"], cwd=tmp_path, capture_output=True, text=True, check=False,
+        ["colcon", "build"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
         env=empty.environment | {"AMENT_PREFIX_PATH": sys.prefix, "PATH": path_with_ours()},
-    )  # fmt: skip
+    )
     assert "1 package finished" in built.stdout, built.stderr
     script = f'source install/setup.bash; exec "{sys.executable}" "$0" run chatter talker'
     ours = str(Path(__file__).with_name("ours.py"))
@@ -147,8 +162,9 @@ def test_pkg_words(overlay: Shell, tmp_path: Path) -> None:
     assert overlay("pkg", "prefix", "mine").out == f"{tmp_path}/install/mine\n"
     assert overlay("pkg", "executables", "mine").out == "mine ends\nmine tells\n"
     assert overlay("pkg", "executables", "demo_nodes_py").lines == [
-        "demo_nodes_py listener", "demo_nodes_py talker",
-    ]  # fmt: skip
+        "demo_nodes_py listener",
+        "demo_nodes_py talker",
+    ]
     ran = overlay("pkg", "prefix", "mines")
     assert ran.code == 1
     assert "Package 'mines' not found. Did you mean mine?" in ran.err
@@ -192,9 +208,12 @@ def test_the_tests_of_a_created_package_are_skipped_without_a_warning(
     assert empty(*CREATE).code == 0
     ran = subprocess.run(
         [sys.executable, "-m", "pytest", "-rs", "-p", "no:cacheprovider"],
-        cwd=tmp_path / "chatter", capture_output=True, text=True, check=False,
+        cwd=tmp_path / "chatter",
+        capture_output=True,
+        text=True,
+        check=False,
         env={**empty.environment, "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"},
-    )  # fmt: skip
+    )
     assert "3 skipped" in ran.stdout, ran.stdout + ran.stderr
     assert "warning" not in ran.stdout.lower()
     assert ran.returncode == 0

@@ -20,15 +20,26 @@ from ros2_on_pip.discovery import Settling, Sight
 from ros2_on_pip.words import Parser
 
 LOOKING = {
-    "action info": ("/fibonacci",), "action list": (), "action type": ("/fibonacci",),
-    "lifecycle get": ("/motor",), "lifecycle list": ("/motor",), "lifecycle nodes": (),
-    "node info": ("/talker",), "node list": (),
-    "param describe": ("/tuner", "speed"), "param dump": ("/talker",),
-    "param get": ("/talker", "use_sim_time"), "param list": ("/tuner",),
-    "service info": ("/light",), "service list": (), "service type": ("/light",),
-    "topic find": ("std_msgs/msg/String",), "topic info": ("/chatter",),
-    "topic list": ("-t",), "topic type": ("/chatter",),
-}  # fmt: skip
+    "action info": ("/fibonacci",),
+    "action list": (),
+    "action type": ("/fibonacci",),
+    "lifecycle get": ("/motor",),
+    "lifecycle list": ("/motor",),
+    "lifecycle nodes": (),
+    "node info": ("/talker",),
+    "node list": (),
+    "param describe": ("/tuner", "speed"),
+    "param dump": ("/talker",),
+    "param get": ("/talker", "use_sim_time"),
+    "param list": ("/tuner",),
+    "service info": ("/light",),
+    "service list": (),
+    "service type": ("/light",),
+    "topic find": ("std_msgs/msg/String",),
+    "topic info": ("/chatter",),
+    "topic list": ("-t",),
+    "topic type": ("/chatter",),
+}
 """What is looked at with `LOOK`, which changes nothing in what is seen."""
 
 

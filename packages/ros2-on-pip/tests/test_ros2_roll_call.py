@@ -109,12 +109,14 @@ def test_who_has_ended_is_not_waited_for(monkeypatch: pytest.MonkeyPatch) -> Non
     roll = RollCall(domain=0)
     roll._answered = {7410: US, 7412: THEM}
     everybody = frozenset({US, THEM, DEAD})
-    with_dead = Sight(everybody, frozenset({US, THEM}), 5, unnamed=2, nodes=2,
-                      half_known=frozenset({DEAD}))  # fmt: skip
+    with_dead = Sight(
+        everybody, frozenset({US, THEM}), 5, unnamed=2, nodes=2, half_known=frozenset({DEAD})
+    )
     settling = Settling(0, roll)
     assert any(settling.after(with_dead) for _ in range(eye.BELIEVED_READINGS + 1))
-    without_them = Sight(everybody, frozenset({US}), 5, unnamed=2, nodes=2,
-                         half_known=frozenset({THEM}))  # fmt: skip
+    without_them = Sight(
+        everybody, frozenset({US}), 5, unnamed=2, nodes=2, half_known=frozenset({THEM})
+    )
     waiting = Settling(0, roll)
     assert not any(waiting.after(without_them) for _ in range(50))
 

@@ -39,9 +39,13 @@ def bash(shell: Shell, script: str, *words: str, **changes: str) -> str:
     """What a script of bash prints."""
     done = subprocess.run(
         ["bash", "-c", script, "bash", str(ROOT / "setup.bash"), *words],
-        env=shell.environment | changes, cwd=shell.folder, capture_output=True, text=True,
-        check=True, timeout=120,
-    )  # fmt: skip
+        env=shell.environment | changes,
+        cwd=shell.folder,
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=120,
+    )
     return done.stdout.strip()
 
 
@@ -75,7 +79,10 @@ def test_only_our_own_words_are_on_standard_output(empty: Shell) -> None:
         "os.write(1, b'from below\\n')\nprint('ours')"
     )
     done = subprocess.run(
-        [sys.executable, "-c", code], env=empty.environment, capture_output=True, text=True,
+        [sys.executable, "-c", code],
+        env=empty.environment,
+        capture_output=True,
+        text=True,
         check=True,
-    )  # fmt: skip
+    )
     assert (done.stdout, done.stderr) == ("ours\n", "from below\n")

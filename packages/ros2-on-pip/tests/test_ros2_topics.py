@@ -135,9 +135,15 @@ def asked(verb: str, *words: str) -> argparse.Namespace:
 def test_the_quality_that_a_listener_asks_for(workshop: Shell) -> None:
     """Others see most of it; of depth and history DDS tells nobody, so the profile is looked at."""
     every = (
-        "--qos-reliability", "reliable", "--qos-durability", "transient_local",
-        "--qos-liveliness", "manual_by_topic", "--qos-liveliness-lease-duration-seconds", "5",
-    )  # fmt: skip
+        "--qos-reliability",
+        "reliable",
+        "--qos-durability",
+        "transient_local",
+        "--qos-liveliness",
+        "manual_by_topic",
+        "--qos-liveliness-lease-duration-seconds",
+        "5",
+    )
     kind = "std_msgs/msg/String"
     with (
         workshop.start("topic", "echo", "/a", kind, *every),
@@ -157,8 +163,9 @@ def test_the_quality_that_a_listener_asks_for(workshop: Shell) -> None:
             shown = subscribed(workshop, topic)
             for word, value in zip(
                 ("Reliability", "Durability", "Liveliness", "Liveliness lease duration"),
-                lines, strict=True,
-            ):  # fmt: skip
+                lines,
+                strict=True,
+            ):
                 assert f"  {word}: {value}" in shown, topic
     for verb, preset in (("topic echo", "sensor_data"), ("service echo", "services_default")):
         depth = qos.chosen(asked(verb, "/a", "--qos-depth", "77"), preset)
@@ -181,9 +188,15 @@ def test_the_quality_that_a_publisher_offers(empty: Shell) -> None:
     """Others see it; of depth and history what a late listener still gets."""
     kind, name = "std_msgs/msg/String", ("--node-name", "speaker")
     every = (
-        "--qos-reliability", "best_effort", "--qos-durability", "transient_local",
-        "--qos-liveliness", "manual_by_topic", "--qos-liveliness-lease-duration-seconds", "5",
-    )  # fmt: skip
+        "--qos-reliability",
+        "best_effort",
+        "--qos-durability",
+        "transient_local",
+        "--qos-liveliness",
+        "manual_by_topic",
+        "--qos-liveliness-lease-duration-seconds",
+        "5",
+    )
     with (
         empty.start("topic", "pub", "/a", kind, *every, *name) as a,
         empty.start("topic", "pub", "/b", kind, "--qos-profile", "sensor_data") as b,
@@ -192,9 +205,12 @@ def test_the_quality_that_a_publisher_offers(empty: Shell) -> None:
         b.wait_for("publishing #1")
         shown = inside.run(empty, "topic", "info", "-v", "/a").out
         for line in (
-            "Node name: speaker", "  Reliability: BEST_EFFORT", "  Durability: TRANSIENT_LOCAL",
-            "  Liveliness: MANUAL_BY_TOPIC", "  Liveliness lease duration: 5000000000 nanoseconds",
-        ):  # fmt: skip
+            "Node name: speaker",
+            "  Reliability: BEST_EFFORT",
+            "  Durability: TRANSIENT_LOCAL",
+            "  Liveliness: MANUAL_BY_TOPIC",
+            "  Liveliness lease duration: 5000000000 nanoseconds",
+        ):
             assert f"{line}\n" in shown
         assert "  Reliability: BEST_EFFORT\n" in inside.run(empty, "topic", "info", "-v", "/b").out
 
@@ -329,9 +345,20 @@ def test_delay_before_the_simulated_time_begins() -> None:
 def test_lost_messages_are_told_or_not(empty: Shell) -> None:
     """Two listeners are stopped while more is said than the computer keeps for them."""
     flood = (
-        "topic", "pub", "-r", "2000", "-p", "500", "/flood", "std_msgs/msg/String",
-        "{data: " + "x" * 2000 + "}", "--qos-reliability", "best_effort", "--qos-depth", "1",
-    )  # fmt: skip
+        "topic",
+        "pub",
+        "-r",
+        "2000",
+        "-p",
+        "500",
+        "/flood",
+        "std_msgs/msg/String",
+        "{data: " + "x" * 2000 + "}",
+        "--qos-reliability",
+        "best_effort",
+        "--qos-depth",
+        "1",
+    )
     hear = ("topic", "echo", "/flood", "std_msgs/msg/String", "--field", "data", "-i")
     with (
         empty.start(*flood) as pub,
@@ -358,9 +385,14 @@ def test_lost_messages_are_told_or_not(empty: Shell) -> None:
 def test_service_echo(workshop: Shell) -> None:
     """What is asked and answered, in each shape."""
     forms = {
-        "plain": (), "flow": ("--flow-style",), "csv": ("--csv",), "short": ("-l", "1"),
-        "whole": ("-l", "1", "-f"), "counted": ("--no-arr",), "mute": ("--no-str",),
-    }  # fmt: skip
+        "plain": (),
+        "flow": ("--flow-style",),
+        "csv": ("--csv",),
+        "short": ("-l", "1"),
+        "whole": ("-l", "1", "-f"),
+        "counted": ("--no-arr",),
+        "mute": ("--no-str",),
+    }
     with ExitStack() as stack:
         echoes = {
             name: stack.enter_context(workshop.start("service", "echo", "/lamp", *words))

@@ -115,8 +115,11 @@ def test_param_get_as_the_real_tool_prints_it(workshop: Shell, words: str, out: 
 def test_param_list_of_some(workshop: Shell) -> None:
     """By a pattern, by a prefix, with types; nodes that have none of them are left out."""
     assert inside.run(workshop, "param", "list", "--filter", "pid|na").lines == [
-        "/maker:", "  names", "  pid.i", "  pid.p",
-    ]  # fmt: skip
+        "/maker:",
+        "  names",
+        "  pid.i",
+        "  pid.p",
+    ]
     some = inside.run(workshop, "param", "list", "/maker", "--param-prefixes", "pid")
     assert some.lines == ["  pid.i", "  pid.p"]
     typed = inside.run(workshop, "param", "list", "/maker", "--filter", "names", "--param-type")
@@ -147,8 +150,9 @@ def test_param_load_without_what_is_for_all_nodes(workshop: Shell, tmp_path: Pat
     )
     load = ("param", "load", "/maker", str(file))
     assert inside.run(workshop, *load).lines == [
-        "Set parameter pid.i successful", "Set parameter pid.p successful",
-    ]  # fmt: skip
+        "Set parameter pid.i successful",
+        "Set parameter pid.p successful",
+    ]
     assert inside.run(workshop, *load, "--no-use-wildcard").lines == [
         "Set parameter pid.p successful"
     ]
@@ -258,25 +262,56 @@ def test_executables_and_what_stands_before_them(empty: Shell) -> None:
 
 
 @shows(
-    "pkg create", "--package-format", "--description", "--license", "--destination-directory",
-    "--build-type", "--dependencies", "--maintainer-email", "--maintainer-name", "--node-name",
+    "pkg create",
+    "--package-format",
+    "--description",
+    "--license",
+    "--destination-directory",
+    "--build-type",
+    "--dependencies",
+    "--maintainer-email",
+    "--maintainer-name",
+    "--node-name",
     "--library-name",
-)  # fmt: skip
+)
 def test_pkg_create_with_every_option(empty: Shell, tmp_path: Path) -> None:
     """Each of them shows in what is made; without `--build-type` it asks for it."""
     ran = inside.run(
-        empty, "pkg", "create", "wheels", "--build-type", "ament_python", "--package-format", "2",
-        "--description", "Turns them", "--license", "MIT", "--dependencies", "rclpy",
-        "--maintainer-email", "ada@example.com", "--maintainer-name", "Ada",
-        "--node-name", "turn", "--library-name", "axle", "--destination-directory", str(tmp_path),
-    )  # fmt: skip
+        empty,
+        "pkg",
+        "create",
+        "wheels",
+        "--build-type",
+        "ament_python",
+        "--package-format",
+        "2",
+        "--description",
+        "Turns them",
+        "--license",
+        "MIT",
+        "--dependencies",
+        "rclpy",
+        "--maintainer-email",
+        "ada@example.com",
+        "--maintainer-name",
+        "Ada",
+        "--node-name",
+        "turn",
+        "--library-name",
+        "axle",
+        "--destination-directory",
+        str(tmp_path),
+    )
     assert ran.code == 0
     manifest = (tmp_path / "wheels" / "package.xml").read_text()
     for piece in (
-        'format="2"', "<description>Turns them</description>", "<license>MIT</license>",
-        'email="ada@example.com">Ada</maintainer>', "<depend>rclpy</depend>",
+        'format="2"',
+        "<description>Turns them</description>",
+        "<license>MIT</license>",
+        'email="ada@example.com">Ada</maintainer>',
+        "<depend>rclpy</depend>",
         "<build_type>ament_python</build_type>",
-    ):  # fmt: skip
+    ):
         assert piece in manifest
     assert (tmp_path / "wheels" / "wheels" / "turn.py").is_file()
     assert (tmp_path / "wheels" / "axle").is_dir() or (tmp_path / "wheels/wheels/axle").is_dir()
@@ -290,15 +325,17 @@ def test_pkg_create_with_every_option(empty: Shell, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("words", "right"),
     [
-        ("topic info chatter", "/chatter"), ("topic type chatter", "/chatter"),
-        ("service type light", "/light"), ("service info light", "/light"),
+        ("topic info chatter", "/chatter"),
+        ("topic type chatter", "/chatter"),
+        ("service type light", "/light"),
+        ("service info light", "/light"),
         ("action type fibonacci", "/fibonacci"),
         ("topic find std_msgs/String", "std_msgs/msg/String"),
         ("service find std_srvs/SetBool", "std_srvs/srv/SetBool"),
         ("interface show geometry_msgs/Twist", "geometry_msgs/msg/Twist"),
         ("interface proto geometry_msgs/Twist", "geometry_msgs/msg/Twist"),
     ],
-)  # fmt: skip
+)
 def test_a_habit_that_breaks_on_a_robot_is_told(stage: Shell, words: str, right: str) -> None:
     """It works here, and one line says how to write it."""
     typed = words.split()[-1]
@@ -313,9 +350,14 @@ def behind_a_wall(home: Path, *words: str) -> str:
     """What `nodes/behind_a_wall.py` prints, in a network where only loopback exists."""
     skip_without("namespaces")
     done = subprocess.run(
-        [sys.executable, ALONE, sys.executable, BEHIND_A_WALL, *words], cwd=home, text=True,
-        env=surroundings(0, home), capture_output=True, timeout=120, check=False,
-    )  # fmt: skip
+        [sys.executable, ALONE, sys.executable, BEHIND_A_WALL, *words],
+        cwd=home,
+        text=True,
+        env=surroundings(0, home),
+        capture_output=True,
+        timeout=120,
+        check=False,
+    )
     assert done.returncode == 0, done.stderr
     return done.stdout
 
@@ -338,10 +380,12 @@ def test_multicast_from_one_terminal_to_another(tmp_path: Path, where: tuple[str
 @pytest.mark.parametrize(
     ("words", "ttl"),
     [
-        ("multicast send", 1), ("multicast send --ttl 5", 5),
-        ("wtf hello --once", 1), ("wtf hello --once --ttl 3 --topic /hi", 3),
+        ("multicast send", 1),
+        ("multicast send --ttl 5", 5),
+        ("wtf hello --once", 1),
+        ("wtf hello --once --ttl 3 --topic /hi", 3),
     ],
-)  # fmt: skip
+)
 def test_how_far_a_datagram_may_go(tmp_path: Path, words: str, ttl: int) -> None:
     """By default not beyond the nearest network."""
     assert behind_a_wall(tmp_path, "ttl", *words.split()) == f"ttl {ttl}\n"

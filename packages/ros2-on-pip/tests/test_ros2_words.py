@@ -35,8 +35,11 @@ def test_the_real_ros2_is_run_where_there_is_one(empty: Shell, tmp_path: Path) -
     path = f"{own}:{real}:/usr/bin:/bin"
     done = subprocess.run(
         [sys.executable, START, "topic", "echo", "--raw", "/x"],
-        env=empty.environment | {"PATH": path}, capture_output=True, text=True, check=False,
-    )  # fmt: skip
+        env=empty.environment | {"PATH": path},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert (done.returncode, done.stdout) == (5, "the real one: topic echo --raw /x\n")
 
 
@@ -49,8 +52,10 @@ def test_a_ros2cli_that_can_only_be_imported_is_run_too(empty: Shell, tmp_path: 
     done = subprocess.run(
         [sys.executable, START, "node", "list"],
         env=empty.environment | {"PATH": "/usr/bin:/bin", "PYTHONPATH": str(tmp_path)},
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert (done.returncode, done.stdout) == (6, "['node', 'list']\n")
 
 
@@ -116,9 +121,14 @@ def completed(shell: Shell, line: str, folder: Path) -> list[str]:
     """What the Tab key offers at the end of `line`."""
     offer = folder / "offer"
     environment = shell.environment | {
-        "_ARGCOMPLETE": "1", "COMP_LINE": line, "COMP_POINT": str(len(line)), "COMP_TYPE": "9",
-        "_ARGCOMPLETE_STDOUT_FILENAME": str(offer), "IFS": "\v", "_ARGCOMPLETE_IFS": "\v",
-    }  # fmt: skip
+        "_ARGCOMPLETE": "1",
+        "COMP_LINE": line,
+        "COMP_POINT": str(len(line)),
+        "COMP_TYPE": "9",
+        "_ARGCOMPLETE_STDOUT_FILENAME": str(offer),
+        "IFS": "\v",
+        "_ARGCOMPLETE_IFS": "\v",
+    }
     subprocess.run(ours(), env=environment, check=False, timeout=60)
     return sorted(word.strip() for word in offer.read_text().split("\v") if word)
 

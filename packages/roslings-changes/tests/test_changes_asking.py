@@ -36,9 +36,12 @@ def typing(*lines: str) -> Callable[[str], str]:
 def test_a_change_is_shown_with_file_and_line_and_moved_to_the_left() -> None:
     """As a difference is written."""
     assert asked(2, question("rate")) == [
-        "2 of 3   chatter/talker.py, line 3", "",
-        "    - self.create_timer(0.5, self.c)", "    + self.create_timer(0.75, self.c)", "",
-    ]  # fmt: skip
+        "2 of 3   chatter/talker.py, line 3",
+        "",
+        "    - self.create_timer(0.5, self.c)",
+        "    + self.create_timer(0.75, self.c)",
+        "",
+    ]
 
 
 def test_the_checks_fit_on_a_screen() -> None:

@@ -13,8 +13,16 @@ from roslings.course import Lab, lab
 pytestmark = pytest.mark.slow
 
 LABS = ["topics", "services"]
-OTHERS = ["nodes", "distance-sensor", "actions", "serial-bridge", "pi-camera", "bring-up",
-          "black-box", "e-stop"]  # fmt: skip
+OTHERS = [
+    "nodes",
+    "distance-sensor",
+    "actions",
+    "serial-bridge",
+    "pi-camera",
+    "bring-up",
+    "black-box",
+    "e-stop",
+]
 
 
 def package_of(asked: Lab, to: Path) -> Path:

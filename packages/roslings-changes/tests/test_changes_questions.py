@@ -16,26 +16,43 @@ from roslings_changes.questions import MOST_GRADED, PLAIN, WANTED, drawn, graded
 
 CHECKS = ("builds", "rate", "text", "ends")
 HERE = Environment(
-    roslings="0", ros_distro="jazzy", rmw="", python="", platform="", isolation="domain",
-    clock="sim", seed=1,
-)  # fmt: skip
+    roslings="0",
+    ros_distro="jazzy",
+    rmw="",
+    python="",
+    platform="",
+    isolation="domain",
+    clock="sim",
+    seed=1,
+)
 
 
 def verdict(*failed: str, inconclusive: Sequence[str] = ()) -> Verdict:
     """One in which these checks fail."""
     checks = tuple(
         CheckResult(
-            id=name, title=f"About {name}.", points=0, max_points=25,
-            outcome="fail" if name in failed
-            else "inconclusive" if name in inconclusive else "pass",
+            id=name,
+            title=f"About {name}.",
+            points=0,
+            max_points=25,
+            outcome="fail"
+            if name in failed
+            else "inconclusive"
+            if name in inconclusive
+            else "pass",
         )
         for name in CHECKS
-    )  # fmt: skip
+    )
     outcome = "inconclusive" if inconclusive else "fail" if failed else "pass"
     return Verdict(
-        lab="topics", package="chatter", outcome=outcome, score=None if inconclusive else 0,
-        checks=checks, seconds=Timings(), environment=HERE,
-    )  # fmt: skip
+        lab="topics",
+        package="chatter",
+        outcome=outcome,
+        score=None if inconclusive else 0,
+        checks=checks,
+        seconds=Timings(),
+        environment=HERE,
+    )
 
 
 @pytest.fixture
@@ -93,9 +110,14 @@ def test_the_package_stays_and_the_copy_is_gone(topics: Lab, package: Path) -> N
 def test_each_question_is_about_another_check(topics: Lab, package: Path) -> None:
     """What is not caught, and what could not be told, is no question."""
     given = [
-        verdict(), verdict("rate", "ends"), verdict("rate"), verdict(inconclusive=["text"]),
-        verdict("text"), verdict("builds"), verdict("ends"),
-    ]  # fmt: skip
+        verdict(),
+        verdict("rate", "ends"),
+        verdict("rate"),
+        verdict(inconclusive=["text"]),
+        verdict("text"),
+        verdict("builds"),
+        verdict("ends"),
+    ]
     verdicts = iter(given)
     found = list(questions(topics, package, lambda _: next(verdicts)))
     assert [each.failed.id for each in found] == ["rate", "text", "builds"]

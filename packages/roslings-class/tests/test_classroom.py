@@ -241,9 +241,13 @@ def test_a_student_types_what_the_page_says(tmp_path: Path) -> None:
             "ROSLINGS_PYTHON": getattr(sys, "_base_executable", sys.executable),
         }
         done = subprocess.run(
-            ["bash", "-e", "-c", typed], cwd=home, env=student, capture_output=True, text=True,
+            ["bash", "-e", "-c", typed],
+            cwd=home,
+            env=student,
+            capture_output=True,
+            text=True,
             check=False,
-        )  # fmt: skip
+        )
         assert done.returncode == 0, done.stdout + done.stderr
         assert "100 of 100" in done.stdout
     finally:

@@ -41,8 +41,7 @@ def context(browser: Any, opened: Desk) -> Iterator[Any]:
     asked: list[str] = []
     found.on("request", lambda request: asked.append(request.url))
     page = found.new_page()
-    page.goto(opened.file.as_uri())
-    page.wait_for_url(f"{opened.base}/rover")
+    opened.let_in(page)
     page.close()
     yield found
     found.close()

@@ -57,6 +57,11 @@ class Desk:
         """Where it listens: http://127.0.0.1:PORT."""
         return self.url.partition("/enter")[0]
 
+    def let_in(self, page: Any) -> None:
+        """Open the file, as a browser of this user does; the page then shows the tab Rover."""
+        page.goto(self.file.as_uri())
+        page.wait_for_url(f"{self.base}/rover")
+
     def read(self) -> None:
         """Keep what it prints."""
         assert self.process.stdout
@@ -89,10 +94,15 @@ def program(
     if more:
         seen["PYTHONPATH"] += f"{os.pathsep}{more}"
     process = subprocess.Popen(
-        [sys.executable, "-m", module, *words], env=seen, cwd=home, text=True,
-        start_new_session=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+        [sys.executable, "-m", module, *words],
+        env=seen,
+        cwd=home,
+        text=True,
+        start_new_session=True,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
-    )  # fmt: skip
+    )
     try:
         yield process
     finally:
@@ -124,9 +134,11 @@ class Nodes:
 
         self.context = rclpy.Context()
         rclpy.init(
-            args=["--ros-args", "--disable-external-lib-logs"], context=self.context,
-            domain_id=self._domain, signal_handler_options=SignalHandlerOptions.NO,
-        )  # fmt: skip
+            args=["--ros-args", "--disable-external-lib-logs"],
+            context=self.context,
+            domain_id=self._domain,
+            signal_handler_options=SignalHandlerOptions.NO,
+        )
         self.node = rclpy.create_node(self._name, context=self.context)
         self._executor = SingleThreadedExecutor(context=self.context)
         self._executor.add_node(self.node)

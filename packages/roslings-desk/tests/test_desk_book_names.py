@@ -28,9 +28,15 @@ expect = imported("playwright.sync_api").expect
 expect.set_options(timeout=120_000)
 
 OF_BOOKS = (
-    "rqt", "rqt_graph", "rqt_plot", "rqt_reconfigure", "rqt_image_view", "rqt_console", "rqt_topic",
+    "rqt",
+    "rqt_graph",
+    "rqt_plot",
+    "rqt_reconfigure",
+    "rqt_image_view",
+    "rqt_console",
+    "rqt_topic",
     "rqt_publisher",
-)  # fmt: skip
+)
 RUN = (
     "import sys; {before}from ros2_on_pip.window_commands import {name}; sys.exit({name}({words}))"
 )
@@ -43,9 +49,13 @@ def typed(name: str, *words: str, before: str = "", path: str = "", home: Path) 
     seen = environment(0, home)
     seen["PATH"] = f"{path}{os.pathsep}{seen['PATH']}"
     return subprocess.run(
-        [sys.executable, "-c", code], env=seen, cwd=home, text=True, capture_output=True,
+        [sys.executable, "-c", code],
+        env=seen,
+        cwd=home,
+        text=True,
+        capture_output=True,
         check=False,
-    )  # fmt: skip
+    )
 
 
 # --- the tables --------------------------------------------------------------------------------
@@ -85,32 +95,41 @@ def test_the_package_offers_them() -> None:
 # --- what stands behind a name -----------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("name", "argv", "read"), [
-    ("rqt_plot", ["/pose/x", "/pose/y"], ("plot", ["/pose/x", "/pose/y"], [])),
-    ("rqt_image_view", ["/image"], ("image", ["/image"], [])),
-    ("rqt", [], ("rover", [], [])),
-    ("rqt", ["--standalone", "rqt_plot"], ("plot", [], [])),
-    ("rqt", ["-s", "rqt_plot/Plot", "/a/b"], ("plot", ["/a/b"], [])),
-    ("rqt", ["-s", "rqt_image_view.image_view.ImageView"], ("image", [], [])),
-    ("rqt", ["-s", "rqt_of_mine"], ("rover", [], [])),
-    ("rqt", ["-s"], ("rover", [], [])),
-    ("rqt_console", ["--clear-config", "x"], ("log", [], ["--clear-config", "x"])),
-    ("rqt_image_view", ["--ros-args", "-r", "image:=/a", "--", "/b"],
-     ("image", ["/b"], ["--ros-args", "-r", "image:=/a", "--"])),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("name", "argv", "read"),
+    [
+        ("rqt_plot", ["/pose/x", "/pose/y"], ("plot", ["/pose/x", "/pose/y"], [])),
+        ("rqt_image_view", ["/image"], ("image", ["/image"], [])),
+        ("rqt", [], ("rover", [], [])),
+        ("rqt", ["--standalone", "rqt_plot"], ("plot", [], [])),
+        ("rqt", ["-s", "rqt_plot/Plot", "/a/b"], ("plot", ["/a/b"], [])),
+        ("rqt", ["-s", "rqt_image_view.image_view.ImageView"], ("image", [], [])),
+        ("rqt", ["-s", "rqt_of_mine"], ("rover", [], [])),
+        ("rqt", ["-s"], ("rover", [], [])),
+        ("rqt_console", ["--clear-config", "x"], ("log", [], ["--clear-config", "x"])),
+        (
+            "rqt_image_view",
+            ["--ros-args", "-r", "image:=/a", "--", "/b"],
+            ("image", ["/b"], ["--ros-args", "-r", "image:=/a", "--"]),
+        ),
+    ],
+)
 def test_words_of_the_real_ones_are_read(name: str, argv: list[str], read: object) -> None:
     """What the desk has no use for is left out, and is said to be."""
     assert WINDOWS[name].read(argv) == read
 
 
-@pytest.mark.parametrize(("word", "curves"), [
-    ("/pose/x", ["/pose/x"]),
-    ("pose/x:y:theta", ["/pose/x", "/pose/y", "/pose/theta"]),
-    ("/scan/ranges[0]", ["/scan/ranges[0]"]),
-    ("/number", ["/number"]),
-    ("", []),
-    (":", []),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("word", "curves"),
+    [
+        ("/pose/x", ["/pose/x"]),
+        ("pose/x:y:theta", ["/pose/x", "/pose/y", "/pose/theta"]),
+        ("/scan/ranges[0]", ["/scan/ranges[0]"]),
+        ("/number", ["/number"]),
+        ("", []),
+        (":", []),
+    ],
+)
 def test_a_word_of_rqt_plot_names_curves(word: str, curves: list[str]) -> None:
     """One may name several fields of a message."""
     assert curves_in(word) == curves
@@ -187,8 +206,9 @@ def test_ros2_run_opens_the_tab_with_what_was_typed(browser: Any, tmp_path: Path
             row = page.get_by_role("row", name="/number data")
             expect(row).to_contain_text("1.25")
             expect(waiting).to_have_count(0)
-            expect(page.get_by_role("alert").filter(has_text="has no number at 'nothing'")
-                   ).to_be_visible()  # fmt: skip
+            expect(
+                page.get_by_role("alert").filter(has_text="has no number at 'nothing'")
+            ).to_be_visible()
         page.close()
         assert opened.interrupt() == 0
 

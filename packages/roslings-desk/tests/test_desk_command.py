@@ -26,11 +26,14 @@ def test_it_ends_and_leaves_nothing(number: signal.Signals, tmp_path: Path) -> N
     assert "Traceback" not in "\n".join(found.lines)
 
 
-@pytest.mark.parametrize(("words", "said"), [
-    (["nothing"], "The desk has no tab 'nothing'. It has: rover, graph"),
-    (["--port", "70000"], "Port 70000 of 127.0.0.1 cannot be had"),
-    (["--port", "1.5"], "invalid int value"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["nothing"], "The desk has no tab 'nothing'. It has: rover, graph"),
+        (["--port", "70000"], "Port 70000 of 127.0.0.1 cannot be had"),
+        (["--port", "1.5"], "invalid int value"),
+    ],
+)
 def test_what_it_cannot_do_is_said_with_the_next_step(
     words: list[str], said: str, tmp_path: Path
 ) -> None:

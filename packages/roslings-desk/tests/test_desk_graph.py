@@ -22,8 +22,9 @@ def qos(**policies: str) -> Any:
     """An rclpy profile; reliable and volatile where nothing else is said."""
     rclpy_qos = imported("rclpy.qos")
     kinds = {
-        "reliability": rclpy_qos.ReliabilityPolicy, "durability": rclpy_qos.DurabilityPolicy,
-    }  # fmt: skip
+        "reliability": rclpy_qos.ReliabilityPolicy,
+        "durability": rclpy_qos.DurabilityPolicy,
+    }
     return rclpy_qos.QoSProfile(
         depth=10, **{name: kinds[name][word] for name, word in policies.items()}
     )
@@ -56,12 +57,14 @@ def test_what_does_not_fit_is_told_once_with_its_reason() -> None:
 def test_around_a_name_stands_what_is_right_beside_it() -> None:
     """Of a chain, a node with its topics, and a topic with its nodes; no more."""
     fits = qos()
-    whole = shape_of(graph(
-        (PUBLISHER, "/camera", "/image", STRING, fits),
-        (SUBSCRIPTION, "/finder", "/image", STRING, fits),
-        (PUBLISHER, "/finder", "/ball", STRING, fits),
-        (SUBSCRIPTION, "/driver", "/ball", STRING, fits),
-    ))  # fmt: skip
+    whole = shape_of(
+        graph(
+            (PUBLISHER, "/camera", "/image", STRING, fits),
+            (SUBSCRIPTION, "/finder", "/image", STRING, fits),
+            (PUBLISHER, "/finder", "/ball", STRING, fits),
+            (SUBSCRIPTION, "/driver", "/ball", STRING, fits),
+        )
+    )
     assert around(whole, "") is whole
     near = around(whole, "ima")
     assert [node.name for node in near.nodes] == ["/camera", "/finder"]
@@ -88,8 +91,9 @@ def test_a_node_that_comes_and_goes_is_drawn_and_told(
 
     picture = page.get_by_role("region", name="The picture").get_by_role("img")
     words = page.get_by_role("region", name="Nodes and topics")
-    expect(picture).to_have_accessible_name("A ROS graph with 1 node and 0 topics. /tester has no"
-                                            " topic.")  # fmt: skip
+    expect(picture).to_have_accessible_name(
+        "A ROS graph with 1 node and 0 topics. /tester has no topic."
+    )
     nodes.node.create_publisher(String, "/chatter", 10)
     expect(words).to_contain_text("publishes /chatter, std_msgs/msg/String; it is heard by nobody")
     with Nodes(opened.domain, "listener") as others:

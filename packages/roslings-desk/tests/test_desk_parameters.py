@@ -25,8 +25,11 @@ def with_parameters(node: Any) -> Any:
     )
 
     speed = FloatingPointRange(from_value=0.0, to_value=1.0, step=0.1)
-    node.declare_parameter("speed", 0.5, ParameterDescriptor(
-        description="How fast, in m/s", floating_point_range=[speed]))  # fmt: skip
+    node.declare_parameter(
+        "speed",
+        0.5,
+        ParameterDescriptor(description="How fast, in m/s", floating_point_range=[speed]),
+    )
     count = IntegerRange(from_value=0, to_value=10, step=1)
     node.declare_parameter("count", 3, ParameterDescriptor(integer_range=[count]))
     node.declare_parameter("on", False)
@@ -111,11 +114,14 @@ def test_what_others_set_is_shown(page: Any, owner: Any, opened: Desk, context: 
     until(lambda: owner.get_parameter("speed").value == 0.0, "0")
 
 
-@pytest.mark.parametrize(("label", "typed", "said"), [
-    ("word (string)", "bad", "The node did not take word: bad is a bad word"),
-    ("list (integer array)", "three", "list is a parameter of type integer array, and 'three'"),
-    ("list (integer array)", "[1", "The values are no valid YAML"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("label", "typed", "said"),
+    [
+        ("word (string)", "bad", "The node did not take word: bad is a bad word"),
+        ("list (integer array)", "three", "list is a parameter of type integer array, and 'three'"),
+        ("list (integer array)", "[1", "The values are no valid YAML"),
+    ],
+)
 def test_what_the_node_cannot_take_is_told(
     page: Any, owner: Any, label: str, typed: str, said: str
 ) -> None:

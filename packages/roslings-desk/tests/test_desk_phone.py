@@ -36,8 +36,9 @@ def scanned(lines: list[str]) -> str:
     drawn = [line for line in lines if len(line) > 20 and set(line) <= modules.keys()]
     rows = [[modules[letter][half] for letter in line] for line in drawn for half in (0, 1)]
     dark = np.array(rows, dtype=np.uint8).repeat(MODULE_PX, 0).repeat(MODULE_PX, 1)
-    found, _, _ = cv2.QRCodeDetector().detectAndDecode(np.pad((1 - dark) * 255, 40, "constant",
-                                                              constant_values=255))  # fmt: skip
+    found, _, _ = cv2.QRCodeDetector().detectAndDecode(
+        np.pad((1 - dark) * 255, 40, "constant", constant_values=255)
+    )
     return str(found)
 
 
@@ -85,8 +86,12 @@ def come_in(url: str) -> httpx.Client:
 def knocked(where: str, **headers: str) -> int:
     """What a websocket is answered; 101 lets it in."""
     try:
-        with connect(where.replace("http", "ws") + SOCKET, additional_headers=headers,
-                     origin=None, proxy=None):  # fmt: skip
+        with connect(
+            where.replace("http", "ws") + SOCKET,
+            additional_headers=headers,
+            origin=None,
+            proxy=None,
+        ):
             return 101
     except InvalidStatus as refused:
         return int(refused.response.status_code)
@@ -118,8 +123,12 @@ def test_bad_tries_are_refused(shared: Desk) -> None:
     """Foreign Host and Origin, no key, another desk's key, a websocket alone, and other pages."""
     url = scanned(shared.lines)
     key = {"key": url.partition("key=")[2]}
-    for headers in ({"Host": "evil.example"}, {"Host": base(shared.url)[7:]},
-                    {"Origin": "https://evil.example"}, {"Origin": "null"}):  # fmt: skip
+    for headers in (
+        {"Host": "evil.example"},
+        {"Host": base(shared.url)[7:]},
+        {"Origin": "https://evil.example"},
+        {"Origin": "null"},
+    ):
         assert httpx.get(url, headers=headers).status_code == 403
         assert httpx.post(f"{base(url)}/enter", data=key, headers=headers).status_code == 403
     for path in ("/", "/enter", "/enter?key=", "/enter?key=x", "/phone", "/rover", "/docs"):

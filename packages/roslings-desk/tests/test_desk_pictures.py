@@ -32,16 +32,19 @@ def pixels(message: Any) -> list[Any]:
     return [picture.getpixel(place) for place in places]
 
 
-@pytest.mark.parametrize(("encoding", "data", "found"), [
-    ("mono8", b"\x00\xff", [0, 255]),
-    ("rgb8", b"\x01\x02\x03\x04\x05\x06", [(1, 2, 3), (4, 5, 6)]),
-    ("bgr8", b"\x01\x02\x03\x04\x05\x06", [(3, 2, 1), (6, 5, 4)]),
-    ("rgba8", b"\x01\x02\x03\x09\x04\x05\x06\x09", [(1, 2, 3), (4, 5, 6)]),
-    ("bgra8", b"\x01\x02\x03\x09\x04\x05\x06\x09", [(3, 2, 1), (6, 5, 4)]),
-    ("mono16", struct.pack("<HH", 100, 1_100), [0, 255]),
-    ("32FC1", struct.pack("<ff", 0.5, 2.0), [0, 255]),
-    ("32FC1", struct.pack("<ff", float("nan"), float("inf")), [0, 0]),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("encoding", "data", "found"),
+    [
+        ("mono8", b"\x00\xff", [0, 255]),
+        ("rgb8", b"\x01\x02\x03\x04\x05\x06", [(1, 2, 3), (4, 5, 6)]),
+        ("bgr8", b"\x01\x02\x03\x04\x05\x06", [(3, 2, 1), (6, 5, 4)]),
+        ("rgba8", b"\x01\x02\x03\x09\x04\x05\x06\x09", [(1, 2, 3), (4, 5, 6)]),
+        ("bgra8", b"\x01\x02\x03\x09\x04\x05\x06\x09", [(3, 2, 1), (6, 5, 4)]),
+        ("mono16", struct.pack("<HH", 100, 1_100), [0, 255]),
+        ("32FC1", struct.pack("<ff", 0.5, 2.0), [0, 255]),
+        ("32FC1", struct.pack("<ff", float("nan"), float("inf")), [0, 0]),
+    ],
+)
 def test_each_encoding_has_its_colours(encoding: str, data: bytes, found: list[Any]) -> None:
     """Depth from the nearest to the farthest; what is not finite is black."""
     assert pixels(image(encoding, data)) == found
@@ -63,16 +66,19 @@ def test_its_brightness_is_the_mean() -> None:
     assert picture_of(image("mono8", b"\x32\x34")).brightness == 51
 
 
-@pytest.mark.parametrize(("message", "said"), [
-    (lambda: image("mono8", b"ab", step=1), "its step is 1, and a row has 2 bytes"),
-    (lambda: image("rgb8", b"abcdef", step=3), "its step is 3, and a row has 6 bytes"),
-    (lambda: image("mono8", b"abc", step=2), "it has 3 bytes, and step 2 x height 1 is 2"),
-    (lambda: image("mono8", b"", wide=0, high=0, step=0), "it is 0 x 0 pixels"),
-    (lambda: image("mono8", b"ab", wide=2**31, step=2**31), "pixels"),
-    (lambda: image("yuv422", b"abcd"), "its encoding is 'yuv422'"),
-    (lambda: messages.CompressedImage(format="jpeg", data=b"<html>"), "no PNG and no JPEG"),
-    (lambda: messages.CompressedImage(), "no PNG and no JPEG"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("message", "said"),
+    [
+        (lambda: image("mono8", b"ab", step=1), "its step is 1, and a row has 2 bytes"),
+        (lambda: image("rgb8", b"abcdef", step=3), "its step is 3, and a row has 6 bytes"),
+        (lambda: image("mono8", b"abc", step=2), "it has 3 bytes, and step 2 x height 1 is 2"),
+        (lambda: image("mono8", b"", wide=0, high=0, step=0), "it is 0 x 0 pixels"),
+        (lambda: image("mono8", b"ab", wide=2**31, step=2**31), "pixels"),
+        (lambda: image("yuv422", b"abcd"), "its encoding is 'yuv422'"),
+        (lambda: messages.CompressedImage(format="jpeg", data=b"<html>"), "no PNG and no JPEG"),
+        (lambda: messages.CompressedImage(), "no PNG and no JPEG"),
+    ],
+)
 def test_a_wrong_picture_is_told(message: Any, said: str) -> None:
     """With the numbers that do not fit."""
     with pytest.raises(BadPicture, match=said):

@@ -35,12 +35,15 @@ def _profile(reliability: str, durability: str) -> Any:
     )
 
 
-@pytest.mark.parametrize(("words", "found"), [
-    ((), ("BEST_EFFORT", "VOLATILE")),
-    (("reliable transient_local",), ("RELIABLE", "TRANSIENT_LOCAL")),
-    (("reliable volatile", "reliable transient_local"), ("RELIABLE", "VOLATILE")),
-    (("best_effort volatile", "reliable volatile"), ("BEST_EFFORT", "VOLATILE")),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("words", "found"),
+    [
+        ((), ("BEST_EFFORT", "VOLATILE")),
+        (("reliable transient_local",), ("RELIABLE", "TRANSIENT_LOCAL")),
+        (("reliable volatile", "reliable transient_local"), ("RELIABLE", "VOLATILE")),
+        (("best_effort volatile", "reliable volatile"), ("BEST_EFFORT", "VOLATILE")),
+    ],
+)
 def test_each_of_them_is_heard(words: tuple[str, ...], found: tuple[str, str]) -> None:
     """The better quality only where all offer it; rclpy itself says that they fit."""
     publishers = offers(*words)

@@ -37,8 +37,12 @@ def cookie(opened: Desk) -> str:
 def knocked(opened: Desk, **headers: str) -> int:
     """What a websocket is answered; 101 lets it in."""
     try:
-        with connect(opened.base.replace("http", "ws") + SOCKET, additional_headers=headers,
-                     origin=None, proxy=None):  # fmt: skip
+        with connect(
+            opened.base.replace("http", "ws") + SOCKET,
+            additional_headers=headers,
+            origin=None,
+            proxy=None,
+        ):
             return 101
     except InvalidStatus as refused:
         return int(refused.response.status_code)
@@ -109,9 +113,14 @@ def test_nobody_else_reads_the_file_with_the_key(opened: Desk) -> None:
 def test_another_user_is_refused(opened: Desk) -> None:
     """The user who tries it gets neither the file nor, without it, the page."""
     done = subprocess.run(
-        ["/bin/cat", str(opened.file)], user=SPARE_USER, cwd="/", capture_output=True, text=True,
-        check=False, env={"LC_ALL": "C"},
-    )  # fmt: skip
+        ["/bin/cat", str(opened.file)],
+        user=SPARE_USER,
+        cwd="/",
+        capture_output=True,
+        text=True,
+        check=False,
+        env={"LC_ALL": "C"},
+    )
     assert done.stdout == ""
     assert "Permission denied" in done.stderr
 

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 import re
+import signal
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
-from desk_program import Desk, Nodes, program, until
+from desk_program import PATIENCE_S, Desk, Nodes, program, until
 
 from roslings_rover.models.world import default_world
 from roslings_rover.rover.moving_map import place_under
@@ -30,6 +31,8 @@ def rover(opened: Desk, home: Path) -> Iterator[Any]:
     """The real rover, in its own process."""
     with program("roslings_rover", ["rover", "--view", "lines"], opened.domain, home) as process:
         yield process
+        process.send_signal(signal.SIGINT)  # it says goodbye: the next rover is the only one
+        process.wait(PATIENCE_S)
 
 
 @pytest.fixture
@@ -42,8 +45,10 @@ def page(context: Any, opened: Desk) -> Any:
 
 def place(page: Any) -> tuple[float, float, float]:
     """Where the page says that it is: x, y, and its heading in radians."""
-    words = until(lambda: PLACE.match(page.get_by_text(re.compile("^x .* degrees$")).first
-                                      .text_content()), "a place")  # fmt: skip
+    words = until(
+        lambda: PLACE.match(page.get_by_text(re.compile("^x .* degrees$")).first.text_content()),
+        "a place",
+    )
     return float(words[1]), float(words[2]), math.radians(float(words[3]))
 
 
@@ -145,8 +150,10 @@ def test_it_is_driven_to_the_ball_by_what_a_screen_reader_has(
     """Names of buttons and one line of text: no picture, no key, nothing dragged."""
     expect(page.locator("#state")).to_be_empty()
     page.get_by_label("Turn, rad/s").select_option("0.5")
-    until(lambda: math.dist(place(page)[:2], BALL) < TOUCHES_M or press_towards(page, BALL),
-          "the ball")  # fmt: skip
+    until(
+        lambda: math.dist(place(page)[:2], BALL) < TOUCHES_M or press_towards(page, BALL),
+        "the ball",
+    )
     page.get_by_role("button", name="Say where it is").click()
     expect(page.get_by_role("status")).to_have_text(PLACE)
 
@@ -170,13 +177,20 @@ def _rests(seen: list[Any]) -> bool:
 def test_nothing_is_subscribed_that_no_page_shows(
     page: Any, nodes: Nodes, opened: Desk, context: Any
 ) -> None:
-    """Two pages, one subscription; it ends with the second page."""
+    """Two pages, one subscription; it ends with the second page. Nor is anything, before there is
+    somebody to hear."""
+    from nav_msgs.msg import Odometry
+
+    expect(page.get_by_text("No node publishes /odom")).to_be_visible()
+    topics = dict(nodes.node.get_topic_names_and_types())
+    assert not {"/odom", "/cmd_vel", "/goal_pose"} & topics.keys()
+    nodes.node.create_publisher(Odometry, "/odom", 10)
     second = context.new_page()
     second.goto(f"{opened.base}/rover")
     expect(second.get_by_role("heading", name="Rover")).to_be_visible()
     until(lambda: len(nodes.listeners("/odom")) == 1, "one subscription")
     page.close()
-    expect(second.get_by_text(re.compile("No node publishes|Nothing comes"))).to_be_visible()
+    expect(second.get_by_text(re.compile("No node listens|Nothing comes"))).to_be_visible()
     assert len(nodes.listeners("/odom")) == 1
     second.close()
     until(lambda: not nodes.listeners("/odom"), "the end of the subscription")
@@ -259,14 +273,24 @@ def test_a_click_on_the_map_is_a_goal(rover: Any, page: Any, nodes: Nodes) -> No
     """Where the rover stands, a click says just that place; its frame is that of /odom."""
     heard = goals(nodes)
     here = place(page)
-    box = page.locator("img.map").bounding_box()
-    right, down = in_picture(*here[:2])
-    page.mouse.click(box["x"] + right * box["width"], box["y"] + down * box["height"])
+    page.locator("img.map").click(position=in_pixels(page, *in_picture(*here[:2])))
     until(lambda: heard, "a goal")
     position = heard[0].pose.position
     assert math.dist((position.x, position.y), here[:2]) < 0.05
     assert heard[0].header.frame_id == "odom" and heard[0].header.stamp.sec > 0
     expect(page.get_by_role("status")).to_contain_text("is published on /goal_pose")
+
+
+def in_pixels(page: Any, right: float, down: float) -> dict[str, float]:
+    """Where parts of the picture are on the page: it stands in the middle of its place, whole."""
+    wide, high, own_wide, own_high = page.locator("img.map").evaluate(
+        "(map) => [map.clientWidth, map.clientHeight, map.naturalWidth, map.naturalHeight]"
+    )
+    scale = min(wide / own_wide, high / own_high)
+    return {
+        "x": wide / 2 + (right - 0.5) * own_wide * scale,
+        "y": high / 2 + (down - 0.5) * own_high * scale,
+    }
 
 
 def in_picture(x_m: float, y_m: float) -> tuple[float, float]:

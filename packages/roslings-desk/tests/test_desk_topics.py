@@ -80,12 +80,15 @@ def test_the_form_publishes_what_a_node_hears(page: Any, nodes: Nodes) -> None:
     expect(page.get_by_role("status")).to_contain_text("Nothing is published any more")
 
 
-@pytest.mark.parametrize(("label", "typed", "said"), [
-    ("linear.x (double)", "fast", "linear.x: it needs a number"),
-    ("linear.x (double)", "[1", "linear.x"),
-    ("Rate, Hz", "nan", "'nan' is no rate"),
-    ("Rate, Hz", "0", "'0' is no rate"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("label", "typed", "said"),
+    [
+        ("linear.x (double)", "fast", "linear.x: it needs a number"),
+        ("linear.x (double)", "[1", "linear.x"),
+        ("Rate, Hz", "nan", "'nan' is no rate"),
+        ("Rate, Hz", "0", "'0' is no rate"),
+    ],
+)
 def test_what_cannot_be_published_is_said_at_the_field(
     page: Any, nodes: Nodes, label: str, typed: str, said: str
 ) -> None:
@@ -151,11 +154,14 @@ def test_of_five_hundred_topics_a_hundred_are_shown(page: Any, nodes: Nodes) -> 
         nodes.node.destroy_publisher(each)
 
 
-@pytest.mark.parametrize(("name", "kind", "said"), [
-    ("/x", "no_such_msgs/msg/Thing", "'no_such_msgs/msg/Thing' is not installed here"),
-    ("/x", "String", "Did you mean std_msgs/msg/String?"),
-    ("no spaces", "std_msgs/msg/String", "is no valid name in ROS"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("name", "kind", "said"),
+    [
+        ("/x", "no_such_msgs/msg/Thing", "'no_such_msgs/msg/Thing' is not installed here"),
+        ("/x", "String", "Did you mean std_msgs/msg/String?"),
+        ("no spaces", "std_msgs/msg/String", "is no valid name in ROS"),
+    ],
+)
 def test_a_type_that_is_not_installed_is_told(page: Any, name: str, kind: str, said: str) -> None:
     """With the next step; so is a name that ROS does not allow."""
     page.get_by_label("Name", exact=True).fill(name)

@@ -154,9 +154,12 @@ def test_an_environment_that_stands_needs_no_other_python(
         (tmp_path / name).symlink_to(str(shutil.which(name)))
     own = {"ROSLINGS_PYTHON": None, "PATH": str(tmp_path), "LC_ALL": "C"}
     done = subprocess.run(
-        [str(shutil.which(shell)), standing.root / "roslings", "check"], capture_output=True,
-        text=True, check=False, env=standing.changed(own),
-    )  # fmt: skip
+        [str(shutil.which(shell)), standing.root / "roslings", "check"],
+        capture_output=True,
+        text=True,
+        check=False,
+        env=standing.changed(own),
+    )
     assert (done.returncode, done.stderr) == (0, "")
 
 

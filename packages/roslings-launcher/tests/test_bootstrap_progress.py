@@ -63,8 +63,12 @@ def test_the_bar_stays_from_one_download_to_the_next(
         line.follow(["Progress 3000000 of 3000000", "Saved b.whl"])
     shown = capsys.readouterr().err.split("\r\033[K")
     assert [each.partition("] ")[2] for each in shown[1:-1]] == [
-        "0 of 4 MB", "1 of 4 MB", "1 of 4 MB", "4 of 4 MB", "4 of 4 MB",
-    ]  # fmt: skip
+        "0 of 4 MB",
+        "1 of 4 MB",
+        "1 of 4 MB",
+        "4 of 4 MB",
+        "4 of 4 MB",
+    ]
     assert shown[0] == shown[-1] == ""
 
 

@@ -157,10 +157,15 @@ def sourced(computer: Computer, times: int, path: str = "", **variables: str) ->
     done = subprocess.run(
         ["bash", "-c", f"{line} echo $ROS_DOMAIN_ID; compgen -v | grep -c _roslings"],
         env={
-            "PATH": f"{computer.folder}:/usr/bin:/bin{path}", "HOME": "/home/me",
-            "ROS_DISTRO": "jazzy", **variables,
-        }, capture_output=True, text=True, check=False,
-    )  # fmt: skip
+            "PATH": f"{computer.folder}:/usr/bin:/bin{path}",
+            "HOME": "/home/me",
+            "ROS_DISTRO": "jazzy",
+            **variables,
+        },
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     domain, left = done.stdout.split()
     assert left == "0"
     return domain, done.stderr

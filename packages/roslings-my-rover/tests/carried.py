@@ -66,9 +66,11 @@ class Carried:
 
         self._twist, self._context = Twist, rclpy.Context()
         rclpy.init(
-            args=["--ros-args", "--disable-external-lib-logs"], context=self._context,
-            domain_id=self.domain, signal_handler_options=SignalHandlerOptions.NO,
-        )  # fmt: skip
+            args=["--ros-args", "--disable-external-lib-logs"],
+            context=self._context,
+            domain_id=self.domain,
+            signal_handler_options=SignalHandlerOptions.NO,
+        )
         self.node = rclpy.create_node("tester", context=self._context)
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self.node)
@@ -112,9 +114,13 @@ class Carried:
         os.write(self._keys, key.encode())
 
     def drive(
-        self, forward_m_s: float, turn_rad_s: float = 0.0, *, until_it: Callable[[], bool],
+        self,
+        forward_m_s: float,
+        turn_rad_s: float = 0.0,
+        *,
+        until_it: Callable[[], bool],
         within_s: float | None = None,
-    ) -> bool:  # fmt: skip
+    ) -> bool:
         """Say a command ten times a second until something holds; whether it ever did."""
         command = self._twist()
         command.linear.x, command.angular.z = forward_m_s, turn_rad_s
@@ -182,11 +188,24 @@ def carried(
     with nullcontext(domain) if domain is not None else leased_domain() as domain:
         ours, theirs = os.openpty()
         process = subprocess.Popen(
-            [sys.executable, "-m", "roslings", "my-rover", "--view", "lines",
-             *(["--keys"] if keys else []), *words],
-            env=surroundings(domain, workspace), cwd=workspace, text=True, start_new_session=True,
-            stdin=theirs, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-        )  # fmt: skip
+            [
+                sys.executable,
+                "-m",
+                "roslings",
+                "my-rover",
+                "--view",
+                "lines",
+                *(["--keys"] if keys else []),
+                *words,
+            ],
+            env=surroundings(domain, workspace),
+            cwd=workspace,
+            text=True,
+            start_new_session=True,
+            stdin=theirs,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+        )
         os.close(theirs)
         try:
             with Carried(process, ours, domain) as found:
@@ -216,12 +235,23 @@ class Goal:
         self._process = self._send()
 
     def _send(self) -> subprocess.Popen[str]:
-        words = [sys.executable, "-m", "ros2_on_pip", "action", "send_goal", "/drive_to",
-                 "rover_interfaces/action/DriveTo", self._where]  # fmt: skip
+        words = [
+            sys.executable,
+            "-m",
+            "ros2_on_pip",
+            "action",
+            "send_goal",
+            "/drive_to",
+            "rover_interfaces/action/DriveTo",
+            self._where,
+        ]
         return subprocess.Popen(
-            words, env=surroundings(self._domain, Path.cwd()), text=True,
-            stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-        )  # fmt: skip
+            words,
+            env=surroundings(self._domain, Path.cwd()),
+            text=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+        )
 
     @property
     def ended(self) -> bool:
@@ -260,9 +290,10 @@ def goal(rover: Carried, x_m: float, y_m: float) -> Iterator[Goal]:
 def pid_of(workspace: Path, program: str) -> int:
     """A program of a part, as it was built for this workspace."""
     (line,) = [
-        line for line in commands().splitlines()
+        line
+        for line in commands().splitlines()
         if str(workspace) in line and re.search(rf"/{program}(\s|$)", line)
-    ]  # fmt: skip
+    ]
     return int(line.split()[0])
 
 
@@ -274,10 +305,22 @@ def commands() -> str:
 
 def surroundings(domain: int, workspace: Path) -> Mapping[str, str]:
     """A new terminal of this workspace's student."""
-    kept = {k: os.environ[k] for k in ("PATH", "LD_LIBRARY_PATH", "LANG", "ROSLINGS_COURSE",
-                                       "AMENT_PREFIX_PATH", "_ROS_WHEELS_BOOTSTRAP_COMPLETE")
-            if k in os.environ}  # fmt: skip
+    kept = {
+        k: os.environ[k]
+        for k in (
+            "PATH",
+            "LD_LIBRARY_PATH",
+            "LANG",
+            "ROSLINGS_COURSE",
+            "AMENT_PREFIX_PATH",
+            "_ROS_WHEELS_BOOTSTRAP_COMPLETE",
+        )
+        if k in os.environ
+    }
     return kept | {
-        "ROS_DOMAIN_ID": str(domain), "HOME": str(workspace), "ROSLINGS_WS": str(workspace),
-        "PYTHONPATH": python_path(), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
-    }  # fmt: skip
+        "ROS_DOMAIN_ID": str(domain),
+        "HOME": str(workspace),
+        "ROSLINGS_WS": str(workspace),
+        "PYTHONPATH": python_path(),
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+    }

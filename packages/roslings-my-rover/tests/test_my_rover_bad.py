@@ -79,8 +79,11 @@ STRAY = """
 """What a part says on links that are another's: forward, and turn."""
 
 
-@pytest.mark.parametrize("parts", [(LIMITER, GUARD), (CABLE, GUARD), (LIMITER,)],
-                         ids=lambda parts: "-".join(part.name for part in parts))  # fmt: skip
+@pytest.mark.parametrize(
+    "parts",
+    [(LIMITER, GUARD), (CABLE, GUARD), (LIMITER,)],
+    ids=lambda parts: "-".join(part.name for part in parts),
+)
 def test_a_part_that_speaks_on_anothers_link_is_held_off(
     workspace: Path, parts: tuple[Part, ...]
 ) -> None:
@@ -264,9 +267,13 @@ def screen(workspace: Path, columns: int, lines: int) -> Iterator[Callable[[], s
     with leased_domain() as domain:
         process = subprocess.Popen(
             [sys.executable, "-m", "roslings", "my-rover", "--view", "terminal"],
-            env={**surroundings(domain, workspace), "TERM": "xterm-256color"}, cwd=workspace,
-            stdin=theirs, stdout=theirs, stderr=theirs, start_new_session=True,
-        )  # fmt: skip
+            env={**surroundings(domain, workspace), "TERM": "xterm-256color"},
+            cwd=workspace,
+            stdin=theirs,
+            stdout=theirs,
+            stderr=theirs,
+            start_new_session=True,
+        )
         os.close(theirs)
         written = bytearray()
         reader = threading.Thread(target=_read, args=(ours, written), daemon=True)
@@ -340,9 +347,14 @@ def test_nothing_is_left_when_it_is_killed(workspace: Path) -> None:
 def typed(workspace: Path, *words: str) -> subprocess.CompletedProcess[str]:
     """The command to its end."""
     return subprocess.run(
-        [sys.executable, "-m", "roslings", "my-rover", *words], env=surroundings(1, workspace),
-        stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False, cwd=workspace,
-    )  # fmt: skip
+        [sys.executable, "-m", "roslings", "my-rover", *words],
+        env=surroundings(1, workspace),
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        check=False,
+        cwd=workspace,
+    )
 
 
 def test_without_any_part_the_next_step_is_said(workspace: Path) -> None:

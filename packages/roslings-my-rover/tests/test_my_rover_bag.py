@@ -121,8 +121,15 @@ def a_dangling_link(place: Path) -> None:
     place.symlink_to("nowhere")
 
 
-NOT_OURS = [a_file, a_folder, an_empty_folder, a_bag_of_ones_own, a_bag_with_notes, a_link,
-            a_dangling_link]  # fmt: skip
+NOT_OURS = [
+    a_file,
+    a_folder,
+    an_empty_folder,
+    a_bag_of_ones_own,
+    a_bag_with_notes,
+    a_link,
+    a_dangling_link,
+]
 
 
 @pytest.mark.parametrize("put", NOT_OURS, ids=lambda put: put.__name__)

@@ -37,9 +37,10 @@ def another(name: str) -> Iterator[Any]:
 
     context = rclpy.Context()
     rclpy.init(
-        args=["--ros-args", "--disable-external-lib-logs"], context=context,
+        args=["--ros-args", "--disable-external-lib-logs"],
+        context=context,
         signal_handler_options=SignalHandlerOptions.NO,
-    )  # fmt: skip
+    )
     node = rclpy.create_node(name, context=context)
     try:
         yield node

@@ -154,10 +154,11 @@ AT_EACH_LANDING = (SONAR, GUARD)
 def in_vain(wins: list[Win]) -> list[object]:
     """These, most of them on demand."""
     return [
-        pytest.param(win, id=win.part.name,
-                     marks=[] if win.part in AT_EACH_LANDING else pytest.mark.twice)
+        pytest.param(
+            win, id=win.part.name, marks=[] if win.part in AT_EACH_LANDING else pytest.mark.twice
+        )
         for win in wins
-    ]  # fmt: skip
+    ]
 
 
 def test_each_part_has_its_win() -> None:

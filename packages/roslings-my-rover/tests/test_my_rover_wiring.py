@@ -119,7 +119,11 @@ def test_an_argument_is_written_as_ros_takes_it() -> None:
     """Without anything to say, nothing is said."""
     wiring: Wiring = wired({CABLE, LIMITER}, port="/run/a port")
     assert wiring.programs["serial_bridge"].arguments == [
-        "--ros-args", "-r", "cmd_vel:=/rover/limited", "-p", "port:=/run/a port",
-    ]  # fmt: skip
+        "--ros-args",
+        "-r",
+        "cmd_vel:=/rover/limited",
+        "-p",
+        "port:=/run/a port",
+    ]
     assert wiring.programs["beacon"].arguments == []
     assert wiring.relay is None

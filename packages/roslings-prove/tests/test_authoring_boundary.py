@@ -37,9 +37,9 @@ EVERY_LAB = [pytest.param(each, id=each.name) for each in [*all_labs(), EXAMPLE]
 
 def fault(operator: str, field: str = "", *, kind: str = "sent", other: str = "") -> layer.Fault:
     """One in /cmd_vel."""
-    return layer.Fault({
-        "kind": kind, "operator": operator, "at": "/cmd_vel", "field": field, "other": other
-    })  # fmt: skip
+    return layer.Fault(
+        {"kind": kind, "operator": operator, "at": "/cmd_vel", "field": field, "other": other}
+    )
 
 
 def through(operator: str, *messages: Any, field: str = "") -> list[Any]:
@@ -132,8 +132,9 @@ def test_a_field_that_is_not_a_number() -> None:
     assert math.isnan(through("nan", twist(1.0), field="linear.x")[0].linear.x)
     assert through("negated", Bool(data=True), field="data") == [Bool(data=False)]
     assert through("zero", String(data="red"), field="data") == [String()]
-    texts = [through(o, String(data="red"), field="data")[0].data
-             for o in ("upper", "longer", "shorter")]  # fmt: skip
+    texts = [
+        through(o, String(data="red"), field="data")[0].data for o in ("upper", "longer", "shorter")
+    ]
     assert texts == ["RED", "reds", "re"]
     repeated = [Bool(data=True), Bool(data=True), Bool(data=False)]
     out = through("turned_when_repeated", *repeated, field="data")
@@ -241,13 +242,16 @@ def test_it_is_put_into_a_package(tmp_path: Path) -> None:
     shutil.copytree(EXAMPLE.solution, package)
     before = {file: file.read_bytes() for file in package.rglob("*.py")}
     neutral(EXAMPLE).put_into(package)
-    new = {file.name for file in package.rglob("*.py")
-           if before.get(file) != file.read_bytes()}  # fmt: skip
+    new = {file.name for file in package.rglob("*.py") if before.get(file) != file.read_bytes()}
     assert new == {"__init__.py", f"{LAYER}.py"}
     done = subprocess.run(
         [sys.executable, "-c", f"import {EXAMPLE.card.package}.{LAYER} as l; print(l.__file__)"],
-        cwd=package, env={"PATH": ""}, capture_output=True, text=True, check=False,
-    )  # fmt: skip
+        cwd=package,
+        env={"PATH": ""},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert "No module named 'roslings" not in done.stderr
 
 

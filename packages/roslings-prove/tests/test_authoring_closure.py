@@ -15,13 +15,14 @@ from pathlib import Path
 import pytest
 
 from needed.opened import Opened, Watch
+from roslings.capabilities.conformance import PURE
 from roslings.course import Lab, all_labs, root
-from roslings_prove.proofs.closure import with_parents
+from roslings.lab_folders import GRADERS, lab_folders
 from roslings_prove.proofs.digests import Measuring, measuring
 from sources import code_of
 from until_told import run_until_told
 
-PACKAGES = root() / "packages"
+PACKAGES, BESIDE = root() / "packages", root() / GRADERS
 JUDGING = ("__main__.py", "commands", "judge", "report", "capabilities")
 """What the command itself is made of: it reads, judges and tells."""
 ACTS = "act"
@@ -42,16 +43,18 @@ def judging() -> frozenset[str]:
     places = [*(code_of("roslings") / part for part in JUDGING), code_of("roslings_launcher")]
     places += PACKAGES.glob("*/src/*/command_names.py")  # the tables of what can be typed
     files = [file for place in places for file in (place, *place.rglob("*.py")) if file.is_file()]
-    modules = [now().modules.tree.name_of(file) for file in files if file.stem != ACTS]
-    return now().modules.reached({each for name in modules for each in with_parents(name)})
+    files = [file for file in files if file.stem != ACTS]
+    files += (file for file in BESIDE.glob("*/*.py") if file.stem in (*PURE, "__init__"))
+    modules = [now().modules.tree.name_of(file) for file in files]
+    return now().modules.reached(modules)
 
 
 def opened_by_a_check(lab: Lab, folder: Path) -> Opened:
-    """Of the folder with our packages."""
-    places = (each for each in (PACKAGES, *PACKAGES.rglob("*")) if each.is_dir())
-    folders = [str(each.relative_to(PACKAGES)) for each in places]
+    """Of the folders with our packages, and of those beside graders."""
+    places = [each for top in (PACKAGES, *lab_folders()) for each in (top, *top.rglob("*"))]
+    folders = [str(each.relative_to(root())) for each in places if each.is_dir()]
     command = [sys.executable, "-m", "roslings", "check", lab.name, "--solution"]
-    with Watch(PACKAGES, folders) as watch:
+    with Watch(root(), folders) as watch:
         done = run_until_told(command, cwd=folder)
     assert done.returncode == 0, done.stdout + done.stderr
     return watch.opened()
@@ -62,7 +65,7 @@ def unknown(lab: Lab, opened: Opened) -> Iterator[str]:
     known = now().closure(lab) | judging()
     files = {file for name in known for file in now().modules.code(name).files}
     for name in sorted(opened.files | opened.modules):
-        file = PACKAGES / name
+        file = root() / name
         if not name.endswith(".py"):
             if file.is_file() and ".pyc" not in name and file not in files:
                 yield name

@@ -59,8 +59,20 @@ ASKED = "what experiments and checks ask for is there"
 DEFINED = "each name in the grader is defined"
 READ = "its files can be read"
 RULES = {
-    HINTS, ANCHORS, MUTANTS, NAMES, TASK, FITS, OWN, POINTS, ORDER, FAULTS, ASKED, DEFINED, READ,
-}  # fmt: skip
+    HINTS,
+    ANCHORS,
+    MUTANTS,
+    NAMES,
+    TASK,
+    FITS,
+    OWN,
+    POINTS,
+    ORDER,
+    FAULTS,
+    ASKED,
+    DEFINED,
+    READ,
+}
 
 
 @pytest.mark.parametrize("each", LABS.values(), ids=LABS)
@@ -79,102 +91,141 @@ def test_a_new_lab_fits(made: Lab) -> None:
 GRADER = f"../../graders/grade_{NAME.replace('-', '_')}.py"
 CASES: dict[str, tuple[tuple[str, str, str], str, str]] = {
     "a hint is missing": (
-        ("hints.yaml", "\ntopic:", "\ntopics:"), HINTS, "without one: topic",
+        ("hints.yaml", "\ntopic:", "\ntopics:"),
+        HINTS,
+        "without one: topic",
     ),
     "a hint has no check": (
-        ("hints.yaml", "\ntopic:", "\ntopics:"), HINTS, "hints without a check: topics",
+        ("hints.yaml", "\ntopic:", "\ntopics:"),
+        HINTS,
+        "hints without a check: topics",
     ),
     "an anchor is dead": (
-        ("hints.yaml", "#timers", "#timer"), ANCHORS, "days/03-topics#timer leads nowhere",
+        ("hints.yaml", "#timers", "#timer"),
+        ANCHORS,
+        "days/03-topics#timer leads nowhere",
     ),
     "a lesson is not there": (
-        ("hints.yaml", "days/03-topics#timers", "days/30-topics#timers"), ANCHORS,
+        ("hints.yaml", "days/03-topics#timers", "days/30-topics#timers"),
+        ANCHORS,
         "days/30-topics#timers leads nowhere",
     ),
     "the points are too few": (
-        ("card.yaml", "  ends: 5", "  ends: 4"), READ, "the points add up to 99, not to 100",
+        ("card.yaml", "  ends: 5", "  ends: 4"),
+        READ,
+        "the points add up to 99, not to 100",
     ),
     "the grader has no such check": (
-        ("card.yaml", "  ends: 5", "  ends: 3\n  extra: 2"), POINTS,
+        ("card.yaml", "  ends: 5", "  ends: 3\n  extra: 2"),
+        POINTS,
         "points, and no check in the grader: extra",
     ),
     "a check has no points": (
-        (GRADER, "def test_ends(", "def test_ending("), POINTS, "checks without points: ending",
+        (GRADER, "def test_ends(", "def test_ending("),
+        POINTS,
+        "checks without points: ending",
     ),
     "a check that nobody fails": (
-        ("card.yaml", "  ends: 5", "  ends: 3\n  extra: 2"), MUTANTS,
+        ("card.yaml", "  ends: 5", "  ends: 3\n  extra: 2"),
+        MUTANTS,
         "nobody has seen these fail: extra",
     ),
     "the task is old": (
-        ("card.yaml", "hz: 1.0", "hz: 2.0"), TASK, f"python -m roslings.course.task {NAME}",
+        ("card.yaml", "hz: 1.0", "hz: 2.0"),
+        TASK,
+        f"python -m roslings.course.task {NAME}",
     ),
     "a mutant fails in a check that is not there": (
-        (SLOW, "fails: [rate]", "fails: [rates]"), NAMES,
+        (SLOW, "fails: [rate]", "fails: [rates]"),
+        NAMES,
         f"{SLOW}: fails: no check of this name: rates",
     ),
     "a mutant skips a check that is not there": (
-        (SLOW, "fails: [rate]", "fails: [rate]\nskips: [txt]"), NAMES,
+        (SLOW, "fails: [rate]", "fails: [rate]\nskips: [txt]"),
+        NAMES,
         f"{SLOW}: skips: no check of this name: txt",
     ),
     "a mutant has a fault where it does not fail": (
-        (SLOW, "fails: [rate]", "fails: [rate]\nfaults: {text: TooSlow}"), NAMES,
+        (SLOW, "fails: [rate]", "fails: [rate]\nfaults: {text: TooSlow}"),
+        NAMES,
         f"{SLOW}: faults: it must not fail there: text",
     ),
     "a fault is misspelt": (
-        (SLOW, "fails: [rate]", "fails: [rate]\nfaults: {rate: TooSlov}"), FAULTS,
+        (SLOW, "fails: [rate]", "fails: [rate]\nfaults: {rate: TooSlov}"),
+        FAULTS,
         f"{SLOW}: no fault of this name: TooSlov",
     ),
     "an edit finds nothing": (
-        (SLOW, "create_timer(1.0,", "timer(9.9,"), FITS,
+        (SLOW, "create_timer(1.0,", "timer(9.9,"),
+        FITS,
         f"{SLOW}: edit 1 of 1: 'timer(9.9,' stands 0 times in {CODE}",
     ),
     "an edit finds two places": (
-        (SLOW, "create_timer(1.0,", "self."), FITS, f"{SLOW}: edit 1 of 1: 'self.' stands",
+        (SLOW, "create_timer(1.0,", "self."),
+        FITS,
+        f"{SLOW}: edit 1 of 1: 'self.' stands",
     ),
     "an edit's file is not there": (
-        (SLOW, CODE, "follower/walker.py"), FITS,
+        (SLOW, CODE, "follower/walker.py"),
+        FITS,
         f"{SLOW}: edit 1 of 1: No such file or directory: follower/walker.py",
     ),
     "a file to remove is not there": (
-        (SLOW, "fails: [rate]", "fails: [rate]\nremove: [gone.py]"), FITS,
+        (SLOW, "fails: [rate]", "fails: [rate]\nremove: [gone.py]"),
+        FITS,
         f"{SLOW}: remove: No such file or directory: gone.py",
     ),
     "a mutant is no YAML of a mutant": (
-        (SLOW, "fails:", "failing:"), READ, f"{SLOW}:",
+        (SLOW, "fails:", "failing:"),
+        READ,
+        f"{SLOW}:",
     ),
     "the task has a damaged section": (
-        ("task.md", "<!-- card: contract -->", "<!-- card: contact -->"), TASK, "task.md:",
+        ("task.md", "<!-- card: contract -->", "<!-- card: contact -->"),
+        TASK,
+        "task.md:",
     ),
     "what accounts for a sentence is misspelt": (
-        ("promises.yaml", "sentences:", "sentence:"), READ, "promises.yaml:",
+        ("promises.yaml", "sentences:", "sentence:"),
+        READ,
+        "promises.yaml:",
     ),
     "the solution is not there": (
-        ("card.yaml", "package: follower", "package: walker"), READ,
+        ("card.yaml", "package: follower", "package: walker"),
+        READ,
         "solution/walker: there is no such folder",
     ),
     "the grader is no Python": (
-        (GRADER, "def test_ends(", "def test_ends(("), READ, "SyntaxError",
+        (GRADER, "def test_ends(", "def test_ends(("),
+        READ,
+        "SyntaxError",
     ),
     "a demand is misspelt": (
-        (GRADER, "import count_up, have_rate", "import count_up, hav_rate"), READ,
+        (GRADER, "import count_up, have_rate", "import count_up, hav_rate"),
+        READ,
         "ImportError: cannot import name 'hav_rate'",
     ),
     "a name in an experiment is misspelt": (
-        (GRADER, "scene.watch(ALIVE)", "scene.watch(ALIFE)"), DEFINED,
+        (GRADER, "scene.watch(ALIVE)", "scene.watch(ALIFE)"),
+        DEFINED,
         "NameError: name 'ALIFE' is not defined",
     ),
     "a check asks for no experiment": (
-        (GRADER, "test_text(telling:", "test_text(tellin:"), ASKED,
+        (GRADER, "test_text(telling:", "test_text(tellin:"),
+        ASKED,
         "it asks for 'tellin', and no experiment is called so. There are: package, telling",
     ),
     "an experiment asks for no earlier one": (
-        (GRADER, "def telling(scene: Scene)", "def telling(scene: Scene, before: object)"), ASKED,
+        (GRADER, "def telling(scene: Scene)", "def telling(scene: Scene, before: object)"),
+        ASKED,
         "it asks for 'before', and no experiment before it is called so. There are: none",
     ),
     "a check needs a later one": (
-        (GRADER, 'needs=["builds"]', 'needs=["ends"]'), ORDER, "needs: no earlier check: ends",
+        (GRADER, 'needs=["builds"]', 'needs=["ends"]'),
+        ORDER,
+        "needs: no earlier check: ends",
     ),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize(("broken", "rule", "said"), CASES.values(), ids=CASES)

@@ -18,6 +18,7 @@ from roslings.course.contract import Contract
 from roslings.course.files import read_tree
 from roslings.course.kinds import kind_of
 from roslings.course.labs import example_root
+from roslings.judge.values import same
 from roslings.verdict import CheckOutcome, CheckResult, Environment, Timings, Verdict, outcome_of
 from roslings_changes.card_words import Word, words_of
 from roslings_class.result import Result
@@ -57,12 +58,24 @@ def test_each_word_has_its_kind_where_it_is_defined(contract: type[Contract]) ->
 def test_the_words_of_a_card_and_their_lines() -> None:
     """All that is not for people alone, in the file's order, called by what it belongs to."""
     assert list(WORDS) == [
-        "package", "build_type", "nodes.beacon.node", "nodes.beacon.executable",
-        *(f"nodes.beacon.publishes./alive.{key}" for key in (
-            "topic", "type", "qos.reliability", "qos.durability", "rate.hz", "rate.within", "text",
-        )),
+        "package",
+        "build_type",
+        "nodes.beacon.node",
+        "nodes.beacon.executable",
+        *(
+            f"nodes.beacon.publishes./alive.{key}"
+            for key in (
+                "topic",
+                "type",
+                "qos.reliability",
+                "qos.durability",
+                "rate.hz",
+                "rate.within",
+                "text",
+            )
+        ),
         "ends_within_s",
-    ]  # fmt: skip
+    ]
     lines = FILE.read_text("utf-8").splitlines()
     for word in WORDS.values():
         assert word.key in lines[word.line - 1]
@@ -95,12 +108,23 @@ def test_a_tolerance_moves_to_both_sides_of_what_was_measured() -> None:
         assert (limits[0] <= HZ.value <= limits[1]) is not must_fail
 
 
+def test_a_tolerance_of_numbers_moves_a_field() -> None:
+    """The first number that each message holds; what the solution says stays as it is."""
+    card = lab("distance-sensor").folder / "card.yaml"
+    (word,) = (each for each in words_of(card) if each.key == "numbers_within")
+    measured = word.around["fields"]["field_of_view"]
+    for change, must_fail in zip(changes_of(word), [True, False] * 2, strict=True):
+        ((path, moved),) = change.places
+        assert path[-2:] == ("fields", "field_of_view") and change.must_fail is must_fail
+        assert same(measured, moved, word.value) is not must_fail
+
+
 def test_the_grader_learns_another_name() -> None:
     """Where it calls the node by the card's word."""
     (change,) = changes_of(WORDS["nodes.beacon.executable"])
     assert 'CARD.node("beaconx")' in change.grader(EXAMPLE.grader.read_text("utf-8"))
-    same = 'CARD = lab("beacon").card\nBEACON = CARD.node("beacon")'
-    assert change.grader(same) == 'CARD = lab("beacon").card\nBEACON = CARD.node("beaconx")'
+    again = 'CARD = lab("beacon").card\nBEACON = CARD.node("beacon")'
+    assert change.grader(again) == 'CARD = lab("beacon").card\nBEACON = CARD.node("beaconx")'
     (other,) = changes_of(HZ)
     assert other.grader("1.0") == "1.0"
 
@@ -111,9 +135,14 @@ def verdict_with(outcome: CheckOutcome) -> Result:
         id="rate", title="rate", outcome=outcome, points=0, max_points=100, why="too busy"
     )
     verdict = Verdict(
-        lab="example", package="beacon", outcome=outcome_of((check,)), score=None, checks=(check,),
-        seconds=Timings(total=1.0), environment=Environment.model_construct(),
-    )  # fmt: skip
+        lab="example",
+        package="beacon",
+        outcome=outcome_of((check,)),
+        score=None,
+        checks=(check,),
+        seconds=Timings(total=1.0),
+        environment=Environment.model_construct(),
+    )
     return Result(submission="it", digest="0", attempt=1, state="graded", verdict=verdict)
 
 

@@ -61,8 +61,11 @@ def test_release_and_export_see_the_same_labs(
 
 def test_what_is_committed_needs_no_word(clone: Path, tmp_path: Path) -> None:
     """Nothing is told of a lab that git keeps, nor of a clean folder but that no site is built."""
-    assert not [line for line in export("gradescope", course.lab("old"), tmp_path / "e")
-                if "Not committed yet" in line]  # fmt: skip
+    assert not [
+        line
+        for line in export("gradescope", course.lab("old"), tmp_path / "e")
+        if "Not committed yet" in line
+    ]
     git(clone, "add", ".")
     assert release(tmp_path / "r").remarks == [NO_SITE]
 

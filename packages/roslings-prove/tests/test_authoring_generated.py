@@ -57,7 +57,8 @@ def made(operator: str, program: str, folder: Path) -> list[str]:
 LINES: dict[str, tuple[str, str, list[str]]] = {
     "a whole number": ("number", "n = 10", ["n = 11", "n = 9", "n = 20"]),
     "another number": (
-        "number", "t = 0.5",
+        "number",
+        "t = 0.5",
         ["t = 0.75", "t = 0.25", "t = 1.0", "t = 5.0", "t = 0.05"],
     ),
     "nothing": ("number", "t = 0.0", ["t = 1.0"]),
@@ -74,7 +75,8 @@ LINES: dict[str, tuple[str, str, list[str]]] = {
     "times": ("arithmetic", "a = b * c", ["a = b / c"]),
     "less": ("comparison", "a = b < c", ["a = b <= c", "a = b > c"]),
     "an interval": (
-        "comparison", "a = 0 <= b < c",
+        "comparison",
+        "a = 0 <= b < c",
         ["a = 0 < b < c", "a = 0 >= b < c", "a = 0 <= b <= c", "a = 0 <= b > c"],
     ),
     "none": ("comparison", "a = b is None", ["a = b is not None"]),
@@ -83,33 +85,50 @@ LINES: dict[str, tuple[str, str, list[str]]] = {
     "not": ("condition", "a = not b", ["a = b"]),
     "a condition": ("condition", "a = 1 if b else 2", ["a = 1 if not b else 2"]),
     "a name": (
-        "name", "a = 'chatter'",
+        "name",
+        "a = 'chatter'",
         ["a = 'chatte'", "a = 'chatters'", "a = 'chatter_'", "a = 'chtater'", "a = 'Chatter'"],
     ),
     "an encoding": (
-        "name", "a = b.decode('ascii')",
-        ["a = b.decode('asci')", "a = b.decode('asciis')", "a = b.decode('ascii_')",
-         "a = b.decode('acsii')"],
+        "name",
+        "a = b.decode('ascii')",
+        [
+            "a = b.decode('asci')",
+            "a = b.decode('asciis')",
+            "a = b.decode('ascii_')",
+            "a = b.decode('acsii')",
+        ],
     ),
     "no name": ("name", "a = 'Hello you'", []),
     "a text": (
-        "text", "a = 'Hello you'",
+        "text",
+        "a = 'Hello you'",
         ["a = ''", "a = 'you'", "a = 'Hell you'", "a = 'Hello  you'", "a = 'hello you'"],
     ),
     "a text with a place": (
-        "text", "a = f'I heard {b}'",
-        ["a = 'I heard {b}'", "a = f'{b}'", "a = f'heard {b}'", "a = f'I herd {b}'",
-         "a = f'I  heard {b}'", "a = f'i heard {b}'"],
+        "text",
+        "a = f'I heard {b}'",
+        [
+            "a = 'I heard {b}'",
+            "a = f'{b}'",
+            "a = f'heard {b}'",
+            "a = f'I herd {b}'",
+            "a = f'I  heard {b}'",
+            "a = f'i heard {b}'",
+        ],
     ),
     "a statement": ("drop", "a = 1\nb()", ["b()", "a = 1"]),
     "one alone": ("drop", "if a:\n    b()", ["", "if a:\n    pass"]),
     "documentation": ("drop", '"""It."""\nimport a\n', []),
     "what does something": ("double", "a = b()\nc()", ["a = b()\nc()\nc()"]),
     "what is there already": (
-        "double", "a.x = f(b)\na.close()\nrclpy.spin(n)\nself.p = self.create_client(T, 'a')", [],
+        "double",
+        "a.x = f(b)\na.close()\nrclpy.spin(n)\nself.p = self.create_client(T, 'a')",
+        [],
     ),
     "what is seen from outside": (
-        "double", "self.t = self.create_timer(1, f)",
+        "double",
+        "self.t = self.create_timer(1, f)",
         ["self.t = self.create_timer(1, f)\nself.t = self.create_timer(1, f)"],
     ),
     "the end of ROS": ("drop", "rclpy.try_shutdown()", []),
@@ -118,7 +137,7 @@ LINES: dict[str, tuple[str, str, list[str]]] = {
     "two parts of one thing": ("too-early", "def f(m):\n    m.x = a\n    m.y = b\n", []),
     "what counts": ("double", "self.n += 1", ["self.n += 1\nself.n += 1"]),
     "what ROS does not run": ("drop", "if __name__ == '__main__':\n    main()", []),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize(("operator", "program", "wrong"), LINES.values(), ids=LINES)
@@ -148,9 +167,10 @@ def bodies(operator: str, function: str, folder: Path) -> list[list[str]]:
     trees = (ast.parse(each) for each in made(operator, NODE, folder))
     found = [
         [ast.unparse(line) for line in node.body if "Say it" not in ast.unparse(line)]
-        for tree in trees for node in ast.walk(tree)
+        for tree in trees
+        for node in ast.walk(tree)
         if isinstance(node, ast.FunctionDef) and node.name == function
-    ]  # fmt: skip
+    ]
     return [body for body in found if body != SAYS]
 
 
@@ -161,9 +181,10 @@ CALLS = "self.calls = getattr(self, 'calls', 0) + 1"
 def test_a_function_that_ends_early(tmp_path: Path) -> None:
     """Before each statement but the last, or from some call on."""
     assert [body for body in bodies("early-return", "say", tmp_path)] == [
-        ["return", *SAYS], [SAYS[0], "return", *SAYS[1:]],
+        ["return", *SAYS],
+        [SAYS[0], "return", *SAYS[1:]],
         [CALLS, "if self.calls >= 3:\n    return", *SAYS],
-    ]  # fmt: skip
+    ]
 
 
 def test_a_callback_that_blocks(tmp_path: Path) -> None:
@@ -191,8 +212,10 @@ def test_an_exception_in_some_call(tmp_path: Path) -> None:
 def test_a_value_that_is_used_too_early(tmp_path: Path) -> None:
     """Before what it needs, however far away; or None at first."""
     assert bodies("too-early", "say", tmp_path) == [
-        [SAYS[1], SAYS[0], SAYS[2]], [SAYS[2], SAYS[0], SAYS[1]], [SAYS[0], SAYS[2], SAYS[1]],
-    ]  # fmt: skip
+        [SAYS[1], SAYS[0], SAYS[2]],
+        [SAYS[2], SAYS[0], SAYS[1]],
+        [SAYS[0], SAYS[2], SAYS[1]],
+    ]
     begun = bodies("too-early", "__init__", tmp_path)
     assert ["self.count = 0", "super().__init__('talker')"] not in begun, "that is as good"
     assert ["super().__init__('talker')", "self.count = None"] in begun
@@ -251,9 +274,11 @@ def test_they_are_spread(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_what_nobody_asks_for_is_left_alone(name: str, own: str) -> None:
     """What is given, and what a package writes of its own accord; the rest of the file is not."""
     found = choice.candidates(lab(name))
-    touched = [each.name for each in found if any(
-        line.startswith("-") and own in line for line in each.diff.splitlines()
-    )]  # fmt: skip
+    touched = [
+        each.name
+        for each in found
+        if any(line.startswith("-") and own in line for line in each.diff.splitlines())
+    ]
     assert len(found) > 300 and touched == []
 
 
@@ -300,18 +325,29 @@ def test_a_package_is_the_solution_with_one_change(
 
 
 ENVIRONMENT = Environment(
-    roslings="1", ros_distro="jazzy", rmw="rmw_fastrtps_cpp", python="3.11", platform="Linux",
-    isolation="namespaces", clock="wall", seed=1,
-)  # fmt: skip
+    roslings="1",
+    ros_distro="jazzy",
+    rmw="rmw_fastrtps_cpp",
+    python="3.11",
+    platform="Linux",
+    isolation="namespaces",
+    clock="wall",
+    seed=1,
+)
 
 
 def result(outcome: CheckOutcome = "fail", submission: str = "it") -> Result:
     """A result with one check."""
     check = CheckResult(id="rate", title="rate", outcome=outcome, points=0, max_points=100)
     verdict = Verdict(
-        lab="example", package="beacon", outcome=outcome_of((check,)), score=None, checks=(check,),
-        seconds=Timings(total=1.0), environment=ENVIRONMENT,
-    )  # fmt: skip
+        lab="example",
+        package="beacon",
+        outcome=outcome_of((check,)),
+        score=None,
+        checks=(check,),
+        seconds=Timings(total=1.0),
+        environment=ENVIRONMENT,
+    )
     return Result(submission=submission, digest="0", attempt=1, state="graded", verdict=verdict)
 
 
@@ -391,10 +427,11 @@ BAD: dict[str, tuple[str, str]] = {
     "no such package": ("package: x\n  diff: ''\n  equivalent: so", ":1: no generated package"),
     "no reason": ("package: x\n  diff: ''", ":1: 0: Value error, give one reason"),
     "two reasons": (
-        "package: x\n  diff: ''\n  equivalent: a\n  not_judged: b", ":1: 0: Value error, give one",
+        "package: x\n  diff: ''\n  equivalent: a\n  not_judged: b",
+        ":1: 0: Value error, give one",
     ),
     "another word": ("package: x\n  diff: ''\n  because: a", ":3: 0.because"),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize(("words", "told"), BAD.values(), ids=BAD)

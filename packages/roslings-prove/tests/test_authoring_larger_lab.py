@@ -139,7 +139,11 @@ def test_it_is_followed_word_by_word(course: Path) -> None:
         if title[0] in "1234":
             assert "100 of 100" in typed(CHECK, course)
     told = typed("./roslings prove motor --all", course)
-    for name, check in (("request_not_read", "service"), ("period_in_the_code", "parameter"),
-                        ("launch_misspelt", "launch"), ("port_in_the_code", "turns")):  # fmt: skip
+    for name, check in (
+        ("request_not_read", "service"),
+        ("period_in_the_code", "parameter"),
+        ("launch_misspelt", "launch"),
+        ("port_in_the_code", "turns"),
+    ):
         assert f"ok     motor: {name} fails {check}" in told
     assert re.search(r"(\d+) of \1 words of the card are judged \(100%\)", told)

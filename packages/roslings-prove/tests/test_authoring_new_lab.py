@@ -32,8 +32,10 @@ def test_everything_has_the_new_names(made: Lab, tmp_path: Path) -> None:
         assert "beacon" not in text.lower()
         assert "example" not in text.replace("example.com", "")
     assert (made.card.id, made.card.package, made.card.day) == (
-        "line-follower", "follower", "09-lines",
-    )  # fmt: skip
+        "line-follower",
+        "follower",
+        "09-lines",
+    )
 
 
 def test_its_parts_fit_each_other(made: Lab) -> None:
@@ -59,10 +61,16 @@ def test_what_does_not_fit_is_told(made: Lab) -> None:
 @pytest.mark.parametrize(
     ("name", "package", "day"),
     [
-        ("Line", None, None), ("a_b", None, None), ("../x", None, None), ("example", None, None),
-        ("fine", "9x", None), ("fine", "a-b", None), ("fine", None, "monday"), ("", None, None),
+        ("Line", None, None),
+        ("a_b", None, None),
+        ("../x", None, None),
+        ("example", None, None),
+        ("fine", "9x", None),
+        ("fine", "a-b", None),
+        ("fine", None, "monday"),
+        ("", None, None),
     ],
-)  # fmt: skip
+)
 def test_a_name_that_would_not_work_is_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, package: str | None, day: str | None
 ) -> None:

@@ -77,10 +77,13 @@ def test_what_asks_for_something() -> None:
         if each.asks
     ]
     assert asking == [
-        (3, "You write a node."), (3, "It tells its age."), (14, "| it | hello |"),
-        (16, "- One thing."), (16, "Another thing of the list."),
+        (3, "You write a node."),
+        (3, "It tells its age."),
+        (14, "| it | hello |"),
+        (16, "- One thing."),
+        (16, "Another thing of the list."),
         (25, "It must answer within a second."),
-    ]  # fmt: skip
+    ]
 
 
 @pytest.fixture
@@ -119,8 +122,9 @@ def test_a_sentence_that_nothing_judges_is_told_with_its_line(course: Path) -> N
     assert wrong(course) == []
     line = say(course, "It counts up, and starts anew after ten.")
     assert f"task.md:{line}: " in wrong(course)[0]
-    rewrite(course, {"says": "It counts up,", "checks": ["text"],
-                     "broken_by": ["counter_stands_still"]})  # fmt: skip
+    rewrite(
+        course, {"says": "It counts up,", "checks": ["text"], "broken_by": ["counter_stands_still"]}
+    )
     assert "nothing judges 'and starts anew after ten.'" in wrong(course)[0]
     rewrite(course, {"says": "starts anew after ten.", "explains": "it is free"})
     assert wrong(course) == []
@@ -135,8 +139,14 @@ def test_a_text_of_the_card_is_a_sentence(course: Path) -> None:
         )
     )
     assert "card.yaml:13: nodes.beacon.publishes./alive.about" in wrong(course)[0]
-    rewrite(course, {"at": "nodes.0.publishes.0.about", "checks": ["text"],
-                     "broken_by": ["counter_stands_still"]})  # fmt: skip
+    rewrite(
+        course,
+        {
+            "at": "nodes.0.publishes.0.about",
+            "checks": ["text"],
+            "broken_by": ["counter_stands_still"],
+        },
+    )
     assert wrong(course) == []
 
 
@@ -145,10 +155,12 @@ WRONG_ENTRIES: dict[str, tuple[dict[str, object], str]] = {
     "words that are there twice": ({"says": "the", "explains": "it"}, "it must say it once"),
     "no such text": ({"at": "nodes.0.log_about", "explains": "it"}, "no text at nodes.0.log_about"),
     "no such check": (
-        {"says": "number here", "checks": ["flies"], "broken_by": ["rate_2_hz"]}, "no check flies",
+        {"says": "number here", "checks": ["flies"], "broken_by": ["rate_2_hz"]},
+        "no check flies",
     ),
     "no such mutant": (
-        {"says": "number here", "checks": ["rate"], "broken_by": ["flies"]}, "no mutant flies",
+        {"says": "number here", "checks": ["rate"], "broken_by": ["flies"]},
+        "no mutant flies",
     ),
     "a mutant of another check": (
         {"says": "number here", "checks": ["rate"], "broken_by": ["wrong_topic"]},
@@ -160,9 +172,10 @@ WRONG_ENTRIES: dict[str, tuple[dict[str, object], str]] = {
     ),
     "no such word": ({"says": "number here", "repeats": ["nodes.9.node"]}, "no place of the card"),
     "not told to students": (
-        {"says": "number here", "not_judged": "how it flies"}, "does not say so under not_judged",
+        {"says": "number here", "not_judged": "how it flies"},
+        "does not say so under not_judged",
     ),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize(("entry", "words"), WRONG_ENTRIES.values(), ids=WRONG_ENTRIES)
@@ -183,11 +196,12 @@ def _first(entry: dict[str, object]) -> str:
 @pytest.mark.parametrize(
     "entry",
     [
-        {"says": "number here"}, {"checks": ["rate"], "broken_by": ["rate_2_hz"]},
+        {"says": "number here"},
+        {"checks": ["rate"], "broken_by": ["rate_2_hz"]},
         {"says": "number here", "checks": ["rate"]},
         {"says": "number here", "explains": "it", "not_judged": "it"},
     ],
-)  # fmt: skip
+)
 def test_an_entry_says_one_thing(course: Path, entry: dict[str, object]) -> None:
     """The words, and one way; a check comes with its mutant."""
     rewrite(course, entry)

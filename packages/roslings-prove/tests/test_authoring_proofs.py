@@ -16,7 +16,7 @@ from roslings.workspace import normal
 from roslings.workspace.normal import digest_of_file
 from roslings_launcher.seeds import other_pythons
 from roslings_prove.proofs.closure import Modules, Tree
-from roslings_prove.proofs.digests import Measuring, card_digest, measuring
+from roslings_prove.proofs.digests import BUILT_TYPES, Measuring, card_digest, measuring
 from roslings_prove.proofs.due import AT_EACH_LANDING, PART, Proofs
 from roslings_prove.proofs.judging import judge_kept
 from roslings_prove.proofs.kept import (
@@ -144,13 +144,14 @@ def now() -> Measuring:
 def copy(tmp_path: Path) -> Iterator[Path]:
     """The engine, to change something in it."""
     ignored = shutil.ignore_patterns("__pycache__")
-    shutil.copytree(root() / "packages", tmp_path / "packages", ignore=ignored)
+    for folder in ("packages", "graders"):
+        shutil.copytree(root() / folder, tmp_path / folder, ignore=ignored)
     yield tmp_path
 
 
 def tree(course: Path) -> Tree:
     """The modules of a copy."""
-    return Tree(tuple(sources(course)))
+    return Tree(tuple(sources(course)), course / "graders")
 
 
 def measured_by(course: Path, labs: tuple[Lab, ...] = tuple(LABS.values())) -> Measuring:
@@ -221,10 +222,14 @@ def test_another_thing_of_the_same_name_is_another(copy: Path, now: Measuring) -
 @pytest.mark.parametrize(
     "module",
     [
-        "roslings.experiment.simulated", "roslings.probe.recorder", "roslings.arena.guardian",
-        "roslings.workspace.build", "roslings.evidence", "ros2_on_pip.rates",
+        "roslings.experiment.simulated",
+        "roslings.probe.recorder",
+        "roslings.arena.guardian",
+        "roslings.workspace.build",
+        "roslings.evidence",
+        "ros2_on_pip.rates",
     ],
-)  # fmt: skip
+)
 def test_a_change_of_what_all_share_is_one_of_the_core(
     module: str, copy: Path, now: Measuring
 ) -> None:
@@ -246,15 +251,32 @@ def test_another_text_of_what_all_share_is_one_of_the_core(copy: Path, now: Meas
 
 
 @pytest.mark.slow
+def test_message_types_that_are_built_anew_are_a_change_of_the_core(copy: Path) -> None:
+    """Nodes of students load them."""
+    shutil.copy(root() / "constraints.txt", copy)
+    labs = tuple(LABS.values())
+    before = Measuring(Modules(tree(copy)), labs, copy)
+    assert before.core
+    built = next(copy.glob(BUILT_TYPES))
+    built.write_bytes(built.read_bytes() + b"0")
+    after = Measuring(Modules(tree(copy)), labs, copy)
+    assert after.core != before.core and not stale_labs(before, after)
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("module", "labs"),
     [
         ("roslings.capabilities.actions.act", {"actions"}),
         ("roslings.capabilities.serial.act", {"serial-bridge"}),
         ("roslings.capabilities.camera.act", {"pi-camera"}),
-        ("roslings.capabilities.qos.player", {"e-stop"}),
+        ("graders.e_stop.player", {"e-stop"}),
         ("ros2_on_pip.launching.actions", {"distance-sensor", "bring-up"}),
         ("ros2_on_pip.stand_ins.rosbag2_py._reader", {"black-box"}),
+        ("graders.black_box.act", {"black-box"}),
+        ("graders.pi_camera.projector", {"pi-camera"}),
+        ("graders.actions.floor", {"actions"}),
+        ("graders.black_box.record", {"black-box"}),
     ],
 )
 def test_what_one_lab_is_measured_with_makes_that_lab_stale(
@@ -270,7 +292,12 @@ def test_what_one_lab_is_measured_with_makes_that_lab_stale(
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "module", ["roslings.judge.demands", "roslings.capabilities.topics.demands"]
+    "module",
+    [
+        "roslings.judge.demands",
+        "roslings.capabilities.topics.demands",
+        "graders.black_box.demands",
+    ],
 )
 def test_what_only_judges_makes_nothing_stale(module: str, copy: Path, now: Measuring) -> None:
     """It is tried on every kept proof, each time."""
@@ -284,14 +311,20 @@ def test_what_only_judges_makes_nothing_stale(module: str, copy: Path, now: Meas
 @pytest.mark.parametrize(
     ("old", "new", "is_stale"),
     [
-        ("scene.say_sentences(listener, HEARD, count=12)",
-         "scene.say_sentences(listener, HEARD, count=13)", True),
-        ("TALKER, LISTENER = CARD.node(\"talker\"), CARD.node(\"listener\")",
-         "LISTENER, TALKER = CARD.node(\"listener\"), CARD.node(\"talker\")", True),
+        (
+            "scene.say_sentences(listener, HEARD, count=12)",
+            "scene.say_sentences(listener, HEARD, count=13)",
+            True,
+        ),
+        (
+            'TALKER, LISTENER = CARD.node("talker"), CARD.node("listener")',
+            'LISTENER, TALKER = CARD.node("listener"), CARD.node("talker")',
+            True,
+        ),
         ("    talking.topic(CHATTER).must(count_up)", "    pass", False),
         ('"""The number goes up by one from message to message."""', '"""It counts."""', False),
     ],
-)  # fmt: skip
+)
 def test_of_a_grader_the_experiments_count(
     old: str, new: str, is_stale: bool, tmp_path: Path, now: Measuring
 ) -> None:
@@ -312,6 +345,10 @@ def test_of_a_card_all_counts_but_its_points_and_comments(tmp_path: Path) -> Non
     text = (lab.folder / "card.yaml").read_text("utf-8")
     card.write_text(f"# a word\n{text}".replace("rate: 14", "rate: 15"), "utf-8")
     assert card_digest(other) == card_digest(lab)
+    rate = "        rate: {hz: 2"
+    assert rate in text
+    card.write_text(text.replace(rate, f"        numbers_within: 0.5\n{rate}"), "utf-8")
+    assert card_digest(other) == card_digest(lab)
     card.write_text(text.replace("hz: 2", "hz: 3"), "utf-8")
     assert card_digest(other) != card_digest(lab)
 
@@ -326,13 +363,17 @@ def all_kept(folder: Path, now: Measuring, *, cores: dict[str, str] | None = Non
         kept.note_state(core)
     lines = {
         name: KeptProof(
-            package=name, content=content_of(package), card=card_digest(lab),
-            experiments=now.experiments(lab), core=(cores or {}).get(name, now.core),
-            evidence="", checks={},
+            package=name,
+            content=content_of(package),
+            card=card_digest(lab),
+            experiments=now.experiments(lab),
+            core=(cores or {}).get(name, now.core),
+            evidence="",
+            checks={},
         )
         for package in packages_of(lab)
         for name in [name_in(lab, package)]
-    }  # fmt: skip
+    }
     kept.write(lab, lines, list(lines))
     return kept
 

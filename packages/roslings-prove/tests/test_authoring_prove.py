@@ -21,17 +21,25 @@ def graded(**outcomes: CheckOutcome) -> Result:
     """A result where all other checks pass; what fails is too slow."""
     checks = tuple(
         CheckResult(
-            id=name, title=name, outcome=(outcome := outcomes.get(name, "pass")),
-            points=points if outcome == "pass" else 0, max_points=points,
-            fault="TooSlow" if outcome == "fail" else None, measured="1 Hz",
+            id=name,
+            title=name,
+            outcome=(outcome := outcomes.get(name, "pass")),
+            points=points if outcome == "pass" else 0,
+            max_points=points,
+            fault="TooSlow" if outcome == "fail" else None,
+            measured="1 Hz",
         )
         for name, points in TOPICS.card.points.items()
-    )  # fmt: skip
+    )
     verdict = Verdict(
-        lab="topics", package="chatter", outcome=outcome_of(checks),
-        score=sum(check.points for check in checks), checks=checks, seconds=Timings(total=1.0),
+        lab="topics",
+        package="chatter",
+        outcome=outcome_of(checks),
+        score=sum(check.points for check in checks),
+        checks=checks,
+        seconds=Timings(total=1.0),
         environment=Environment.model_construct(),
-    )  # fmt: skip
+    )
     return Result(submission="it", digest="0", attempt=1, state="graded", verdict=verdict)
 
 
@@ -55,19 +63,26 @@ WRONG: dict[str, tuple[Package, Result, str]] = {
     "a mutant that passes": (Wrong(TOPICS, SLOW), graded(), "it passes every check"),
     "one that fails elsewhere": (Wrong(TOPICS, SLOW), graded(text="fail"), "it fails: text (1 Hz)"),
     "one that fails there too": (
-        Wrong(TOPICS, SLOW), graded(rate="fail", text="fail"), "rate (1 Hz); text (1 Hz)",
+        Wrong(TOPICS, SLOW),
+        graded(rate="fail", text="fail"),
+        "rate (1 Hz); text (1 Hz)",
     ),
     "one where more is skipped": (
-        Wrong(TOPICS, SLOW), graded(rate="fail", hears="skip"), "skipped: hears; must be: none",
+        Wrong(TOPICS, SLOW),
+        graded(rate="fail", hears="skip"),
+        "skipped: hears; must be: none",
     ),
     "one where less is skipped": (
-        Wrong(TOPICS, UNNAMED), graded(talker_runs="fail"), "skipped: none; must be: clean_exit",
+        Wrong(TOPICS, UNNAMED),
+        graded(talker_runs="fail"),
+        "skipped: none; must be: clean_exit",
     ),
     "one with another fault": (
-        Wrong(TOPICS, SLOW.model_copy(update={"faults": {"rate": "Bursts"}})), graded(rate="fail"),
+        Wrong(TOPICS, SLOW.model_copy(update={"faults": {"rate": "Bursts"}})),
+        graded(rate="fail"),
         "other faults: {'rate': 'TooSlow'}",
     ),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize(("package", "result", "words"), WRONG.values(), ids=WRONG)

@@ -44,9 +44,13 @@ def test_its_lessons_run_under_nbval(edition: Path) -> None:
     """What `./roslings test days --nbval-lax` needs is in it: each cell of each day is a test."""
     words = ["days", "--nbval-lax", "--collect-only", "-qq", "-n0"]
     done = subprocess.run(
-        [sys.executable, "-m", "pytest", *words], cwd=edition, check=False,
-        env={**os.environ, "PYTHONPATH": python_path(edition)}, capture_output=True, text=True,
-    )  # fmt: skip
+        [sys.executable, "-m", "pytest", *words],
+        cwd=edition,
+        check=False,
+        env={**os.environ, "PYTHONPATH": python_path(edition)},
+        capture_output=True,
+        text=True,
+    )
     counts = dict(re.findall(r"^days/([^/]+)/lesson\.ipynb: (\d+)$", done.stdout, re.MULTILINE))
     days = [path.parent for path in edition.glob("days/*/lesson.ipynb")]
     assert sorted(counts) == sorted(day.name for day in days), done.stdout + done.stderr
@@ -160,7 +164,11 @@ def test_both_commands_work_as_they_stand(edition: Path, tmp_path: Path) -> None
     more = {name: text for name, text in os.environ.items() if name.startswith(("PIP_", "SSL_"))}
     for command in commands_of(edition):
         done = subprocess.run(
-            ["bash", "-c", command], cwd=edition, env={**more, **own}, capture_output=True,
-            text=True, check=False,
-        )  # fmt: skip
+            ["bash", "-c", command],
+            cwd=edition,
+            env={**more, **own},
+            capture_output=True,
+            text=True,
+            check=False,
+        )
         assert done.returncode == 0, done.stdout + done.stderr

@@ -129,8 +129,11 @@ def test_each_rewrite_writes_what_it_says(name: str) -> None:
 def test_each_rewrite_is_shown() -> None:
     """Those of whole files below."""
     below = {
-        "one file into three", "all files into one", "other quotes in lines", "logger for print",
-    }  # fmt: skip
+        "one file into three",
+        "all files into one",
+        "other quotes in lines",
+        "logger for print",
+    }
     assert set(REWRITES) - set(EXPECTED) == below
 
 
@@ -186,9 +189,11 @@ def test_one_file_becomes_three() -> None:
     """Each imports what it needs, and nothing else."""
     made = REWRITES["one file into three"](sources(beacon=TALKER)).texts
     assert {name for name in made if name.startswith("beacon/")} == {
-        "beacon/__init__.py", "beacon/beacon.py", "beacon/beacon_class.py",
+        "beacon/__init__.py",
+        "beacon/beacon.py",
+        "beacon/beacon_class.py",
         "beacon/beacon_parts.py",
-    }  # fmt: skip
+    }
     assert "import" not in made["beacon/beacon_parts.py"]
     assert "from beacon.beacon_parts import short\n" in made["beacon/beacon_class.py"]
     assert "from beacon.beacon_class import Talker" in made["beacon/beacon.py"]
@@ -241,9 +246,10 @@ def test_an_import_of_another_package_is_named_in_package_xml() -> None:
 def test_values_are_noted_after_a_node_has_agreed() -> None:
     """Who may refuse a value must not find it noted already."""
     judges = TALKER.replace(
-        "        self.create_timer", "        self.add_on_set_parameters_callback(self.judge)\n"
-        "        self.create_timer", 1,
-    )  # fmt: skip
+        "        self.create_timer",
+        "        self.add_on_set_parameters_callback(self.judge)\n        self.create_timer",
+        1,
+    )
     made = changed("noted by a callback", judges)
     assert "self.add_post_set_parameters_callback(self.take_parameters)" in made
     assert made.count("add_on_set_parameters_callback") == 1
@@ -261,7 +267,7 @@ def test_values_are_noted_after_a_node_has_agreed() -> None:
         ("a with block", TALKER.replace("rclpy.try_shutdown()", "rclpy.try_shutdown(); print()")),
         ("print for the logger", TALKER.replace("(message.data))", "(message.data), once=True)")),
     ],
-)  # fmt: skip
+)
 def test_what_would_change_what_it_does_is_left_alone(name: str, code: str) -> None:
     """A rewrite looks before it leaps."""
     assert changed(name, code) == code
@@ -291,8 +297,9 @@ def test_another_qos_only_where_the_card_allows_it() -> None:
 def test_rclpy_calls_its_arguments_as_we_do(function: str) -> None:
     """In the order of the table."""
     kinds: dict[str, Callable[..., object]] = {
-        "ActionServer": ActionServer.__init__, "ActionClient": ActionClient.__init__,
-    }  # fmt: skip
+        "ActionServer": ActionServer.__init__,
+        "ActionClient": ActionClient.__init__,
+    }
     there = list(inspect.signature(kinds.get(function) or getattr(Node, function)).parameters)
     assert there[1 : 1 + len(OF_ROS[function])] == list(OF_ROS[function])
 
@@ -347,13 +354,23 @@ def result(points: int, name: str = "it") -> Result:
     """A result whose one check has so many of 100 points."""
     outcome = "pass" if points == 100 else "fail"
     check = CheckResult(
-        id="rate", title="rate", outcome=outcome, points=points, max_points=100, measured="1 Hz",
+        id="rate",
+        title="rate",
+        outcome=outcome,
+        points=points,
+        max_points=100,
+        measured="1 Hz",
         fault=None if points == 100 else "TooSlow",
-    )  # fmt: skip
+    )
     verdict = Verdict(
-        lab="example", package="beacon", outcome=outcome, score=points, checks=(check,),
-        seconds=Timings(total=1.0), environment=Environment.model_construct(),
-    )  # fmt: skip
+        lab="example",
+        package="beacon",
+        outcome=outcome,
+        score=points,
+        checks=(check,),
+        seconds=Timings(total=1.0),
+        environment=Environment.model_construct(),
+    )
     return Result(submission=name, digest="0", attempt=1, state="graded", verdict=verdict)
 
 

@@ -34,31 +34,40 @@ KINDS = {
         WATCH, "scene.watch(ALIFE)", "NameError: name 'ALIFE' is not defined"
     ),
     "an unknown action in an experiment": Kind(
-        WATCH, "scene.wach(ALIVE)", "AttributeError: 'Scene' object has no attribute 'wach'",
+        WATCH,
+        "scene.wach(ALIVE)",
+        "AttributeError: 'Scene' object has no attribute 'wach'",
         seen_in_files=False,
     ),
     "a wrong thing for an action": Kind(
-        "scene.run(ALARM)", 'scene.run("alarm")',
-        "AttributeError: 'str' object has no attribute 'executable'", seen_in_files=False,
+        "scene.run(ALARM)",
+        'scene.run("alarm")',
+        "AttributeError: 'str' object has no attribute 'executable'",
+        seen_in_files=False,
     ),
     "an unknown name in a check": Kind(
-        QUIET, "telling.topic(ALIFE).must(have_rate(ALIVE))",
+        QUIET,
+        "telling.topic(ALIFE).must(have_rate(ALIVE))",
         "NameError: name 'ALIFE' is not defined",
     ),
     "an unknown view in a check": Kind(
-        QUIET, "telling.topc(ALIVE).must(have_rate(ALIVE))",
-        "AttributeError: 'ExperimentView' object has no attribute 'topc'", seen_in_files=False,
+        QUIET,
+        "telling.topc(ALIVE).must(have_rate(ALIVE))",
+        "AttributeError: 'ExperimentView' object has no attribute 'topc'",
+        seen_in_files=False,
     ),
     "a misspelt demand": Kind(
-        "import count_up, have_rate", "import count_up, hav_rate",
+        "import count_up, have_rate",
+        "import count_up, hav_rate",
         "ImportError: cannot import name 'hav_rate'",
     ),
     "a wrong import": Kind(
-        "from roslings.course import lab", "from roslings.corse import lab",
+        "from roslings.course import lab",
+        "from roslings.corse import lab",
         "ModuleNotFoundError: No module named 'roslings.corse'",
     ),
     "no Python": Kind("def test_ends(", "def test_ends((", "SyntaxError: "),
-}  # fmt: skip
+}
 
 
 def test_what_the_grader_did_is_told_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -66,9 +75,13 @@ def test_what_the_grader_did_is_told_once(tmp_path: Path, monkeypatch: pytest.Mo
     monkeypatch.setenv("ROSLINGS_COURSE", str(tmp_path))
     package = Solution(new_lab("range-alarm", "alarm", "03-topics"))
     result = Result(
-        submission=package.name, digest="", attempt=1, state="broken", broken_by_grader=True,
+        submission=package.name,
+        digest="",
+        attempt=1,
+        state="broken",
+        broken_by_grader=True,
         reason="The grader has a mistake: graders/grade_range_alarm.py:46\nNameError",
-    )  # fmt: skip
+    )
     first = proof_of(package, result)
     assert not first.holds and not first.is_open
     assert "grade_range_alarm.py:46\n       NameError" in first.line

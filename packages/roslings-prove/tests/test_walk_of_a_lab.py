@@ -107,8 +107,10 @@ def test_its_grader_is_python_that_ruff_likes(walked: Lab) -> None:
     """Nothing is imported that the walk no longer uses, and nothing is missing."""
     said = subprocess.run(
         [sys.executable, "-m", "ruff", "check", "--isolated", "--select", "F", str(walked.grader)],
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert said.returncode == 0, said.stdout
 
 

@@ -86,10 +86,15 @@ def running(
     `keys` is a descriptor that it reads from.
     """
     process = subprocess.Popen(
-        [sys.executable, "-m", *typed(words)], env=environment, cwd=folder, text=True,
-        start_new_session=True, stdin=keys, stdout=subprocess.PIPE,
+        [sys.executable, "-m", *typed(words)],
+        env=environment,
+        cwd=folder,
+        text=True,
+        start_new_session=True,
+        stdin=keys,
+        stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
-    )  # fmt: skip
+    )
     try:
         yield Program(process)
     finally:
@@ -103,6 +108,12 @@ def run(
 ) -> subprocess.CompletedProcess[str]:
     """A command of the course, to its end."""
     return subprocess.run(
-        [sys.executable, "-m", *typed(words)], env=environment, cwd=folder, text=True,
-        capture_output=True, stdin=subprocess.DEVNULL, timeout=PATIENCE_S, check=False,
-    )  # fmt: skip
+        [sys.executable, "-m", *typed(words)],
+        env=environment,
+        cwd=folder,
+        text=True,
+        capture_output=True,
+        stdin=subprocess.DEVNULL,
+        timeout=PATIENCE_S,
+        check=False,
+    )

@@ -33,13 +33,28 @@ def keyboard() -> Iterator[tuple[int, int]]:
     os.close(read)
 
 
-@pytest.mark.parametrize(("keys", "told"), [
-    ("i", (0.5, 0.0)), (",", (-0.5, 0.0)), ("j", (0.0, 1.0)), ("l", (0.0, -1.0)),
-    ("u", (0.5, 1.0)), ("o", (0.5, -1.0)), ("m", (-0.5, -1.0)), (".", (-0.5, 1.0)),
-    ("ik", (0.0, 0.0)), ("i?", (0.0, 0.0)), ("qi", (0.55, 0.0)), ("zi", (0.45, 0.0)),
-    ("wi", (0.55, 0.0)), ("xu", (0.45, 1.0)), ("eu", (0.5, 1.1)), ("cj", (0.0, 0.9)),
-    ("iq", (0.55, 0.0)),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("keys", "told"),
+    [
+        ("i", (0.5, 0.0)),
+        (",", (-0.5, 0.0)),
+        ("j", (0.0, 1.0)),
+        ("l", (0.0, -1.0)),
+        ("u", (0.5, 1.0)),
+        ("o", (0.5, -1.0)),
+        ("m", (-0.5, -1.0)),
+        (".", (-0.5, 1.0)),
+        ("ik", (0.0, 0.0)),
+        ("i?", (0.0, 0.0)),
+        ("qi", (0.55, 0.0)),
+        ("zi", (0.45, 0.0)),
+        ("wi", (0.55, 0.0)),
+        ("xu", (0.45, 1.0)),
+        ("eu", (0.5, 1.1)),
+        ("cj", (0.0, 0.9)),
+        ("iq", (0.55, 0.0)),
+    ],
+)
 def test_each_key_has_its_meaning(keys: str, told: tuple[float, float]) -> None:
     """Metres a second ahead, and radians a second to the left."""
     hands = Hands()
@@ -55,10 +70,16 @@ def test_the_help_is_no_wider_than_a_terminal() -> None:
     assert all(f" {key} " in f" {HELP} " for key in "uiojkl")
 
 
-@pytest.mark.parametrize(("typed", "key"), [
-    (b"i", "i"), (b"iiiiii", "i"), (b"\x1b[A", "\x1b[A"), (b"\x1b[D\x1b[D", "\x1b[D"),
-    ("ü".encode(), "ü"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("typed", "key"),
+    [
+        (b"i", "i"),
+        (b"iiiiii", "i"),
+        (b"\x1b[A", "\x1b[A"),
+        (b"\x1b[D\x1b[D", "\x1b[D"),
+        ("ü".encode(), "ü"),
+    ],
+)
 def test_of_a_key_that_is_held_the_newest_counts(
     typed: bytes, key: str, keyboard: tuple[int, int]
 ) -> None:

@@ -102,9 +102,13 @@ def test_asked_to_it_publishes_tf(terminal: dict[str, str], tmp_path: Path) -> N
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("distro", "step"), [
-    ("", "sudo apt install g++"), ("jazzy", "sudo apt install ros-jazzy-tf2-msgs"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("distro", "step"),
+    [
+        ("", "sudo apt install g++"),
+        ("jazzy", "sudo apt install ros-jazzy-tf2-msgs"),
+    ],
+)
 def test_where_tf_has_no_type_the_next_step_is_on_the_screen(
     monkeypatch: pytest.MonkeyPatch, distro: str, step: str
 ) -> None:

@@ -20,9 +20,13 @@ from roslings_rover.models.drives.sick_rover import sick_rover
 def typed(home: Path, *words: str) -> subprocess.CompletedProcess[str]:
     """What the command says."""
     return subprocess.run(
-        [sys.executable, "-m", "roslings_rover", "rover", *words], capture_output=True, text=True,
-        check=False, env=environment(0, home), cwd=home,
-    )  # fmt: skip
+        [sys.executable, "-m", "roslings_rover", "rover", *words],
+        capture_output=True,
+        text=True,
+        check=False,
+        env=environment(0, home),
+        cwd=home,
+    )
 
 
 def read(bag: Path) -> list[tuple[str, bytes, int]]:
@@ -46,10 +50,14 @@ def offered_in(bag: Path) -> dict[str, str]:
 def meant(bag: Path) -> list[tuple[str, str, int]]:
     """The same in words: between the fields of a message, bytes may stand that mean nothing."""
     info = rosbag2_py.Info().read_metadata(str(bag), "")
-    types = {t.topic_metadata.name: get_message(t.topic_metadata.type)
-             for t in info.topics_with_message_count}  # fmt: skip
-    return [(topic, str(deserialize_message(data, types[topic])), time_ns)
-            for topic, data, time_ns in read(bag)]  # fmt: skip
+    types = {
+        t.topic_metadata.name: get_message(t.topic_metadata.type)
+        for t in info.topics_with_message_count
+    }
+    return [
+        (topic, str(deserialize_message(data, types[topic])), time_ns)
+        for topic, data, time_ns in read(bag)
+    ]
 
 
 def test_a_name_gives_a_bag_and_the_same_one_again(tmp_path: Path) -> None:

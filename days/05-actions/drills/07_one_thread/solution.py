@@ -19,7 +19,7 @@ class Charger(Node):
             self, Charge, "charge", self.fill,
             cancel_callback=lambda _: CancelResponse.ACCEPT,
             callback_group=ReentrantCallbackGroup(),
-        )  # fmt: skip
+        )
 
     def fill(self, goal_handle):
         while self.level < goal_handle.request.target:

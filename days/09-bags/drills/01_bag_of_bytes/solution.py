@@ -16,7 +16,7 @@ def write_bag():
     writer.open(WHERE, ConverterOptions("cdr", "cdr"))
     writer.create_topic(TopicMetadata(
         id=0, name="/depth", type="std_msgs/msg/Float32", serialization_format="cdr",
-    ))  # fmt: skip
+    ))
     for second, depth in enumerate((1.0, 4.5, 2.0)):
         writer.write("/depth", serialize_message(Float32(data=depth)), second * 10**9)
     writer.close()

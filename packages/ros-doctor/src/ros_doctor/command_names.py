@@ -2,6 +2,10 @@
 
 COMMANDS = (
     ("learners", "doctor", "is this machine ready?", "ros_doctor.cli:main"),
-    ("learners", "break", "ten small faults to find and mend with the doctor",
-     "ros_doctor.breaks.cli:main"),
-)  # fmt: skip
+    (
+        "learners",
+        "break",
+        "ten small faults to find and mend with the doctor",
+        "ros_doctor.breaks.cli:main",
+    ),
+)

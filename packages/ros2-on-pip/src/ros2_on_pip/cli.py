@@ -174,9 +174,10 @@ def parser_for(word: str | None) -> Parser:
     parser = Parser(prog="ros2", description="ros2 is an extensible command-line tool for ROS 2.")
     parser.set_defaults(run=lambda _: _help(parser))
     parser.add_argument(
-        BUFFERING, action="store_true",
+        BUFFERING,
+        action="store_true",
         help="Do not write each line at once, but as Python does where the output is no terminal",
-    )  # fmt: skip
+    )
     words = parser.add_subparsers(title="Commands", metavar="COMMAND", parser_class=Parser)
     for name, about in COMMANDS.items():
         command = words.add_parser(name, help=about, description=about)

@@ -167,14 +167,19 @@ class Eye:
 
         self.context = rclpy.Context()
         rclpy.init(
-            args=QUIET, context=self.context, domain_id=self.domain,
+            args=QUIET,
+            context=self.context,
+            domain_id=self.domain,
             signal_handler_options=SignalHandlerOptions.NO,
-        )  # fmt: skip
+        )
         self.node = Node(
-            self._name, context=self.context, use_global_arguments=False,
-            enable_rosout=False, start_parameter_services=False,
+            self._name,
+            context=self.context,
+            use_global_arguments=False,
+            enable_rosout=False,
+            start_parameter_services=False,
             parameter_overrides=[Parameter("use_sim_time", value=self._sim_time)],
-        )  # fmt: skip
+        )
         self._executor = SingleThreadedExecutor(context=self.context)
         self._executor.add_node(self.node)
 

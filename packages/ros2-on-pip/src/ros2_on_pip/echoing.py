@@ -40,8 +40,15 @@ def echo(options: argparse.Namespace) -> int:
         type_name = _type(eye, topic, options)
         picks = [_checked(field, class_of(type_name, "msg")) for field in options.field or []]
         printer = Printer(options, picks, passes)
-        subscribe(eye, topic, type_name, _profile(eye, topic, options), printer.hear, options.raw,
-                  None if options.no_lost_messages else say_lost)  # fmt: skip
+        subscribe(
+            eye,
+            topic,
+            type_name,
+            _profile(eye, topic, options),
+            printer.hear,
+            options.raw,
+            None if options.no_lost_messages else say_lost,
+        )
         eye.until(lambda: printer.done, options.timeout)
     return OK
 
@@ -56,16 +63,20 @@ def _profile(eye: Eye, topic: str, options: argparse.Namespace) -> Any:
     """The quality to ask for; a word is said where it hears less than was meant."""
     profile = qos.for_echo(options, eye.publishers(topic))
     if qos.hears_nothing_earlier(profile):
-        print("NOTE: with one --qos option, all others are those of sensor_data, which is best"
-              " effort: what was sent before does not come. Add: --qos-reliability reliable",
-              file=sys.stderr)  # fmt: skip
+        print(
+            "NOTE: with one --qos option, all others are those of sensor_data, which is best"
+            " effort: what was sent before does not come. Add: --qos-reliability reliable",
+            file=sys.stderr,
+        )
     return profile
 
 
 def say_lost(status: Any) -> None:
     """Messages did not arrive; printed as the real tool does."""
-    print(f"A message was lost!!!\n\ttotal count change:{status.total_count_change}"
-          f"\n\ttotal count: {status.total_count}---")  # fmt: skip
+    print(
+        f"A message was lost!!!\n\ttotal count change:{status.total_count_change}"
+        f"\n\ttotal count: {status.total_count}---"
+    )
 
 
 class Printer:
@@ -146,9 +157,10 @@ def _follow(field: str, part: Any, places: list[str | int]) -> None:
         fields = list(part.get_fields_and_field_types())
         if place not in fields:
             raise BadField(
-                field, f"there is no '{place}'.{did_you_mean(place, fields)}"
+                field,
+                f"there is no '{place}'.{did_you_mean(place, fields)}"
                 f" There is: {', '.join(fields) or 'nothing'}",
-            )  # fmt: skip
+            )
         part = getattr(part, place)
 
 

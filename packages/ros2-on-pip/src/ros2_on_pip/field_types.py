@@ -6,10 +6,17 @@ import re
 from dataclasses import dataclass
 
 INTEGERS = {
-    "octet": (0, 2**8), "char": (0, 2**8), "uint8": (0, 2**8), "int8": (-(2**7), 2**7),
-    "uint16": (0, 2**16), "int16": (-(2**15), 2**15), "uint32": (0, 2**32),
-    "int32": (-(2**31), 2**31), "uint64": (0, 2**64), "int64": (-(2**63), 2**63),
-}  # fmt: skip
+    "octet": (0, 2**8),
+    "char": (0, 2**8),
+    "uint8": (0, 2**8),
+    "int8": (-(2**7), 2**7),
+    "uint16": (0, 2**16),
+    "int16": (-(2**15), 2**15),
+    "uint32": (0, 2**32),
+    "int32": (-(2**31), 2**31),
+    "uint64": (0, 2**64),
+    "int64": (-(2**63), 2**63),
+}
 """Name to the smallest value and one above the largest."""
 
 FLOATS = ("float", "double")

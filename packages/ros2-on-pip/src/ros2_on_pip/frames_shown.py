@@ -96,14 +96,17 @@ def svg(frames: FramesHeard, now_ns: int) -> str:
     placed = _placed(frames, now_ns)
     width = 2 * MARGIN + placed[0].column_px * (1 + max(each.column for each in placed))
     height = 2 * MARGIN + ROW * max(each.row for each in placed) + BOX_HEIGHT
-    return "\n".join([
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:.0f}" height="{height:.0f}"'
-        ' font-family="sans-serif" font-size="14">',
-        '<rect width="100%" height="100%" fill="white"/>',
-        *(_edge(each, each.above) for each in placed if each.above),
-        *map(_box, placed),
-        "</svg>", "",
-    ])  # fmt: skip
+    return "\n".join(
+        [
+            f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:.0f}" height="{height:.0f}"'
+            ' font-family="sans-serif" font-size="14">',
+            '<rect width="100%" height="100%" fill="white"/>',
+            *(_edge(each, each.above) for each in placed if each.above),
+            *map(_box, placed),
+            "</svg>",
+            "",
+        ]
+    )
 
 
 def _placed(frames: FramesHeard, now_ns: int) -> list[Placed]:

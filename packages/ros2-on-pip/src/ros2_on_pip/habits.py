@@ -34,9 +34,12 @@ class ShortOnlyHere(argparse.Action):
     """A switch whose short form is ours alone."""
 
     def __call__(
-        self, parser: argparse.ArgumentParser, namespace: argparse.Namespace, values: Any,
+        self,
+        parser: argparse.ArgumentParser,
+        namespace: argparse.Namespace,
+        values: Any,
         option_string: str | None = None,
-    ) -> None:  # fmt: skip
+    ) -> None:
         """Set it, and say the long form where the short one was typed."""
         setattr(namespace, self.dest, True)
         if option_string and not option_string.startswith("--"):
@@ -47,9 +50,12 @@ class OnlyHere(argparse.Action):
     """An option that the full tool does not have with this verb."""
 
     def __call__(
-        self, parser: argparse.ArgumentParser, namespace: argparse.Namespace, values: Any,
+        self,
+        parser: argparse.ArgumentParser,
+        namespace: argparse.Namespace,
+        values: Any,
         option_string: str | None = None,
-    ) -> None:  # fmt: skip
+    ) -> None:
         """Keep its value, or that a switch was given, and say so."""
         setattr(namespace, self.dest, True if self.nargs == 0 else values)
         print(

@@ -39,11 +39,13 @@ class Table:
         return [
             "MULTIMACHINE COMMUNICATION SUMMARY",
             f"Topic: {topic}, Published Msg Count: {self.said}",
-            "Subscribed from:", *_rows(self.by_ros, period_s),
+            "Subscribed from:",
+            *_rows(self.by_ros, period_s),
             f"Multicast Group/Port: {GROUP}/{PORT}, Sent Msg Count: {self.sent}",
-            "Received from:", *_rows(self.by_multicast, period_s),
+            "Received from:",
+            *_rows(self.by_multicast, period_s),
             "-" * 60,
-        ]  # fmt: skip
+        ]
 
 
 def _rows(counter: Counter[str], period_s: float) -> list[str]:

@@ -20,15 +20,25 @@ LONGEST_KEY = 768
 many, no arrow is cut in two: it has three."""
 
 WAYS = {
-    "i": (1, 0), "u": (1, 1), "o": (1, -1),
-    "j": (0, 1), "k": (0, 0), "l": (0, -1),
-    ",": (-1, 0), "m": (-1, -1), ".": (-1, 1),
-}  # fmt: skip
+    "i": (1, 0),
+    "u": (1, 1),
+    "o": (1, -1),
+    "j": (0, 1),
+    "k": (0, 0),
+    "l": (0, -1),
+    ",": (-1, 0),
+    "m": (-1, -1),
+    ".": (-1, 1),
+}
 """Key to forward and to turn, each -1, 0 or 1; positive is ahead, and to the left (REP 103)."""
 PACES = {
-    "q": (FASTER, FASTER), "z": (SLOWER, SLOWER), "w": (FASTER, 1.0), "x": (SLOWER, 1.0),
-    "e": (1.0, FASTER), "c": (1.0, SLOWER),
-}  # fmt: skip
+    "q": (FASTER, FASTER),
+    "z": (SLOWER, SLOWER),
+    "w": (FASTER, 1.0),
+    "x": (SLOWER, 1.0),
+    "e": (1.0, FASTER),
+    "c": (1.0, SLOWER),
+}
 """Key to the factors of both speeds."""
 
 HELP = """\

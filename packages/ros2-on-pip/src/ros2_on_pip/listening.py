@@ -100,11 +100,15 @@ def subscribe(
         _say(qos.said_about(new, profile))
 
     return eye.node.create_subscription(
-        class_of(type_name, "msg"), topic, hear, profile, raw=raw,
+        class_of(type_name, "msg"),
+        topic,
+        hear,
+        profile,
+        raw=raw,
         event_callbacks=SubscriptionEventCallbacks(
             incompatible_qos=tell_of_new, message_lost=lost, use_default_callbacks=False
         ),
-    )  # fmt: skip
+    )
 
 
 def _say(sentences: list[str]) -> None:

@@ -17,9 +17,20 @@ _NAME_BYTES = 16
 _ROOM_BYTES = 1 << 16
 _REQUEST_BYTES = 40
 FLAGS = (
-    "up", "broadcast", "debug", "loopback", "pointopoint", "notrailers", "running", "noarp",
-    "promisc", "allmulti", "master", "slave", "multicast",
-)  # fmt: skip
+    "up",
+    "broadcast",
+    "debug",
+    "loopback",
+    "pointopoint",
+    "notrailers",
+    "running",
+    "noarp",
+    "promisc",
+    "allmulti",
+    "master",
+    "slave",
+    "multicast",
+)
 """The bits of a card's flags, the lowest first."""
 
 NO_ADDRESS = "00:00:00:00:00:00"

@@ -60,15 +60,17 @@ def _voice(eye: Eye, topic: str, cls: type[Any], options: argparse.Namespace) ->
     def tell(_: Any) -> None:
         for info in eye.ears(topic):
             for why in qos.mismatches(info.qos_profile, profile):
-                print(f"WARNING: Node {info.node_name} cannot hear this: {_turned(why)}.",
-                      file=sys.stderr)  # fmt: skip
+                print(
+                    f"WARNING: Node {info.node_name} cannot hear this: {_turned(why)}.",
+                    file=sys.stderr,
+                )
 
     return eye.node.create_publisher(
-        cls, topic, profile,
-        event_callbacks=PublisherEventCallbacks(
-            incompatible_qos=tell, use_default_callbacks=False
-        ),
-    )  # fmt: skip
+        cls,
+        topic,
+        profile,
+        event_callbacks=PublisherEventCallbacks(incompatible_qos=tell, use_default_callbacks=False),
+    )
 
 
 def _turned(why: str) -> str:
@@ -80,8 +82,11 @@ def _warn(eye: Eye, topic: str, type_name: str) -> None:
     eye.settle()
     others = [kind for kind in eye.topics().get(topic, []) if kind != type_name]
     if others:
-        print(f"WARNING: other nodes use '{topic}' with {others[0]}, not {type_name}:"
-              " they cannot hear this.", file=sys.stderr)  # fmt: skip
+        print(
+            f"WARNING: other nodes use '{topic}' with {others[0]}, not {type_name}:"
+            " they cannot hear this.",
+            file=sys.stderr,
+        )
 
 
 def _wanted(options: argparse.Namespace, times: int) -> int:

@@ -11,9 +11,16 @@ from ros2_on_pip.habits import OnlyHere
 from ros2_on_pip.words import not_negative, seconds
 
 PRESETS = (
-    "default", "system_default", "sensor_data", "services_default", "parameters",
-    "parameter_events", "action_status_default", "best_available", "unknown",
-)  # fmt: skip
+    "default",
+    "system_default",
+    "sensor_data",
+    "services_default",
+    "parameters",
+    "parameter_events",
+    "action_status_default",
+    "best_available",
+    "unknown",
+)
 POLICIES = {
     "history": ("keep_last", "keep_all", "system_default"),
     "reliability": ("reliable", "best_effort", "system_default", "best_available"),
@@ -21,8 +28,9 @@ POLICIES = {
     "liveliness": ("automatic", "manual_by_topic", "system_default", "best_available"),
 }
 MATCHED = (
-    ("reliability", "RELIABLE", "BEST_EFFORT"), ("durability", "TRANSIENT_LOCAL", "VOLATILE"),
-)  # fmt: skip
+    ("reliability", "RELIABLE", "BEST_EFFORT"),
+    ("durability", "TRANSIENT_LOCAL", "VOLATILE"),
+)
 """Policy, the better quality, the lesser one: who offers the lesser cannot reach who asks more."""
 
 ORDERED = (*MATCHED, ("liveliness", "MANUAL_BY_TOPIC", "AUTOMATIC"))
@@ -37,21 +45,30 @@ def add_qos_options(parser: argparse.ArgumentParser, subject: str, only_here: bo
     action = OnlyHere if only_here else "store"
     group = parser.add_argument_group(f"quality of service to {subject} with")
     group.add_argument(
-        "--qos-profile", action=action, choices=PRESETS, metavar="NAME",
+        "--qos-profile",
+        action=action,
+        choices=PRESETS,
+        metavar="NAME",
         help=f"a preset for all of them: {', '.join(PRESETS)}",
-    )  # fmt: skip
+    )
     group.add_argument(
         "--qos-depth", action=action, metavar="N", type=not_negative, help="queue size"
     )
     for policy, choices in POLICIES.items():
         group.add_argument(
-            f"--qos-{policy}", action=action, choices=choices, metavar="WORD",
+            f"--qos-{policy}",
+            action=action,
+            choices=choices,
+            metavar="WORD",
             help=", ".join(choices),
-        )  # fmt: skip
+        )
     group.add_argument(
-        "--qos-liveliness-lease-duration-seconds", action=action, metavar="S", type=seconds,
+        "--qos-liveliness-lease-duration-seconds",
+        action=action,
+        metavar="S",
+        type=seconds,
         help="liveliness lease duration",
-    )  # fmt: skip
+    )
 
 
 def chosen(options: argparse.Namespace, preset: str = "default") -> Any:
@@ -131,8 +148,11 @@ def _set_common(
     offers = {getattr(info.qos_profile, policy).name for info in publishers}
     if len(offers) > 1 and best in offers:
         kind = f"QoS{policy.capitalize()}Policy"
-        print(f"Some, but not all, publishers are offering {kind}.{best}. Falling back to"
-              f" {kind}.{least} as it will connect to all publishers", file=sys.stderr)  # fmt: skip
+        print(
+            f"Some, but not all, publishers are offering {kind}.{best}. Falling back to"
+            f" {kind}.{least} as it will connect to all publishers",
+            file=sys.stderr,
+        )
     if offers:
         setattr(profile, policy, _kind(policy)[best if offers == {best} else least])
 

@@ -137,11 +137,15 @@ def announcement(prefix: bytes, port: int) -> bytes:
     """A participant's first word: it is new, and hears at `port` of this computer (8.5.3.2)."""
     place = struct.pack("<iI", UDP_V4, port) + bytes(12) + socket.inet_aton(HERE)
     facts = (
-        (VERSION, PROTOCOL + b"\0\0"), (VENDOR_ID, VENDOR + b"\0\0"),
-        (GUID, prefix + PARTICIPANT), (METATRAFFIC_LOCATOR, place), (DEFAULT_LOCATOR, place),
+        (VERSION, PROTOCOL + b"\0\0"),
+        (VENDOR_ID, VENDOR + b"\0\0"),
+        (GUID, prefix + PARTICIPANT),
+        (METATRAFFIC_LOCATOR, place),
+        (DEFAULT_LOCATOR, place),
         (LEASE, struct.pack("<iI", LEASE_S, 0)),
-        (BUILT_IN, struct.pack("<I", ANNOUNCES_AND_DETECTS)), (SENTINEL, b""),
-    )  # fmt: skip
+        (BUILT_IN, struct.pack("<I", ANNOUNCES_AND_DETECTS)),
+        (SENTINEL, b""),
+    )
     listed = b"".join(struct.pack("<HH", fact, len(value)) + value for fact, value in facts)
     flags_and_offset = struct.pack("<HH", 0, 16)
     body = flags_and_offset + UNKNOWN_READER + ANNOUNCER + struct.pack("<iI", 0, 1)

@@ -26,12 +26,16 @@ def echo(options: argparse.Namespace) -> int:
         eye.settle()
         topic, shape = f"{service}{SUFFIX}", shape_in(options)
         eye.node.create_subscription(
-            cls.Event, topic, lambda event: print(_text(event, shape, options.csv)),
+            cls.Event,
+            topic,
+            lambda event: print(_text(event, shape, options.csv)),
             qos.chosen(options, "services_default"),
-        )  # fmt: skip
+        )
         if not eye.publishers(topic):
-            print(f"No publishers on topic '{topic}';"
-                  " is service introspection on the client or server enabled?")  # fmt: skip
+            print(
+                f"No publishers on topic '{topic}';"
+                " is service introspection on the client or server enabled?"
+            )
         eye.until(lambda: False)
     return OK
 

@@ -25,10 +25,13 @@ def node_options(
     """
     how = _switches(only_here)
     parser.add_argument(
-        "--spin-time", type=seconds, default=0.0, metavar="S",
+        "--spin-time",
+        type=seconds,
+        default=0.0,
+        metavar="S",
         action=OnlyHere if "spin_time" in only_here else "store",
         help="Look for S seconds at least (needed only where nodes of other computers start late)",
-    )  # fmt: skip
+    )
     parser.add_argument(
         "-s", "--use-sim-time", **how("use_sim_time"), help="Take the time from the topic /clock"
     )
@@ -64,9 +67,13 @@ def also_hidden(
 ) -> None:
     """The same option once more, after the verb; the full tool has no short form of it."""
     verb.add_argument(
-        f"--include-hidden-{what}", *short, action=OnlyHere if only_here else ShortOnlyHere,
-        nargs=0, default=argparse.SUPPRESS, help=f"Consider hidden {what} as well",
-    )  # fmt: skip
+        f"--include-hidden-{what}",
+        *short,
+        action=OnlyHere if only_here else ShortOnlyHere,
+        nargs=0,
+        default=argparse.SUPPRESS,
+        help=f"Consider hidden {what} as well",
+    )
 
 
 def _hidden(command: argparse.ArgumentParser, what: str) -> None:
@@ -88,9 +95,12 @@ def values_in(options: argparse.Namespace, typed: str) -> str:
 def count_only(parser: argparse.ArgumentParser, what: str) -> None:
     """`-c`: the number only."""
     parser.add_argument(
-        "-c", f"--count-{what}", dest="count", action="store_true",
+        "-c",
+        f"--count-{what}",
+        dest="count",
+        action="store_true",
         help=f"Only display the number of {what} discovered",
-    )  # fmt: skip
+    )
 
 
 def show_types(parser: argparse.ArgumentParser, what: str) -> None:
@@ -103,9 +113,11 @@ def show_types(parser: argparse.ArgumentParser, what: str) -> None:
 def topic_name(parser: argparse.ArgumentParser) -> None:
     """The name of a topic that is there."""
     add(
-        parser, "topic_name", complete=complete_topics,
+        parser,
+        "topic_name",
+        complete=complete_topics,
         help="Name of the ROS topic (e.g. '/chatter')",
-    )  # fmt: skip
+    )
 
 
 def in_node(parser: argparse.ArgumentParser, **how: Any) -> None:
@@ -125,9 +137,13 @@ def shape_options(parser: argparse.ArgumentParser) -> None:
         "-f", "--full-length", action="store_true", help="Do not cut long arrays and texts"
     )
     parser.add_argument(
-        "-l", "--truncate-length", type=not_negative, default=DEFAULT_LENGTH, metavar="N",
+        "-l",
+        "--truncate-length",
+        type=not_negative,
+        default=DEFAULT_LENGTH,
+        metavar="N",
         help=f"Cut arrays, bytes and texts after N (default: {DEFAULT_LENGTH})",
-    )  # fmt: skip
+    )
     parser.add_argument("--no-arr", action="store_true", help="Don't print array fields")
     parser.add_argument("--no-str", action="store_true", help="Don't print string fields")
     parser.add_argument(

@@ -56,10 +56,14 @@ def _name_in(manifest: Path) -> str | None:
 
 def _build(workspace: Path) -> str:
     lines = [] if workspace == Path.cwd() else [f"  cd {_typed(workspace)}"]
-    return "\n".join([
-        "It is not built yet. Build first, then source, in this terminal:",
-        *lines, "  colcon build", "  source install/setup.bash",
-    ])  # fmt: skip
+    return "\n".join(
+        [
+            "It is not built yet. Build first, then source, in this terminal:",
+            *lines,
+            "  colcon build",
+            "  source install/setup.bash",
+        ]
+    )
 
 
 def _source(workspace: Path) -> str:

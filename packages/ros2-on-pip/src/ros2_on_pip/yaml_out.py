@@ -35,9 +35,13 @@ def dumped(plain: Any, flow: bool = False) -> str:
     import yaml
 
     text = yaml.dump(
-        plain, Dumper=_dumper(), width=sys.maxsize, default_flow_style=flow, sort_keys=False,
+        plain,
+        Dumper=_dumper(),
+        width=sys.maxsize,
+        default_flow_style=flow,
+        sort_keys=False,
         allow_unicode=True,
-    )  # fmt: skip
+    )
     lone = text.endswith("\n...\n")  # PyYAML ends a lone value so
     return str(text).removesuffix("...\n") if lone else str(text)
 

@@ -84,9 +84,14 @@ def between_by_transforms3d(a: Motion, b: Motion, part: float) -> Array:
 
 def any_turn(chance: random.Random) -> Quaternion:
     """Each as likely as the others."""
-    return normalized((
-        chance.gauss(0, 1), chance.gauss(0, 1), chance.gauss(0, 1), chance.gauss(0, 1),
-    ))  # fmt: skip
+    return normalized(
+        (
+            chance.gauss(0, 1),
+            chance.gauss(0, 1),
+            chance.gauss(0, 1),
+            chance.gauss(0, 1),
+        )
+    )
 
 
 def any_motion(chance: random.Random) -> Motion:

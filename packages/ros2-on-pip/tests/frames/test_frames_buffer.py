@@ -110,9 +110,13 @@ def test_the_arguments_have_their_names(buffer: Any) -> None:
         target_frame="odom", source_frame="laser", time=NEWEST, timeout=for_s(0.0)
     )
     buffer.lookup_transform_full(
-        target_frame="odom", target_time=NEWEST, source_frame="laser", source_time=NEWEST,
-        fixed_frame="odom", timeout=for_s(0.0),
-    )  # fmt: skip
+        target_frame="odom",
+        target_time=NEWEST,
+        source_frame="laser",
+        source_time=NEWEST,
+        fixed_frame="odom",
+        timeout=for_s(0.0),
+    )
     buffer.lookup_transform_core(target_frame="odom", source_frame="laser", time=NEWEST)
 
 
@@ -178,9 +182,13 @@ def test_all_frames_as_text(buffer: Any) -> None:
     )
     told = yaml.safe_load(buffer.all_frames_as_yaml())
     assert told["base_link"] == {
-        "parent": "odom", "broadcaster": "test", "rate": 1.5, "most_recent_transform": 3.0,
-        "oldest_transform": 1.0, "buffer_length": 2.0,
-    }  # fmt: skip
+        "parent": "odom",
+        "broadcaster": "test",
+        "rate": 1.5,
+        "most_recent_transform": 3.0,
+        "oldest_transform": 1.0,
+        "buffer_length": 2.0,
+    }
     assert told["laser"]["rate"] == 10000.0
     assert yaml.safe_load(tf2_py.BufferCore().all_frames_as_yaml()) == []
     assert buffer._frameExists("odom")

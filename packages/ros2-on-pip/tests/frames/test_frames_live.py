@@ -201,14 +201,18 @@ def test_awaiting_in_a_callback_lets_the_listener_hear(ros: Ros) -> None:
     ("distro", "of_the_course", "step_told"),
     [
         ("jazzy", False, "sudo apt install ros-jazzy-tf2-msgs"),
-        ("", True, "./roslings rover --tf"),
+        ("", True, "./roslings ready rover --tf"),
         ("", False, "build the package tf2_msgs of geometry2 with colcon"),
     ],
 )
 def test_without_its_type_the_next_step_is_told(
-    ros: Ros, monkeypatch: pytest.MonkeyPatch, tmp_path: Path,
-    distro: str, of_the_course: bool, step_told: str,
-) -> None:  # fmt: skip
+    ros: Ros,
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
+    distro: str,
+    of_the_course: bool,
+    step_told: str,
+) -> None:
     """Of each that speaks or hears on /tf; a buffer works without."""
     monkeypatch.setitem(sys.modules, "tf2_msgs.msg", None)
     monkeypatch.setitem(sys.modules, "tf2_msgs", None)
@@ -231,17 +235,26 @@ def test_without_its_type_the_next_step_is_told(
 
 # --- where the real ones are -------------------------------------------------------------------
 
-NAMES = ("rosbag2_py", "rosidl_runtime_py", "tf2_ros", "tf2_py", "tf2_geometry_msgs",
-         "tf_transformations")  # fmt: skip
+NAMES = (
+    "rosbag2_py",
+    "rosidl_runtime_py",
+    "tf2_ros",
+    "tf2_py",
+    "tf2_geometry_msgs",
+    "tf_transformations",
+)
 
 
 def test_each_is_there_by_its_name() -> None:
     """In a Python that nobody has told where ours lie, as a student's node is."""
     kept = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
     done = subprocess.run(
-        [sys.executable, "-c", f"import {', '.join(NAMES)}"], env=kept, text=True,
-        capture_output=True, check=False,
-    )  # fmt: skip
+        [sys.executable, "-c", f"import {', '.join(NAMES)}"],
+        env=kept,
+        text=True,
+        capture_output=True,
+        check=False,
+    )
     assert done.returncode == 0, done.stderr
 
 
@@ -253,9 +266,11 @@ def test_the_real_one_goes_first(tmp_path: Path, name: str) -> None:
     (real / "__init__.py").write_text("")
     found = subprocess.run(
         [sys.executable, "-c", f"import {name}; print({name}.__file__)"],
-        env=os.environ | {"PYTHONPATH": str(tmp_path / "opt")}, text=True, capture_output=True,
+        env=os.environ | {"PYTHONPATH": str(tmp_path / "opt")},
+        text=True,
+        capture_output=True,
         check=True,
-    )  # fmt: skip
+    )
     assert found.stdout.strip() == str(real / "__init__.py")
 
 
@@ -273,8 +288,10 @@ def test_ours_go_with_a_real_tf2_ros(tmp_path: Path, name: str) -> None:
     )
     found = subprocess.run(
         [sys.executable, "-c", f"import {name}, tf2_ros; print(tf2_ros.__file__)"],
-        env=os.environ | {"PYTHONPATH": str(tmp_path / "opt")}, text=True, capture_output=True,
+        env=os.environ | {"PYTHONPATH": str(tmp_path / "opt")},
+        text=True,
+        capture_output=True,
         check=True,
-    )  # fmt: skip
+    )
     assert found.stdout.split()[-1] == str(real / "__init__.py")
     assert ("PointStamped" in found.stdout) == (name == "tf2_geometry_msgs")

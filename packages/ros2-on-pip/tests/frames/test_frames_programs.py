@@ -190,9 +190,11 @@ def test_without_the_type_each_says_what_to_do(empty: Shell) -> None:
     (nothing / "__init__.py").write_text("raise ImportError('tf2_msgs is not built')")
     path = f"{nothing.parent}:{empty.environment['PYTHONPATH']}"
     for command in (
-        (*PUBLISH, *LASER), ("run", "tf2_ros", "tf2_echo", "a", "b"),
-        ("run", "tf2_ros", "tf2_monitor"), ("run", "tf2_tools", "view_frames"),
-    ):  # fmt: skip
+        (*PUBLISH, *LASER),
+        ("run", "tf2_ros", "tf2_echo", "a", "b"),
+        ("run", "tf2_ros", "tf2_monitor"),
+        ("run", "tf2_tools", "view_frames"),
+    ):
         ran = empty(*command, PYTHONPATH=path)
         assert ran.code == 1
         assert "/tf has the type tf2_msgs/msg/TFMessage. " in ran.err
@@ -230,8 +232,10 @@ def test_ctrl_c_while_a_message_is_unpacked(empty: Shell, words: list[str], code
 def test_they_are_packages(empty: Shell) -> None:
     """As `ros2 pkg` lists them."""
     assert empty("pkg", "executables", "tf2_ros").lines == [
-        "tf2_ros static_transform_publisher", "tf2_ros tf2_echo", "tf2_ros tf2_monitor",
-    ]  # fmt: skip
+        "tf2_ros static_transform_publisher",
+        "tf2_ros tf2_echo",
+        "tf2_ros tf2_monitor",
+    ]
     assert empty("pkg", "executables", "tf2_tools").lines == ["tf2_tools view_frames"]
     ran = empty("run", "tf2_ros", "tf2_eco")
     assert ran.code == 1
@@ -272,9 +276,10 @@ DRIVES = [("odom", "base_link", 10 + part / 10) for part in range(11)]
 def test_the_tree_in_words() -> None:
     """Each frame below its parent, with how often and how old."""
     frames = heard(
-        *DRIVES, ("map", "odom", 11.5),
+        *DRIVES,
+        ("map", "odom", 11.5),
         static=(("base_link", "laser"), ("base_link", "camera"), ("camera", "lens")),
-    )  # fmt: skip
+    )
     assert words(frames, NOW_NS).splitlines() == [
         "map",
         "└─ odom                          once, 0.50 s old",

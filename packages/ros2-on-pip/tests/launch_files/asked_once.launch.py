@@ -12,12 +12,14 @@ def generate_launch_description() -> launch.LaunchDescription:
         package="mine", executable="teller", name="client", output="screen"
     )
     goes_down = launch.actions.EmitEvent(event=launch.events.Shutdown())
-    return launch.LaunchDescription([
-        server,
-        client,
-        launch.actions.RegisterEventHandler(
-            event_handler=launch.event_handlers.OnProcessExit(
-                target_action=client, on_exit=[goes_down]
-            )
-        ),
-    ])  # fmt: skip
+    return launch.LaunchDescription(
+        [
+            server,
+            client,
+            launch.actions.RegisterEventHandler(
+                event_handler=launch.event_handlers.OnProcessExit(
+                    target_action=client, on_exit=[goes_down]
+                )
+            ),
+        ]
+    )

@@ -5,7 +5,9 @@ import launch_ros.actions
 
 
 def generate_launch_description() -> launch.LaunchDescription:
-    return launch.LaunchDescription([
-        launch_ros.actions.Node(package="mine", executable="teller", name=name, output="screen")
-        for name in ("one", "two")
-    ])  # fmt: skip
+    return launch.LaunchDescription(
+        [
+            launch_ros.actions.Node(package="mine", executable="teller", name=name, output="screen")
+            for name in ("one", "two")
+        ]
+    )

@@ -17,14 +17,16 @@ def teller(name: str, **more: object) -> Node:
 
 
 def generate_launch_description() -> LaunchDescription:
-    return LaunchDescription([
-        LogInfo(msg=["mood: ", EnvironmentVariable("MOOD", default_value="none")]),
-        SetEnvironmentVariable("MOOD", "calm"),
-        teller("one"),
-        GroupAction([SetEnvironmentVariable(name="MOOD", value="gay"), teller("two")]),
-        teller("three", additional_env={"MOOD": [EnvironmentVariable("MOOD"), "er"]}),
-        AppendEnvironmentVariable("MOOD", "sea", separator=" "),
-        teller("four"),
-        UnsetEnvironmentVariable("MOOD"),
-        teller("five"),
-    ])  # fmt: skip
+    return LaunchDescription(
+        [
+            LogInfo(msg=["mood: ", EnvironmentVariable("MOOD", default_value="none")]),
+            SetEnvironmentVariable("MOOD", "calm"),
+            teller("one"),
+            GroupAction([SetEnvironmentVariable(name="MOOD", value="gay"), teller("two")]),
+            teller("three", additional_env={"MOOD": [EnvironmentVariable("MOOD"), "er"]}),
+            AppendEnvironmentVariable("MOOD", "sea", separator=" "),
+            teller("four"),
+            UnsetEnvironmentVariable("MOOD"),
+            teller("five"),
+        ]
+    )

@@ -12,17 +12,21 @@ def teller(name: str) -> Node:
 
 
 def generate_launch_description() -> LaunchDescription:
-    return LaunchDescription([
-        GroupAction([
-            PushRosNamespace("outer"),
-            SetLaunchConfiguration("color", "red"),
-            SetParameter("use_sim_time", True),
-            SetParameter(name="speed", value=2.5),
-            SetRemap("topic", "/news"),
-            teller("first"),
-            GroupAction([PushRosNamespace("inner"), teller("second")]),
-            GroupAction([PushRosNamespace("/away"), teller("third")], forwarding=True),
-        ]),
-        GroupAction([SetLaunchConfiguration("color", "blue")], scoped=False),
-        teller("fourth"),
-    ])  # fmt: skip
+    return LaunchDescription(
+        [
+            GroupAction(
+                [
+                    PushRosNamespace("outer"),
+                    SetLaunchConfiguration("color", "red"),
+                    SetParameter("use_sim_time", True),
+                    SetParameter(name="speed", value=2.5),
+                    SetRemap("topic", "/news"),
+                    teller("first"),
+                    GroupAction([PushRosNamespace("inner"), teller("second")]),
+                    GroupAction([PushRosNamespace("/away"), teller("third")], forwarding=True),
+                ]
+            ),
+            GroupAction([SetLaunchConfiguration("color", "blue")], scoped=False),
+            teller("fourth"),
+        ]
+    )

@@ -16,21 +16,23 @@ HERE = Path(__file__).parent
 
 
 def generate_launch_description() -> LaunchDescription:
-    return LaunchDescription([
-        IncludeLaunchDescription(
-            PythonLaunchDescriptionSource([ThisLaunchFileDir(), "/inner.launch.py"]),
-            launch_arguments={"who": "one"}.items(),
-        ),
-        IncludeLaunchDescription(
-            XMLLaunchDescriptionSource(str(HERE / "inner.launch.xml")),
-            launch_arguments=[("who", "two")],
-        ),
-        IncludeLaunchDescription(
-            YAMLLaunchDescriptionSource(PathJoinSubstitution([HERE, "inner.launch.yaml"])),
-            launch_arguments={"who": "three"}.items(),
-        ),
-        IncludeLaunchDescription(
-            AnyLaunchDescriptionSource(str(HERE / "inner.launch.xml")),
-            launch_arguments={"who": "four"}.items(),
-        ),
-    ])  # fmt: skip
+    return LaunchDescription(
+        [
+            IncludeLaunchDescription(
+                PythonLaunchDescriptionSource([ThisLaunchFileDir(), "/inner.launch.py"]),
+                launch_arguments={"who": "one"}.items(),
+            ),
+            IncludeLaunchDescription(
+                XMLLaunchDescriptionSource(str(HERE / "inner.launch.xml")),
+                launch_arguments=[("who", "two")],
+            ),
+            IncludeLaunchDescription(
+                YAMLLaunchDescriptionSource(PathJoinSubstitution([HERE, "inner.launch.yaml"])),
+                launch_arguments={"who": "three"}.items(),
+            ),
+            IncludeLaunchDescription(
+                AnyLaunchDescriptionSource(str(HERE / "inner.launch.xml")),
+                launch_arguments={"who": "four"}.items(),
+            ),
+        ]
+    )

@@ -7,7 +7,9 @@ from launch_ros.actions import Node
 
 
 def generate_launch_description() -> LaunchDescription:
-    return LaunchDescription([
-        DeclareLaunchArgument("who", description="its name"),
-        Node(package="mine", executable="teller", name=LaunchConfiguration("who")),
-    ])  # fmt: skip
+    return LaunchDescription(
+        [
+            DeclareLaunchArgument("who", description="its name"),
+            Node(package="mine", executable="teller", name=LaunchConfiguration("who")),
+        ]
+    )

@@ -17,7 +17,9 @@ def robots(context: LaunchContext, prefix: str) -> list[Node]:
 
 
 def generate_launch_description() -> LaunchDescription:
-    return LaunchDescription([
-        DeclareLaunchArgument("count", default_value="2"),
-        OpaqueFunction(function=robots, args=["robot"]),
-    ])  # fmt: skip
+    return LaunchDescription(
+        [
+            DeclareLaunchArgument("count", default_value="2"),
+            OpaqueFunction(function=robots, args=["robot"]),
+        ]
+    )

@@ -5,15 +5,17 @@ from launch_ros.actions import Node
 
 
 def generate_launch_description() -> LaunchDescription:
-    return LaunchDescription([
-        Node(package="mine", executable="teller", name="logs"),
-        Node(package="mine", executable="teller", name="shows", output="screen"),
-        Node(
-            package="mine",
-            executable="teller",
-            name="both",
-            exec_name="other_name",
-            output={"both": ["log"]},
-            emulate_tty=True,
-        ),
-    ])  # fmt: skip
+    return LaunchDescription(
+        [
+            Node(package="mine", executable="teller", name="logs"),
+            Node(package="mine", executable="teller", name="shows", output="screen"),
+            Node(
+                package="mine",
+                executable="teller",
+                name="both",
+                exec_name="other_name",
+                output={"both": ["log"]},
+                emulate_tty=True,
+            ),
+        ]
+    )

@@ -11,7 +11,9 @@ def generate_launch_description() -> LaunchDescription:
     needed = Node(
         package="mine", executable="teller", name="needed", on_exit=Shutdown(reason="it has ended")
     )
-    return LaunchDescription([
-        stays,
-        RegisterEventHandler(OnProcessIO(target_action=stays, on_stderr=[needed])),
-    ])  # fmt: skip
+    return LaunchDescription(
+        [
+            stays,
+            RegisterEventHandler(OnProcessIO(target_action=stays, on_stderr=[needed])),
+        ]
+    )

@@ -18,13 +18,17 @@ KNOWN = (LaunchContext, SomeSubstitutionsType, perform_substitutions, ParameterF
 
 def generate_launch_description() -> LaunchDescription:
     assert PushROSNamespace is PushRosNamespace
-    return LaunchDescription([
-        DeclareLaunchArgument("depth", default_value="3"),
-        PushRosNamespace("deep"),
-        launch.actions.LogInfo(msg=f"{len(KNOWN)} more names"),
-        launch_ros.actions.node.Node(
-            package="mine",
-            executable="teller",
-            parameters=[{"depth": ParameterValue(LaunchConfiguration("depth"), value_type=float)}],
-        ),
-    ])  # fmt: skip
+    return LaunchDescription(
+        [
+            DeclareLaunchArgument("depth", default_value="3"),
+            PushRosNamespace("deep"),
+            launch.actions.LogInfo(msg=f"{len(KNOWN)} more names"),
+            launch_ros.actions.node.Node(
+                package="mine",
+                executable="teller",
+                parameters=[
+                    {"depth": ParameterValue(LaunchConfiguration("depth"), value_type=float)}
+                ],
+            ),
+        ]
+    )

@@ -7,10 +7,12 @@ from launch_ros.actions import Node
 
 
 def generate_launch_description() -> LaunchDescription:
-    return LaunchDescription([
-        TimerAction(period=0.4, actions=[EmitEvent(event=Shutdown(reason="time is up"))]),
-        TimerAction(period=0.2, actions=[LogInfo(msg="second")]),
-        TimerAction(period="0.1", actions=[LogInfo(msg="first")]),
-        TimerAction(period=60.0, actions=[LogInfo(msg="never")]),
-        Node(package="mine", executable="teller", condition=None, arguments=["stay"]),
-    ])  # fmt: skip
+    return LaunchDescription(
+        [
+            TimerAction(period=0.4, actions=[EmitEvent(event=Shutdown(reason="time is up"))]),
+            TimerAction(period=0.2, actions=[LogInfo(msg="second")]),
+            TimerAction(period="0.1", actions=[LogInfo(msg="first")]),
+            TimerAction(period=60.0, actions=[LogInfo(msg="never")]),
+            Node(package="mine", executable="teller", condition=None, arguments=["stay"]),
+        ]
+    )

@@ -315,8 +315,10 @@ def test_a_topic_that_comes_late_is_in_every_file(tmp_path: Path) -> None:
     writer.write("/late", 3, raw("three"))
     writer.close()
     assert read_by_rosbags(tmp_path / "b") == [
-        ("/heard", 1, "one"), ("/late", 2, "two"), ("/late", 3, "three"),
-    ]  # fmt: skip
+        ("/heard", 1, "one"),
+        ("/late", 2, "two"),
+        ("/late", 3, "three"),
+    ]
     late = next(t for t in read_metadata(tmp_path / "b").topics if t.name == "/late")
     assert late.qos[0].reliability.name == "BEST_EFFORT"
 

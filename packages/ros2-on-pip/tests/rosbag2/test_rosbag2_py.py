@@ -108,16 +108,23 @@ def program(tmp_path: Path) -> Callable[..., subprocess.CompletedProcess[str]]:
     """Runs a program with the path of the environments that `./roslings` makes."""
     kept = {k: v for k, v in os.environ.items() if not k.startswith(("ROS", "PYTHONPATH"))}
     environment = kept | {
-        "PYTHONPATH": str(STAND_INS), "ROS_AUTOMATIC_DISCOVERY_RANGE": "OFF",
-        "HOME": str(tmp_path), "ROS_LOG_DIR": str(tmp_path / "log"),
-    }  # fmt: skip
+        "PYTHONPATH": str(STAND_INS),
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": "OFF",
+        "HOME": str(tmp_path),
+        "ROS_LOG_DIR": str(tmp_path / "log"),
+    }
 
     def run(code: str, *words: str) -> subprocess.CompletedProcess[str]:
         (tmp_path / "program.py").write_text(code)
         return subprocess.run(
-            [sys.executable, "program.py", *words], env=environment, cwd=tmp_path, text=True,
-            capture_output=True, check=False, timeout=120,
-        )  # fmt: skip
+            [sys.executable, "program.py", *words],
+            env=environment,
+            cwd=tmp_path,
+            text=True,
+            capture_output=True,
+            check=False,
+            timeout=120,
+        )
 
     return run
 
@@ -299,7 +306,10 @@ def test_the_real_one_goes_first(
     code = "import os, rosbag2_py; print(rosbag2_py.__file__)"
     kept = {k: v for k, v in os.environ.items() if k != "PYTHONPATH"}
     found = subprocess.run(
-        [sys.executable, "-c", code], env=kept | {"PYTHONPATH": str(tmp_path / "opt")}, text=True,
-        capture_output=True, check=True,
-    )  # fmt: skip
+        [sys.executable, "-c", code],
+        env=kept | {"PYTHONPATH": str(tmp_path / "opt")},
+        text=True,
+        capture_output=True,
+        check=True,
+    )
     assert found.stdout.strip() == str(real / "__init__.py")

@@ -72,9 +72,13 @@ def written(of: Any, uri: str, storage_id: str) -> str:
 
 
 FOLDER_AND_FILE: list[tuple[Entry, bool]] = [
-    (read, False), (read, True), (read_compressed, False), (read_compressed, True),
-    (inform, True), (reindex, False),
-]  # fmt: skip
+    (read, False),
+    (read, True),
+    (read_compressed, False),
+    (read_compressed, True),
+    (inform, True),
+    (reindex, False),
+]
 """Each entry point that looks at `storage_id`, with a folder and with a file of it."""
 
 

@@ -121,8 +121,9 @@ def _definitions(module: cst.Module) -> dict[str, cst.CSTNode]:
     nodes = [node for block in (module.body, *blocks) for node in block]
     return {
         _meaning(textwrap.dedent(module.code_for_node(node)).strip()): node
-        for node in nodes if isinstance(node, cst.FunctionDef)
-    }  # fmt: skip
+        for node in nodes
+        if isinstance(node, cst.FunctionDef)
+    }
 
 
 def _is_own_log(lab: Lab, node: cst.CSTNode, source: Source) -> bool:

@@ -69,9 +69,7 @@ def _in_contract(
             pairs = value.items() if isinstance(value, dict) else enumerate(value)
             for part, said in pairs:
                 line = line_in(file, (*at, part))
-                yield Word(
-                    (*at, part), f"{called}.{part}", kind, key, said, tree, (), file, line
-                )  # fmt: skip
+                yield Word((*at, part), f"{called}.{part}", kind, key, said, tree, (), file, line)
         else:
             line = line_in(file, at)
             yield Word(at, called, kind, key, value, tree, _choices(field), file, line)

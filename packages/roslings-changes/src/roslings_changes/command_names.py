@@ -1,6 +1,10 @@
 """The commands of this package, for a command line that gathers them. Imports nothing."""
 
 COMMANDS = (
-    ("learners", "explain", "three changes in your own package: which check fails?",
-     "roslings_changes.commands.explain"),
-)  # fmt: skip
+    (
+        "learners",
+        "explain",
+        "three changes in your own package: which check fails?",
+        "roslings_changes.commands.explain",
+    ),
+)

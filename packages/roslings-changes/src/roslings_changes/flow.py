@@ -73,8 +73,11 @@ def too_early(node: cst.CSTNode, source: Source) -> Iterator[New]:
     if isinstance(node, cst.IndentedBlock):
         for at, made in enumerate(node.body):
             for later in range(at + 1, len(node.body)):
-                if any(_touch(one, other) for one in _made_in(made)
-                       for other in _names_in(node.body[later])):  # fmt: skip
+                if any(
+                    _touch(one, other)
+                    for one in _made_in(made)
+                    for other in _names_in(node.body[later])
+                ):
                     yield node.with_changes(body=_moved(node.body, later, at))
     match node:
         case cst.Assign(

@@ -57,9 +57,10 @@ def questions(lab: Lab, package: Path, grade: Grade) -> Iterator[Question]:
 def drawn(found: Iterable[Change]) -> Iterator[Change]:
     """Those that are read easily, in an order that the package draws: each on another line."""
     plain = [
-        each for each in found
+        each
+        for each in found
         if each.operator in PLAIN and len(each.changed.splitlines()) <= LONGEST_LINES
-    ]  # fmt: skip
+    ]
     lines: set[tuple[str, int]] = set()
     for change in sorted(plain, key=_lot):
         if change.place not in lines:

@@ -27,8 +27,9 @@ def points_of_assignments(path: Path) -> dict[str, float | None]:
     for _, cells in lines:
         if cells and cells[0].strip().lower() == POINTS:
             told = {name.strip(): _as_points(text) for name, text in zip(head, cells, strict=False)}
-            return {name: points for name, points in told.items()
-                    if points or _WITH_ID.fullmatch(name)}  # fmt: skip
+            return {
+                name: points for name, points in told.items() if points or _WITH_ID.fullmatch(name)
+            }
     return {}
 
 

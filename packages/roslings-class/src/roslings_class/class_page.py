@@ -73,10 +73,15 @@ def _scores(grades: Sequence[Grade]) -> Iterator[Markup]:
         return
     counts = Counter(min(int(score // STEPS), STEPS - 1) for score in scores)
     rows = [
-        _row((f"{step * STEPS} to {step * STEPS + STEPS}", _part(counts[step] / len(scores)),
-              str(counts[step])))
+        _row(
+            (
+                f"{step * STEPS} to {step * STEPS + STEPS}",
+                _part(counts[step] / len(scores)),
+                str(counts[step]),
+            )
+        )
         for step in range(STEPS)
-    ]  # fmt: skip
+    ]
     yield tag("section", tag("h2", "Scores"), _table(("score", "part of all", "how many"), rows))
 
 
@@ -92,16 +97,25 @@ def _checks(results: Sequence[Result]) -> Iterator[Markup]:
         return
     failing.sort(key=lambda name: (-counts[name]["fail"], -counts[name]["skip"]))
     rows = {
-        name: _row((_find(name), prose(titles[name]), _part(_failed_part(counts[name])),
-                    str(counts[name]["fail"]), str(counts[name]["skip"])))
+        name: _row(
+            (
+                _find(name),
+                prose(titles[name]),
+                _part(_failed_part(counts[name])),
+                str(counts[name]["fail"]),
+                str(counts[name]["skip"]),
+            )
+        )
         for name in failing
-    }  # fmt: skip
+    }
     failed = [row for name, row in rows.items() if counts[name]["fail"]]
     waiting = [row for name, row in rows.items() if not counts[name]["fail"]]
     heading = tag("h2", "What most have to mend")
     shown, more = failed[:MOST_SHOWN], failed[MOST_SHOWN:]
-    folded = (_folded(f"{len(more)} more that somebody failed", _check_table(more)),
-              _folded(f"{len(waiting)} that were only skipped", _check_table(waiting)))  # fmt: skip
+    folded = (
+        _folded(f"{len(more)} more that somebody failed", _check_table(more)),
+        _folded(f"{len(waiting)} that were only skipped", _check_table(waiting)),
+    )
     yield tag("section", heading, *_check_table(shown), *folded[0], *folded[1])
 
 
@@ -141,8 +155,9 @@ def _rates(lab: Lab, results: Sequence[Result]) -> Iterator[Markup]:
                 f" {asked.low_hz:.4g} to {asked.high_hz:.4g} Hz is right"
             )
             picture = _spread(rates, (asked.low_hz, asked.high_hz), (low, high))
-            axis = tag("p", tag("span", f"{low:.4g} Hz"), tag("span", f"{high:.4g} Hz"),
-                       class_="axis-ends")  # fmt: skip
+            axis = tag(
+                "p", tag("span", f"{low:.4g} Hz"), tag("span", f"{high:.4g} Hz"), class_="axis-ends"
+            )
             figures.append(tag("figure", picture, axis, tag("figcaption", words)))
     if figures:
         yield tag("section", tag("h2", "How the rates spread"), *figures)
@@ -165,9 +180,15 @@ def _spread(
         for number, hz in enumerate(sorted(rates))
     ]
     return tag(
-        "svg", band, line, *dots, viewBox=f"0 0 {WIDTH:g} {HEIGHT:g}", class_="spread",
-        aria_hidden="true", preserveAspectRatio="none",
-    )  # fmt: skip
+        "svg",
+        band,
+        line,
+        *dots,
+        viewBox=f"0 0 {WIDTH:g} {HEIGHT:g}",
+        class_="spread",
+        aria_hidden="true",
+        preserveAspectRatio="none",
+    )
 
 
 # --- who is alike ------------------------------------------------------------------------------
@@ -201,10 +222,14 @@ def _loose_ends(found: Class) -> Iterator[Markup]:
     items = [
         *(tag("li", f"{name} is of nobody in the class list") for name in found.unknown),
         *(tag("li", f"{grade.submission}: {grade.doubt}") for grade in found.unclear),
-        *(tag("li", f"{name} handed in several: {', '.join(names)}; the newest that was"
-              " graded counts")
-          for name, names in found.twice.items()),
-    ]  # fmt: skip
+        *(
+            tag(
+                "li",
+                f"{name} handed in several: {', '.join(names)}; the newest that was graded counts",
+            )
+            for name, names in found.twice.items()
+        ),
+    ]
     step = [tag("p", prose(SAY_WHOSE))] if found.unclear else []
     if items:
         heading = tag("h2", "What does not fit the class list")
@@ -219,8 +244,11 @@ def _unusual(results: Sequence[Result]) -> Iterator[Markup]:
         for line in (*each.unusual, *([each.reason] if each.state == "broken" else []))
     ]
     if rows:
-        about = tag("p", "A mistake can do this as well as intent. It changed no one else's score.",
-                    class_="about")  # fmt: skip
+        about = tag(
+            "p",
+            "A mistake can do this as well as intent. It changed no one else's score.",
+            class_="about",
+        )
         table = _table(("submission", "what it did"), [*rows])
         yield tag("section", tag("h2", "What was not ordinary"), about, table)
 
@@ -274,6 +302,10 @@ def _part(part: float) -> Markup:
     """A bar as long as the part of the class."""
     bar = tag("rect", x=0.0, y=0.0, width=100.0 * part, height=10.0)
     return tag(
-        "svg", bar, viewBox="0 0 100 10", preserveAspectRatio="none", aria_hidden="true",
+        "svg",
+        bar,
+        viewBox="0 0 100 10",
+        preserveAspectRatio="none",
+        aria_hidden="true",
         class_="part",
-    )  # fmt: skip
+    )

@@ -16,7 +16,7 @@ from roslings.course.soak import soak_seconds
 from roslings.experiment import insist_on_wall
 from roslings.experiment.run_folder import LOCK, run_folder
 from roslings.experiment.walls import closed_places
-from roslings.report import Progress
+from roslings.report.progress import Progress
 from roslings.variants import chosen
 from roslings_class.alone import alone_in
 from roslings_class.capacity import Capacity
@@ -152,9 +152,13 @@ def _graded(choices: Choices, lab: Lab, submissions: list[Submission]) -> Report
         latest = book.latest()
         unclear = sum(latest[name].word == "inconclusive" for name in names)
         lines = [
-            *lines, *told, *summary_lines(book, names), soak_line(latest.values()),
-            *hand_out(book, lab, choices.out), *_explain(choices, submissions, latest),
-        ]  # fmt: skip
+            *lines,
+            *told,
+            *summary_lines(book, names),
+            soak_line(latest.values()),
+            *hand_out(book, lab, choices.out),
+            *_explain(choices, submissions, latest),
+        ]
         return Report(lines, unclear)
 
 
@@ -215,10 +219,16 @@ def settings_for(choices: Choices, submissions: list[Submission]) -> Settings:
     roster = choices.roster.absolute() if choices.roster else None
     hidden = choices.hidden.absolute() if choices.hidden else None
     return Settings(
-        roster=roster, rule=rule, times=times, hidden=hidden, assignment=choices.assignment,
-        points=choices.points, told=(*told, *told_by_itself(submissions)),
-        variants=choices.variants, given=given_names(submissions),
-    )  # fmt: skip
+        roster=roster,
+        rule=rule,
+        times=times,
+        hidden=hidden,
+        assignment=choices.assignment,
+        points=choices.points,
+        told=(*told, *told_by_itself(submissions)),
+        variants=choices.variants,
+        given=given_names(submissions),
+    )
 
 
 def given_names(submissions: list[Submission]) -> dict[str, Given]:
@@ -247,12 +257,17 @@ def _grade_all(
 ) -> None:
     with run_folder() as scratch, Progress() as progress:
         request = GradingRequest(
-            lab=choices.lab, scratch=scratch, lock=scratch / LOCK, clock=choices.clock,
+            lab=choices.lab,
+            scratch=scratch,
+            lock=scratch / LOCK,
+            clock=choices.clock,
             hidden=choices.hidden.absolute() if choices.hidden else None,
-            strangers=not choices.trust, keeps_evidence=choices.keeps_evidence,
-            limits=Limits(choices.limit_s), soak_s=soak_s,
+            strangers=not choices.trust,
+            keeps_evidence=choices.keeps_evidence,
+            limits=Limits(choices.limit_s),
+            soak_s=soak_s,
             cards=_cards(choices, submissions, scratch / "cards"),
-        )  # fmt: skip
+        )
         teller = Teller(progress)
         if choices.dask is None:
             capacity = Capacity(fixed=choices.jobs, alone=choices.alone)

@@ -86,9 +86,13 @@ def _commit(folder: Path, name: str) -> bytes:
         own = {**_own(), **_QUIET, "GIT_DIR": str(ours), "GIT_OBJECT_DIRECTORY": objects}
         try:
             with subprocess.Popen(
-                ["git", "cat-file", "commit", name], stdin=subprocess.DEVNULL, cwd=ours,
-                stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, env=own,
-            ) as git:  # fmt: skip
+                ["git", "cat-file", "commit", name],
+                stdin=subprocess.DEVNULL,
+                cwd=ours,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.DEVNULL,
+                env=own,
+            ) as git:
                 return _start_of(git)
         except OSError:
             return b""

@@ -23,9 +23,15 @@ from roslings_class.outside import packages_of_capabilities
 
 ENGINE = PurePosixPath("packages/roslings/src/roslings")
 ENGINES_OWN = (
-    "roslings", "setup.bash", "pyproject.toml", "constraints.txt", "LICENSE", "LICENSE-lessons.md",
-    "packages", EXAMPLE,
-)  # fmt: skip
+    "roslings",
+    "setup.bash",
+    "pyproject.toml",
+    "constraints.txt",
+    "LICENSE",
+    "LICENSE-lessons.md",
+    "packages",
+    EXAMPLE,
+)
 """What a course outside of the engine's folder gets from there."""
 MOST_NAMED = 6
 
@@ -73,7 +79,10 @@ def course_files() -> CourseFiles:
 
 def _is_of_a_lab(name: str) -> bool:
     path = course.root() / name
-    return any(path == lab.grader or path.is_relative_to(lab.folder) for lab in all_labs())
+    return any(
+        path == lab.grader or path.is_relative_to(lab.folder) or path.is_relative_to(lab.beside)
+        for lab in all_labs()
+    )
 
 
 def _whole(own: CourseFiles) -> CourseFiles:
@@ -82,9 +91,11 @@ def _whole(own: CourseFiles) -> CourseFiles:
     found = packages_of_capabilities(course.root() / "packages")
     capabilities = {name: path for each in found for name, path in each.files.items()}
     return CourseFiles(
-        {**engine, **capabilities, **own.paths}, own.not_committed, own.left_out,
+        {**engine, **capabilities, **own.paths},
+        own.not_committed,
+        own.left_out,
         [each.name for each in found],
-    )  # fmt: skip
+    )
 
 
 def _has_engine(paths: dict[str, Path]) -> bool:
@@ -101,8 +112,11 @@ def _of_engine() -> dict[str, Path]:
         )
     kept = _kept_by_git(root)
     names = files(root) if kept is None else kept
-    return {name: root / name for name in names
-            if PurePosixPath(name).parts[0] in ENGINES_OWN and (root / name).is_file()}  # fmt: skip
+    return {
+        name: root / name
+        for name in names
+        if PurePosixPath(name).parts[0] in ENGINES_OWN and (root / name).is_file()
+    }
 
 
 # --- git ---------------------------------------------------------------------------------------

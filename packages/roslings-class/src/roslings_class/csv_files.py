@@ -80,19 +80,43 @@ def _safe(cell: str) -> str:
 
 def _plain(grades: Sequence[Grade], checks: Sequence[str], whole: float) -> Iterable[Line]:
     yield (
-        "name", "id", "email", "team", "submission", "outcome", "measured", "handed in", "told by",
-        "days late", "late points", "final", "points", "of", "reason", *checks,
-    )  # fmt: skip
+        "name",
+        "id",
+        "email",
+        "team",
+        "submission",
+        "outcome",
+        "measured",
+        "handed in",
+        "told by",
+        "days late",
+        "late points",
+        "final",
+        "points",
+        "of",
+        "reason",
+        *checks,
+    )
     for each in grades:
         student = each.student
         points = _points(each)
         yield (
-            each.name, student.id if student else "", student.email if student else "",
-            _team(each), each.submission, each.outcome, _number(each.measured), *_handed_in(each),
-            _number(each.late_days), _number(each.late_points or None), _number(each.final),
-            _scaled(each, whole), _number(whole), _reason(each),
+            each.name,
+            student.id if student else "",
+            student.email if student else "",
+            _team(each),
+            each.submission,
+            each.outcome,
+            _number(each.measured),
+            *_handed_in(each),
+            _number(each.late_days),
+            _number(each.late_points or None),
+            _number(each.final),
+            _scaled(each, whole),
+            _number(whole),
+            _reason(each),
             *(_number(points.get(check)) for check in checks),
-        )  # fmt: skip
+        )
 
 
 def _team(grade: Grade) -> str:

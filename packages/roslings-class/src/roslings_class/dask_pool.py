@@ -107,9 +107,11 @@ def _at_home(order: Order, parcel: Parcel, scratch: Path) -> Order:
     else:
         path.write_bytes(parcel.content)
     own = {
-        "path": path, "room": scratch / "room", "builds": None,
+        "path": path,
+        "room": scratch / "room",
+        "builds": None,
         "hidden": _unpacked_hidden(parcel.hidden, scratch),
-    }  # fmt: skip
+    }
     return order.model_copy(update=own)
 
 
@@ -175,10 +177,15 @@ class DaskPool:
 def _packed(order: Order, version: str, trust: bool, limits: Limits) -> Parcel:
     path = order.path
     return Parcel(
-        order.model_dump(mode="json"), path.name,
-        _zipped(path) if path.is_dir() else path.read_bytes(), path.is_dir(),
-        order.hidden.read_bytes() if order.hidden else None, version, trust, limits,
-    )  # fmt: skip
+        order.model_dump(mode="json"),
+        path.name,
+        _zipped(path) if path.is_dir() else path.read_bytes(),
+        path.is_dir(),
+        order.hidden.read_bytes() if order.hidden else None,
+        version,
+        trust,
+        limits,
+    )
 
 
 def _zipped(folder: Path) -> bytes:
@@ -191,10 +198,13 @@ def _zipped(folder: Path) -> bytes:
 
 def _cannot_travel(order: Order, error: Exception) -> Result:
     words = {
-        "submission": order.submission, "digest": order.digest, "attempt": order.attempt,
-        "state": "refused", "reason": getattr(error, "problem", str(error)),
+        "submission": order.submission,
+        "digest": order.digest,
+        "attempt": order.attempt,
+        "state": "refused",
+        "reason": getattr(error, "problem", str(error)),
         "next_step": getattr(error, "next_step", ""),
-    }  # fmt: skip
+    }
     return Result.model_validate(words)
 
 

@@ -127,9 +127,10 @@ def _unwrapped(names: dict[str, zipfile.ZipInfo]) -> dict[str, zipfile.ZipInfo]:
 def _has_a_package_twice(file: Path, names: dict[str, zipfile.ZipInfo]) -> bool:
     """Two students' packages have one name; those of one workspace have several."""
     sheets = [
-        info for name, info in names.items()
+        info
+        for name, info in names.items()
         if "/" in name and posixpath.basename(name) == "package.xml"
-    ]  # fmt: skip
+    ]
     try:
         with zipfile.ZipFile(file) as archive:
             found = Counter(_package_in(archive, sheet) for sheet in sheets[:2_000])

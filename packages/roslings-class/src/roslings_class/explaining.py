@@ -51,8 +51,12 @@ def _questions(lab: str, submission: Submission, trust: bool, whose: str) -> str
     try:
         done = subprocess.run(
             [sys.executable, "-m", "roslings", *words, *([] if trust else ["--as-stranger"])],
-            stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False, timeout=LIMIT_S,
-        )  # fmt: skip
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=LIMIT_S,
+        )
     except subprocess.TimeoutExpired:
         return f"No questions: they were not made within {LIMIT_S} s.\n"
     return done.stdout if done.returncode == 0 else f"No questions: {done.stderr.strip()}\n"

@@ -28,8 +28,12 @@ MOST_TOKENS = 100_000
 LONGEST_LINE = 2_000
 KINDS = {tokenize.NAME: "n", tokenize.NUMBER: "0", tokenize.STRING: "s"}
 UNSEEN = {
-    tokenize.COMMENT, tokenize.NL, tokenize.ENCODING, tokenize.ENDMARKER, tokenize.NEWLINE,
-}  # fmt: skip
+    tokenize.COMMENT,
+    tokenize.NL,
+    tokenize.ENCODING,
+    tokenize.ENDMARKER,
+    tokenize.NEWLINE,
+}
 
 
 @dataclass(frozen=True)

@@ -108,12 +108,20 @@ def grade(order: Order) -> tuple[Result, Evidence | None]:
         seconds = time.monotonic() - began_s
         return broken(order, str(mistake), seconds, by_the_grader=True), None
     result = Result(
-        submission=order.submission, digest=order.digest, attempt=order.attempt, state="graded",
-        verdict=found.verdict, seconds=time.monotonic() - began_s, lab_version=version_of(lab),
-        source=found.fingerprint.whole, marks=tuple(sorted(found.fingerprint.marks)),
-        rates=rates_of(found.evidence, lab), unusual=unusual(found.evidence), whose=order.whose,
+        submission=order.submission,
+        digest=order.digest,
+        attempt=order.attempt,
+        state="graded",
+        verdict=found.verdict,
+        seconds=time.monotonic() - began_s,
+        lab_version=version_of(lab),
+        source=found.fingerprint.whole,
+        marks=tuple(sorted(found.fingerprint.marks)),
+        rates=rates_of(found.evidence, lab),
+        unusual=unusual(found.evidence),
+        whose=order.whose,
         words=order.words,
-    )  # fmt: skip
+    )
     return result, found.evidence
 
 
@@ -125,10 +133,15 @@ def _measured(order: Order, lab: Lab) -> Measured:
     files = read.seen
     files.handed_in_as = order.handed_in_as
     choices = Choices(
-        order.seed, order.clock, hidden=order.hidden, builds=order.builds,
-        builds_as_kin=order.builds_as_kin, strangers=order.strangers, for_others=order.strangers,
+        order.seed,
+        order.clock,
+        hidden=order.hidden,
+        builds=order.builds,
+        builds_as_kin=order.builds_as_kin,
+        strangers=order.strangers,
+        for_others=order.strangers,
         soak_s=order.soak_s,
-    )  # fmt: skip
+    )
 
     def note(step: str) -> None:
         if step == SOAKING:
@@ -185,7 +198,13 @@ def rates_of(evidence: Evidence, lab: Lab) -> dict[str, float]:
 
 def _refused(order: Order, refusal: Refused, seconds: float) -> Result:
     return Result(
-        submission=order.submission, digest=order.digest, attempt=order.attempt, state="refused",
-        reason=refusal.reason, next_step=refusal.next_step, seconds=seconds, whose=order.whose,
+        submission=order.submission,
+        digest=order.digest,
+        attempt=order.attempt,
+        state="refused",
+        reason=refusal.reason,
+        next_step=refusal.next_step,
+        seconds=seconds,
+        whose=order.whose,
         words=order.words,
-    )  # fmt: skip
+    )

@@ -154,9 +154,11 @@ def _of_row(row: Row, zone: tzinfo | None) -> Told:
     text = row.first((CLASSROOM, *TIMES))
     source = GITHUB_SAYS if CLASSROOM in row.cells else LISTED
     return Told(
-        submission=repository or row.first((SUBMISSION,)), who=told_of(row), source=source,
+        submission=repository or row.first((SUBMISSION,)),
+        who=told_of(row),
+        source=source,
         at=_time(row, text, timezone.utc if CLASSROOM in row.cells else zone),
-    )  # fmt: skip
+    )
 
 
 def _time(row: Row, text: str, zone: tzinfo | None) -> datetime | None:

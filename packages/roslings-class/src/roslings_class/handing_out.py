@@ -54,11 +54,13 @@ class Settings(BaseModel):
 
     def without(self, submission: str) -> Settings:
         """The same, where nothing is kept of it."""
-        return self.model_copy(update={
-            "times": {each: at for each, at in self.times.items() if each != submission},
-            "told": tuple(each for each in self.told if each.submission != submission),
-            "given": {each: as_ for each, as_ in self.given.items() if each != submission},
-        })  # fmt: skip
+        return self.model_copy(
+            update={
+                "times": {each: at for each, at in self.times.items() if each != submission},
+                "told": tuple(each for each in self.told if each.submission != submission),
+                "given": {each: as_ for each, as_ in self.given.items() if each != submission},
+            }
+        )
 
     def known_times(self) -> Times:
         """When each was handed in, from all that is known."""

@@ -16,10 +16,23 @@ from ros2_on_pip.typed_paths import from_here
 
 FILE = Path(__file__).with_name("headings.yaml")
 COLUMNS = (
-    "full name", "name", "first name", "last name", "id number", "email address", "username",
-    "github username", "group", "identifier", "grade", "maximum grade", "scale",
-    "last modified (submission)", "last modified (grade)", "feedback comments",
-)  # fmt: skip
+    "full name",
+    "name",
+    "first name",
+    "last name",
+    "id number",
+    "email address",
+    "username",
+    "github username",
+    "group",
+    "identifier",
+    "grade",
+    "maximum grade",
+    "scale",
+    "last modified (submission)",
+    "last modified (grade)",
+    "feedback comments",
+)
 """English headings that the table may translate."""
 ID, IDENTIFIER, CHANGED = "id", "identifier", "last modified (grade)"
 PARTICIPANT = "participant"

@@ -85,9 +85,13 @@ def _named(word: str, results: Iterable[Result]) -> list[str]:
 def _wrapped(text: str) -> str:
     """A reason, whole; where it takes more than a line, the others stand below its words."""
     return textwrap.fill(
-        text, COLUMNS, initial_indent="  ", subsequent_indent=" " * 6, break_long_words=False,
+        text,
+        COLUMNS,
+        initial_indent="  ",
+        subsequent_indent=" " * 6,
+        break_long_words=False,
         break_on_hyphens=False,
-    )  # fmt: skip
+    )
 
 
 def _reason(result: Result) -> str:

@@ -62,9 +62,11 @@ class Worksheet:
         """The file to upload; `marks` are by the identifier."""
         text = io.StringIO()
         writer = csv.writer(
-            text, delimiter=self.cells.separator, lineterminator=self.cells.line_end,
+            text,
+            delimiter=self.cells.separator,
+            lineterminator=self.cells.line_end,
             quoting=csv.QUOTE_ALL if self.cells.all_quoted else csv.QUOTE_MINIMAL,
-        )  # fmt: skip
+        )
         writer.writerows(self._lines(marks))
         return f"{self.cells.mark}{text.getvalue()}".encode()
 

@@ -68,8 +68,10 @@ def _rank(each: Standing) -> tuple[int, str]:
 def _labs(found: Overview, folder: Path) -> Markup:
     head = ("lab", "handed in", "pass", "median", "last lab of")
     top = tag("tr", *(tag("th", cell, scope="col") for cell in head))
-    rows = [tag("tr", *(tag("td", cell) for cell in _lab_line(found, each, folder)))
-            for each in found.books]  # fmt: skip
+    rows = [
+        tag("tr", *(tag("td", cell) for cell in _lab_line(found, each, folder)))
+        for each in found.books
+    ]
     return tag("table", tag("thead", top), tag("tbody", *rows))
 
 

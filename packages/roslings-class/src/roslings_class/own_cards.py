@@ -116,9 +116,13 @@ def listed_as(student: Student) -> str:
     is_own = student.id not in (cells.get(IDENTIFIER), "") and "sis login id" not in cells
     github = next((cells[column] for column in GITHUB if cells.get(column)), "")
     return (
-        number or (student.id if is_own else "") or student.login or github or student.email
+        number
+        or (student.id if is_own else "")
+        or student.login
+        or github
+        or student.email
         or student.name
-    ).strip()  # fmt: skip
+    ).strip()
 
 
 @contextmanager

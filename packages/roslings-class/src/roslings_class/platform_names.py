@@ -91,6 +91,7 @@ def beside_a_file(names: Iterable[str]) -> set[str]:
     found = told_by_platform(names)
     filed = {(told.person, told.number) for told in found.values() if told.part == FILE}
     return {
-        name for name, told in found.items()
+        name
+        for name, told in found.items()
         if told.part != FILE and (told.person, told.number) in filed
-    }  # fmt: skip
+    }

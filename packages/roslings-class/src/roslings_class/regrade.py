@@ -165,7 +165,11 @@ def _again(book: Gradebook, result: Result, lab: Lab) -> str:
     if verdict == result.verdict and version == result.lab_version:
         return "same"
     attempt = book.attempts(result.submission, result.digest) + 1
-    words = {"verdict": verdict, "lab_version": version, "attempt": attempt,
-             "rates": rates_of(evidence, lab)}  # fmt: skip
+    words = {
+        "verdict": verdict,
+        "lab_version": version,
+        "attempt": attempt,
+        "rates": rates_of(evidence, lab),
+    }
     book.judged_again(result.model_copy(update=words), content)
     return "same" if verdict.score == result.score else "changed"

@@ -22,10 +22,22 @@ from roslings.workspace.sources import files
 from roslings_class.course_files import course_files
 
 TESTS = (
-    "conftest.py", "browser.py", "changed.py", "costs.py", "lessons_as_tests.py", "machine.py",
-    "needed", "once.py", "seen_with.py", "skips.py", "slow.py", "subreaper.py", "walks.py",
-    "sources.py", "suite.py",
-)  # fmt: skip
+    "conftest.py",
+    "browser.py",
+    "changed.py",
+    "costs.py",
+    "lessons_as_tests.py",
+    "machine.py",
+    "needed",
+    "once.py",
+    "seen_with.py",
+    "skips.py",
+    "slow.py",
+    "subreaper.py",
+    "walks.py",
+    "sources.py",
+    "suite.py",
+)
 """Parts of tests/ that students get: they show that the installation works."""
 ENGINE = "roslings"
 TESTS_OF_THE_ENGINE = (("arena",), ("report",))
@@ -173,8 +185,11 @@ def leaks(edition: Path, labs: list[Lab]) -> Iterator[str]:
     for name, file in sorted(_files_of(edition)):
         text = file.read_text("utf-8", "replace")
         lines = {line.strip() for line in text.splitlines()}
-        yield from (f"{name} holds the solution of {whose}" for whose, answer in answers
-                    if len(lines & answer) > LIKE_THE_ANSWER * len(answer))  # fmt: skip
+        yield from (
+            f"{name} holds the solution of {whose}"
+            for whose, answer in answers
+            if len(lines & answer) > LIKE_THE_ANSWER * len(answer)
+        )
         yield from (f"{name} tells a mutant of {lab}" for lab, what in secrets if what in text)
 
 

@@ -156,8 +156,14 @@ def broken(
 ) -> Result:
     """A grading that ended without an answer: never the student's fault, never a zero."""
     return Result(
-        submission=order.submission, digest=order.digest, attempt=order.attempt, state="broken",
-        reason=reason, seconds=seconds, whose=order.whose, words=order.words,
+        submission=order.submission,
+        digest=order.digest,
+        attempt=order.attempt,
+        state="broken",
+        reason=reason,
+        seconds=seconds,
+        whose=order.whose,
+        words=order.words,
         broken_by_grader=by_the_grader,
         next_step="Look at this one yourself: ./roslings check LAB PATH",
-    )  # fmt: skip
+    )

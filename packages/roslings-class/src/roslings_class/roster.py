@@ -179,8 +179,11 @@ def _student(row: Row) -> Student:
     name = _name_in(row)
     return Student(
         name or row.needed((*NAMES, *IDS, *EMAILS, IDENTIFIER, ROSTER_IDENTIFIER, *GITHUB)),
-        row.first((*IDS, IDENTIFIER)), row.first(EMAILS), row.first(LOGINS), row.cells,
-    )  # fmt: skip
+        row.first((*IDS, IDENTIFIER)),
+        row.first(EMAILS),
+        row.first(LOGINS),
+        row.cells,
+    )
 
 
 def told_of(row: Row) -> tuple[str, ...]:
@@ -412,8 +415,9 @@ class _Matching:
         tails = [tail for start, tail in _cuts(name) if start in self._starts]
         sender = f"{CLONE}{name.casefold()}"
         for tail in tails:
-            if own := [each for each in self._students
-                       if tail.casefold() in each.logins_of_github()]:  # fmt: skip
+            if own := [
+                each for each in self._students if tail.casefold() in each.logins_of_github()
+            ]:
                 return _Claim(own, sender, BY_ACCOUNT, is_teams=len(own) > 1)
             if teams := self._teams.named(tail):
                 claim = self._as_team(teams, sender, BY_ACCOUNT)

@@ -52,14 +52,23 @@ class GradingRequest:
         seed = random.SystemRandom().randrange(SEEDS)
         return Order.model_validate(
             {
-                "lab": self.lab, "submission": submission.name, "digest": digest,
-                "attempt": attempt, "path": submission.path.absolute(), "room": room,
-                "seed": seed, "clock": self.clock, "hidden": self.hidden,
-                "builds": self.scratch / "builds", "keeps_evidence": self.keeps_evidence,
-                "strangers": self.strangers, "soak_s": self.soak_s,
-                "words": self.words(submission), **self._by_own_card(submission),
+                "lab": self.lab,
+                "submission": submission.name,
+                "digest": digest,
+                "attempt": attempt,
+                "path": submission.path.absolute(),
+                "room": room,
+                "seed": seed,
+                "clock": self.clock,
+                "hidden": self.hidden,
+                "builds": self.scratch / "builds",
+                "keeps_evidence": self.keeps_evidence,
+                "strangers": self.strangers,
+                "soak_s": self.soak_s,
+                "words": self.words(submission),
+                **self._by_own_card(submission),
             }
-        )  # fmt: skip
+        )
 
     def _by_own_card(self, submission: Submission) -> dict[str, object]:
         if self.cards is None:
@@ -152,13 +161,15 @@ class Scheduler:
         latest = self._book.latest()
         forged = self._book.forged()
         done = {
-            name for name in known
+            name
+            for name in known
             if name not in forged and self._is_done(latest.get(name), known[name])
-        }  # fmt: skip
+        }
         unclear = {
-            name for name in known
+            name
+            for name in known
             if name not in {*done, *forged} and self._was_tried(latest.get(name), known[name])
-        }  # fmt: skip
+        }
         fresh = [name for name in known if name not in done | unclear]
         self._standing = Standing(len(known), len(done), 0, len(unclear), None)
         todo = _Todo([known[name] for name in fresh], known, unclear)

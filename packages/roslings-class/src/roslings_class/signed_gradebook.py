@@ -95,7 +95,8 @@ def forged_lines(forged: Mapping[str, str], lab: str, folder: Path) -> list[str]
     return [
         f"{len(forged)} not judged again: the evidence is not what was measured. They keep the\n"
         "verdict that they had:",
-        *named, *more,
+        *named,
+        *more,
         "To measure them anew:",
         f"  ./roslings grade {lab} SUBMISSIONS --out {quoted_from_here(folder)}",
-    ]  # fmt: skip
+    ]

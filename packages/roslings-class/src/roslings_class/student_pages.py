@@ -8,10 +8,14 @@ from pathlib import Path
 from ros2_on_pip.markup import prose, tag
 from roslings.course import Lab
 from roslings.course.contract import as_typed
-from roslings.report import Refusal, write_check50, write_gradescope, write_json, write_junit
+from roslings.report.check50 import write_check50
 from roslings.report.flow import paragraphs
+from roslings.report.gradescope import write_gradescope
 from roslings.report.html import OfClass
 from roslings.report.html.document import POLICY, brand, style
+from roslings.report.json_file import write_json
+from roslings.report.junit import write_junit
+from roslings.report.refusal import Refusal
 from roslings.report.shown_checks import shown_checks
 from roslings.report.whole_file import write_whole
 from roslings.saving import Graded

@@ -41,8 +41,11 @@ def read_table(path: Path) -> list[Row]:
     """Every line below the head. Raises BadTable."""
     (_, head), *lines = read_cells(path).lines
     names = english(head)
-    return [Row(path, number, dict(zip(names, cells, strict=False))) for number, cells in lines
-            if any(cell.strip() for cell in cells)]  # fmt: skip
+    return [
+        Row(path, number, dict(zip(names, cells, strict=False)))
+        for number, cells in lines
+        if any(cell.strip() for cell in cells)
+    ]
 
 
 @dataclass(frozen=True)

@@ -38,7 +38,11 @@ def _graders(lab: Lab) -> Iterator[Path]:
     for file in sorted(lab.grader.parent.glob("*.py")):
         if not file.name.startswith(("grade_", "hidden_")):
             yield file
-    yield from sorted((lab.grader.parent / lab.name.replace("-", "_")).rglob("*.py"))
+    yield from (file for file in sorted(lab.beside.rglob("*")) if _is_written(file))
+
+
+def _is_written(file: Path) -> bool:
+    return file.is_file() and MADE not in file.parts
 
 
 def _brought_by(lab: Lab) -> Iterator[tuple[str, Path]]:

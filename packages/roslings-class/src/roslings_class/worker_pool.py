@@ -155,9 +155,13 @@ def worker_pool(lock: Path, limits: Limits, life: str = GRADING) -> Iterator[Wor
     command = [sys.executable, "-m", "roslings_class.fork_server", life]
     words = [str(lock), str(limits.ending_s)]
     with subprocess.Popen(
-        [*command, *words], stdin=subprocess.PIPE, stdout=subprocess.PIPE, start_new_session=True,
-        cwd=lock.parent, env={**os.environ, **NO_THREADS},
-    ) as fork_server:  # fmt: skip
+        [*command, *words],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        start_new_session=True,
+        cwd=lock.parent,
+        env={**os.environ, **NO_THREADS},
+    ) as fork_server:
         made = WorkerPool(fork_server, limits)
         try:
             yield made

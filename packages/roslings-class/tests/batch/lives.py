@@ -16,8 +16,14 @@ from roslings_class.result import Order, Result
 def by_name(order: Order) -> None:
     """The submission's name says what to do."""
     verb = order.submission.partition("-")[0]
-    {"refuse": refuse, "hang": hang, "raise": fail, "vanish": vanish, "grade": grading,
-     "busy": busy}[verb](order)  # fmt: skip
+    {
+        "refuse": refuse,
+        "hang": hang,
+        "raise": fail,
+        "vanish": vanish,
+        "grade": grading,
+        "busy": busy,
+    }[verb](order)
 
 
 def refuse(order: Order) -> None:
@@ -52,8 +58,11 @@ def vanish(order: Order) -> None:
 def _answer(order: Order, state: str, reason: str = "because") -> None:
     result = Result.model_validate(
         {
-            "submission": order.submission, "digest": order.digest, "attempt": order.attempt,
-            "state": state, "reason": reason,
+            "submission": order.submission,
+            "digest": order.digest,
+            "attempt": order.attempt,
+            "state": state,
+            "reason": reason,
         }
-    )  # fmt: skip
+    )
     write_whole(order.answer, result.model_dump_json().encode())

@@ -33,9 +33,11 @@ CLASS = ("Anna Berg", "Ben Kaya", "Zoë Müller", "Finn O'Neill")
 def rule(deadline: str = BERLIN, points_a_day: float = 10, free_days: int = 0) -> LateRule:
     """What `--deadline` and `--late-points` say."""
     return LateRule(
-        deadline=as_time(deadline), zone=zone_of(deadline), points_a_day=points_a_day,
+        deadline=as_time(deadline),
+        zone=zone_of(deadline),
+        points_a_day=points_a_day,
         free_days=free_days,
-    )  # fmt: skip
+    )
 
 
 @dataclass(frozen=True)
@@ -79,8 +81,9 @@ def played(
 
 def moodle_zip(folder: Path, numbers: dict[str, int]) -> Path:
     """The download of an assignment: each with a folder."""
-    entries = [(f"{name}_{number}{FILES}/topics.zip", zip_bytes())
-               for name, number in numbers.items()]  # fmt: skip
+    entries = [
+        (f"{name}_{number}{FILES}/topics.zip", zip_bytes()) for name, number in numbers.items()
+    ]
     return make_zip(folder / "moodle.zip", entries)
 
 
@@ -107,6 +110,7 @@ def clone(folder: Path, time: datetime | None = None, files: int = 1) -> Path:
 def run_in(folder: Path, script: str, programs: Path) -> str:
     """What a script of a page prints, with `programs` before all others."""
     own = {**os.environ, "PATH": f"{programs}:{os.environ['PATH']}"}
-    done = subprocess.run(["bash", "-ec", script], cwd=folder, env=own, check=True,
-                          capture_output=True, text=True)  # fmt: skip
+    done = subprocess.run(
+        ["bash", "-ec", script], cwd=folder, env=own, check=True, capture_output=True, text=True
+    )
     return done.stdout

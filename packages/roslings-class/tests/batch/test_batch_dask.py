@@ -35,9 +35,12 @@ def running(*words: str, **more: str) -> Iterator[subprocess.Popen[bytes]]:
     """A part of the cluster, ended with the block."""
     command = [sys.executable, "-m", "roslings", "cluster", *words]
     with subprocess.Popen(
-        command, env={**os.environ, **more}, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+        command,
+        env={**os.environ, **more},
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
         start_new_session=True,
-    ) as process:  # fmt: skip
+    ) as process:
         try:
             yield process
         finally:
@@ -129,8 +132,10 @@ def test_two_workers_grade_as_one_machine_does(tmp_path: Path) -> None:
     with cluster(more, more) as (address, _):
         latest = graded(handed_in(tmp_path / "in"), address, tmp_path / "out")
         assert {name: result.word for name, result in latest.items()} == {
-            "anna": "pass", "ben": "fail", "cleo": "refused",
-        }  # fmt: skip
+            "anna": "pass",
+            "ben": "fail",
+            "cleo": "refused",
+        }
         assert latest["anna"].score == 100
         with gradebook(tmp_path / "out", "topics") as book:
             assert book.evidence(latest["anna"]) is None
@@ -144,9 +149,19 @@ def test_a_worker_that_dies_loses_nothing(tmp_path: Path) -> None:
     more = {"TMPDIR": str(tmp_path / "tmp")}
     with cluster(more, {}) as (address, (first, _)):
         command = [
-            sys.executable, "-m", "roslings", "grade", "topics", str(tmp_path / "in"), "--out",
-            str(tmp_path / "out"), "--trust", "--evidence", "--dask", address,
-        ]  # fmt: skip
+            sys.executable,
+            "-m",
+            "roslings",
+            "grade",
+            "topics",
+            str(tmp_path / "in"),
+            "--out",
+            str(tmp_path / "out"),
+            "--trust",
+            "--evidence",
+            "--dask",
+            address,
+        ]
         with subprocess.Popen(command, stderr=subprocess.DEVNULL) as grading:
             until(lambda: any((tmp_path / "tmp").glob("roslings-*/room")) or bool(grading.poll()))
             first.kill()

@@ -38,18 +38,28 @@ def names_at(path: Path) -> list[str]:
 @pytest.mark.parametrize(
     ("entries", "names"),
     [
-        ([f"Anna Berg_17{FILES}_/a.zip", f"Ben Kaya_18{FILES}_/b.zip"],
-         [f"Anna Berg_17{FILES}_", f"Ben Kaya_18{FILES}_"]),
+        (
+            [f"Anna Berg_17{FILES}_/a.zip", f"Ben Kaya_18{FILES}_/b.zip"],
+            [f"Anna Berg_17{FILES}_", f"Ben Kaya_18{FILES}_"],
+        ),
         ([f"Anna Berg_17{FILES}/a.zip"], [f"Anna Berg_17{FILES}"]),
-        ([f"Anna Berg_17{FILES}_a.zip", f"Ben Kaya_18{FILES}_b.zip"],
-         [f"Anna Berg_17{FILES}_a", f"Ben Kaya_18{FILES}_b"]),
-        ([f"Anna Berg_17{FILES}/a.zip", f"Anna Berg_17{TEXT}/onlinetext.html"],
-         [f"Anna Berg_17{FILES}"]),
+        (
+            [f"Anna Berg_17{FILES}_a.zip", f"Ben Kaya_18{FILES}_b.zip"],
+            [f"Anna Berg_17{FILES}_a", f"Ben Kaya_18{FILES}_b"],
+        ),
+        (
+            [f"Anna Berg_17{FILES}/a.zip", f"Anna Berg_17{TEXT}/onlinetext.html"],
+            [f"Anna Berg_17{FILES}"],
+        ),
         ([f"Anna Berg_17{TEXT}/onlinetext.html"], [f"Anna Berg_17{TEXT}"]),
-        (["berganna_77_8812_topics.zip", "kayaben_LATE_78_8813_topics-1.zip"],
-         ["berganna_77_8812_topics", "kayaben_LATE_78_8813_topics-1"]),
-        (["class/anna.zip", "class/ben.zip", "class/Thumbs.db", "__MACOSX/class/._anna.zip"],
-         ["anna", "ben"]),
+        (
+            ["berganna_77_8812_topics.zip", "kayaben_LATE_78_8813_topics-1.zip"],
+            ["berganna_77_8812_topics", "kayaben_LATE_78_8813_topics-1"],
+        ),
+        (
+            ["class/anna.zip", "class/ben.zip", "class/Thumbs.db", "__MACOSX/class/._anna.zip"],
+            ["anna", "ben"],
+        ),
         (["anna/chatter/package.xml", "ben/chatter/package.xml"], ["anna", "ben"]),
         (["ws/src/chatter/package.xml", "ws/src/chatter/setup.py"], ["moodle"]),
         (["ws/src/chatter/package.xml", "ws/src/other/package.xml"], ["moodle"]),
@@ -57,13 +67,14 @@ def names_at(path: Path) -> list[str]:
         (["talker.py"], ["moodle"]),
         (["run_1_2_fast.py", "package.xml"], ["moodle"]),
     ],
-)  # fmt: skip
+)
 def test_the_zip_of_a_class_is_a_class(
     tmp_path: Path, entries: list[str], names: list[str]
 ) -> None:
     """Given itself, or alone in a folder; one student's zip stays one submission."""
-    sheets = [(n, f"<name>{n.split('/')[-2]}</name>".encode()) if "/" in n else (n, b"x")
-              for n in entries]  # fmt: skip
+    sheets = [
+        (n, f"<name>{n.split('/')[-2]}</name>".encode()) if "/" in n else (n, b"x") for n in entries
+    ]
     make_zip(tmp_path / "moodle.zip", sheets)
     assert names_at(tmp_path / "moodle.zip") == names
     assert names_at(tmp_path) == names
@@ -242,8 +253,10 @@ def test_what_macos_adds_is_left_out(tmp_path: Path) -> None:
 
 # --- whose is it? ------------------------------------------------------------------------------
 
-TWO = [Student("Anna Berg", f"Participant {n}", cells={"identifier": f"Participant {n}"})
-       for n in (7, 17)]  # fmt: skip
+TWO = [
+    Student("Anna Berg", f"Participant {n}", cells={"identifier": f"Participant {n}"})
+    for n in (7, 17)
+]
 CANVAS = [
     Student("Berg, Anna", "77", cells={"id": "77", "sis user id": "s1"}),
     Student("Kaya, Ben", "8812", cells={"id": "8812", "sis user id": "s2"}),
@@ -255,8 +268,11 @@ CANVAS = [
     [
         ([ANNA, BEN], ["lab-topics-annaberg", "lab-topics-b-kaya"], [0, 1]),
         ([ANNA, BEN], ["lab-topics-b-kaya"], [1]),
-        ([ANNA, BEN], ["lab-topics-not-annaberg", "lab-topics-b-kaya", "lab-topics-x"],
-         [None, 1, None]),
+        (
+            [ANNA, BEN],
+            ["lab-topics-not-annaberg", "lab-topics-b-kaya", "lab-topics-x"],
+            [None, 1, None],
+        ),
         (TWO, [f"Anna Berg_17{FILES}_", f"Anna Berg_7{FILES}_"], [1, 0]),
         (CANVAS, ["berganna_77_8812_topics", "kayaben_LATE_8812_9_x"], [0, 1]),
         ([ANNA, BEN], [f"Group A-Anna Berg_3{FILES}", f"Group B-Ben Kaya_4{FILES}"], [0, 1]),
@@ -265,7 +281,7 @@ CANVAS = [
         ([Student("Zoë Müller")], [unicodedata.normalize("NFD", "Zoë Müller_3") + FILES], [0]),
         ([Student("Jo", "1")], [f"Jo_1{FILES}"], [None]),
     ],
-)  # fmt: skip
+)
 def test_a_platforms_name_finds_its_student(
     students: list[Student], names: list[str], owners: list[int | None]
 ) -> None:

@@ -21,10 +21,24 @@ QUESTION = re.compile(r"^\d of 3   \S+, line \d+$", re.M)
 def grade(submissions: Path, out: Path) -> str:
     """What the command prints."""
     done = subprocess.run(
-        [sys.executable, "-m", "roslings", "grade", "nodes", str(submissions), "--out", str(out),
-         "--explain", "--soak", "0"],
-        env={**os.environ}, capture_output=True, text=True, check=False,
-    )  # fmt: skip
+        [
+            sys.executable,
+            "-m",
+            "roslings",
+            "grade",
+            "nodes",
+            str(submissions),
+            "--out",
+            str(out),
+            "--explain",
+            "--soak",
+            "0",
+        ],
+        env={**os.environ},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert done.returncode == 0, done.stderr
     return done.stdout
 

@@ -36,28 +36,45 @@ def verdict(*failed: str) -> Verdict:
     """A verdict of the lab in which these checks fail."""
     checks = tuple(
         CheckResult(
-            id=name, title=f"About {name}.", max_points=points,
+            id=name,
+            title=f"About {name}.",
+            max_points=points,
             outcome="fail" if name in failed else "pass",
             points=0 if name in failed else points,
         )
         for name, points in TOPICS.card.points.items()
-    )  # fmt: skip
+    )
     return Verdict(
-        lab="topics", package="chatter", checks=checks, outcome=outcome_of(checks),
-        score=score_of(checks), seconds=Timings(total=3.0),
+        lab="topics",
+        package="chatter",
+        checks=checks,
+        outcome=outcome_of(checks),
+        score=score_of(checks),
+        seconds=Timings(total=3.0),
         environment=Environment(
-            roslings="0", ros_distro="jazzy", rmw="r", python="3", platform="p",
-            isolation="namespace", clock="sim", seed=1,
+            roslings="0",
+            ros_distro="jazzy",
+            rmw="r",
+            python="3",
+            platform="p",
+            isolation="namespace",
+            clock="sim",
+            seed=1,
         ),
-    )  # fmt: skip
+    )
 
 
 def graded(name: str, *failed: str, hz: float = 2.0, **more: object) -> Result:
     """A result with a verdict."""
     words = {
-        "submission": name, "digest": "d", "attempt": 1, "state": "graded",
-        "verdict": verdict(*failed), "rates": {"/chatter": hz}, **more,
-    }  # fmt: skip
+        "submission": name,
+        "digest": "d",
+        "attempt": 1,
+        "state": "graded",
+        "verdict": verdict(*failed),
+        "rates": {"/chatter": hz},
+        **more,
+    }
     return Result.model_validate(words)
 
 
@@ -82,13 +99,23 @@ ZOE = Student("Zoë Müller", "s1003")
 @pytest.mark.parametrize(
     ("submission", "whose"),
     [
-        ("s1001", ANNA), ("a.berg", ANNA), ("Anna Berg", ANNA), ("berg_anna", ANNA),
-        ("Berg, Anna", ANNA), ("anna-berg", ANNA), ("bergannalate_7_8_day3", None),
-        ("annaberg_77_8812_chatter", ANNA), ("Anna Berg_17_assignsubmission_file_", ANNA),
-        ("topics_s1002_v2", LI), ("Wei Li", LI), ("x_4711_assignsubmission_file_", LI),
-        ("zoë müller", ZOE), ("chatter", None), ("s100", None),
+        ("s1001", ANNA),
+        ("a.berg", ANNA),
+        ("Anna Berg", ANNA),
+        ("berg_anna", ANNA),
+        ("Berg, Anna", ANNA),
+        ("anna-berg", ANNA),
+        ("bergannalate_7_8_day3", None),
+        ("annaberg_77_8812_chatter", ANNA),
+        ("Anna Berg_17_assignsubmission_file_", ANNA),
+        ("topics_s1002_v2", LI),
+        ("Wei Li", LI),
+        ("x_4711_assignsubmission_file_", LI),
+        ("zoë müller", ZOE),
+        ("chatter", None),
+        ("s100", None),
     ],
-)  # fmt: skip
+)
 def test_a_submission_finds_its_student(submission: str, whose: Student | None) -> None:
     """By number, name, address or what a platform makes of them; never by a guess."""
     found = match([ANNA, LI, ZOE], [submission])
@@ -291,9 +318,15 @@ CANVAS_EXPORT = (
 
 @pytest.mark.parametrize(
     ("points", "asked", "whole", "score"),
-    [("20.00", None, "20", "16.8"), ("20,00", None, "20", "16.8"), ("20.00", 7.5, "7.5", "6.3"),
-     ("", None, "100", "84"), ("0.00", None, "100", "84"), ("12", None, "12", "10.08")],
-)  # fmt: skip
+    [
+        ("20.00", None, "20", "16.8"),
+        ("20,00", None, "20", "16.8"),
+        ("20.00", 7.5, "7.5", "6.3"),
+        ("", None, "100", "84"),
+        ("0.00", None, "100", "84"),
+        ("12", None, "12", "10.08"),
+    ],
+)
 def test_scores_are_in_the_points_of_the_platform(
     points: str, asked: float | None, whole: str, score: str, tmp_path: Path
 ) -> None:
@@ -355,8 +388,11 @@ def test_a_refused_hand_in_is_told_whole_in_each_file(tmp_path: Path) -> None:
     )
     (row,) = cells(tmp_path / "grades.csv")
     assert (row["outcome"], row["final"], row["points"], row["reason"]) == (
-        "refused", "", "", whole,
-    )  # fmt: skip
+        "refused",
+        "",
+        "",
+        whole,
+    )
     assert cells(tmp_path / "moodle.csv")[0]["Feedback comments"] == whole
     theirs = tmp_path / "students/s1001"
     assert not (theirs / "verdict.json").exists()
@@ -400,8 +436,25 @@ def test_an_override_needs_reason_score_and_submission(tmp_path: Path) -> None:
 
 def test_a_folder_name_leads_nowhere_else() -> None:
     """And two submissions never share one."""
-    names = ["anna", "../../etc", "a/b", "a b", "a_b", "\\xff", "." * 5, "ä" * 300, "ä" * 301,
-             "-rf", "~", ".git", "a:b", "a*", "a ", "\U0001f916" * 90, "<b>"]  # fmt: skip
+    names = [
+        "anna",
+        "../../etc",
+        "a/b",
+        "a b",
+        "a_b",
+        "\\xff",
+        "." * 5,
+        "ä" * 300,
+        "ä" * 301,
+        "-rf",
+        "~",
+        ".git",
+        "a:b",
+        "a*",
+        "a ",
+        "\U0001f916" * 90,
+        "<b>",
+    ]
     folders = [folder_name(name) for name in names]
     assert folders[0] == "anna"
     assert len(set(folders)) == len(names)
@@ -411,9 +464,16 @@ def test_a_folder_name_leads_nowhere_else() -> None:
 
 @pytest.mark.parametrize(
     "name",
-    ["Zoë Müller_17_assignsubmission_file", "Finn O'Neill_3_assignsubmission_file_", "Groß, Lea",
-     "李伟_9_assignsubmission_file", "lab-topics-annaberg", "v1.2 (3)", "a.berg@example.org"],
-)  # fmt: skip
+    [
+        "Zoë Müller_17_assignsubmission_file",
+        "Finn O'Neill_3_assignsubmission_file_",
+        "Groß, Lea",
+        "李伟_9_assignsubmission_file",
+        "lab-topics-annaberg",
+        "v1.2 (3)",
+        "a.berg@example.org",
+    ],
+)
 def test_a_folder_is_spelt_as_its_student(name: str) -> None:
     """Letters of any language, and what names have between them."""
     assert folder_name(name) == name
@@ -493,8 +553,16 @@ def test_a_student_reads_no_path_of_the_machine_that_grades(tmp_path: Path) -> N
     with gradebook(tmp_path, "topics") as book:
         keep(book, Settings(roster=tmp_path / "class.csv"))
         step = f"Look at this one yourself: ./roslings check {place}"
-        book.write(Result(submission="anna", digest="d", attempt=1, state="broken", reason=reason,
-                          next_step=step))  # fmt: skip
+        book.write(
+            Result(
+                submission="anna",
+                digest="d",
+                attempt=1,
+                state="broken",
+                reason=reason,
+                next_step=step,
+            )
+        )
         hand_out(book, TOPICS, tmp_path)
     assert place in (tmp_path / "grades.csv").read_text("utf-8")
     theirs = [path for path in (tmp_path / "students").rglob("*") if path.is_file()]

@@ -126,8 +126,9 @@ def moodle_round(folder: Path, form: str = AS_DOWNLOADED["folders"]) -> Round:
         return found.model_copy(update={"submission": name})
 
     names = {number: name.replace("'", "") for number, name in NUMBERS.items()}  # as Moodle does
-    zip_ = make_zip(folder / "moodle.zip",
-                    [(form.format(name, n), zip_bytes()) for n, name in names.items()])  # fmt: skip
+    zip_ = make_zip(
+        folder / "moodle.zip", [(form.format(name, n), zip_bytes()) for n, name in names.items()]
+    )
     times = {**TIMES, "Anna Berg": "Tuesday, 1 December 2026, 1:00 PM"}
     list_ = worksheet(folder, [line(name, time) for name, time in times.items()])
     return played(Choices("topics", zip_, folder / "out", roster=list_, rule=rule()), result_of)
@@ -158,9 +159,10 @@ def test_a_folder_is_called_as_it_was_downloaded(tmp_path: Path) -> None:
     done = moodle_round(tmp_path)
     with zipfile.ZipFile(done.out / MOODLE_ZIP) as archive:
         assert archive.namelist() == [
-            f"Anna Berg_101{FILES}/{PAGE}", f"Ben Kaya_102{FILES}/{PAGE}",
+            f"Anna Berg_101{FILES}/{PAGE}",
+            f"Ben Kaya_102{FILES}/{PAGE}",
             f"Finn ONeill_104{FILES}/{PAGE}",
-        ]  # fmt: skip
+        ]
     assert f"Zoë Müller_103{FILES}" in [each.name for each in (done.out / "students").iterdir()]
 
 
@@ -234,14 +236,31 @@ def test_the_same_feedback_is_the_same_file(tmp_path: Path) -> None:
 # --- Canvas ------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("own", ["topics.zip", "topics.tar.gz", "topics.tgz", "topics.tar.xz",
-                                 "topics_2_3.zip", "talker.py", "Lösung.html"])  # fmt: skip
+@pytest.mark.parametrize(
+    "own",
+    [
+        "topics.zip",
+        "topics.tar.gz",
+        "topics.tgz",
+        "topics.tar.xz",
+        "topics_2_3.zip",
+        "talker.py",
+        "Lösung.html",
+    ],
+)
 def test_canvas_takes_every_page(tmp_path: Path, own: str) -> None:
     """Called as downloaded; it opens as what the student's own file was called."""
     (tmp_path / "canvas-list.csv").write_text(CANVAS_LIST, "utf-8")
     names = [f"berganna_77_8812_{own}", f"müllerzoë_LATE_79_8814_{own}"]
-    done = played(Choices("topics", canvas_zip(tmp_path, names), tmp_path / "out",
-                          roster=tmp_path / "canvas-list.csv", rule=rule()))  # fmt: skip
+    done = played(
+        Choices(
+            "topics",
+            canvas_zip(tmp_path, names),
+            tmp_path / "out",
+            roster=tmp_path / "canvas-list.csv",
+            rule=rule(),
+        )
+    )
     found = imported_by_canvas(
         (done.out / CANVAS_ZIP).read_bytes(), {8812: (77, own), 8814: (79, own), 8815: (78, own)}
     )
@@ -257,8 +276,9 @@ def test_canvass_groups_get_one_comment(tmp_path: Path) -> None:
     done = played(of_canvas(tmp_path), verdicts)
     found = imported_by_canvas(
         (done.out / CANVAS_ZIP).read_bytes(),
-        {8812: (78, "topics.zip"), 8813: (79, "topics.zip")}, ("team rot", "teamrot", "grüne7"),
-    )  # fmt: skip
+        {8812: (78, "topics.zip"), 8813: (79, "topics.zip")},
+        ("team rot", "teamrot", "grüne7"),
+    )
     assert set(found) == {78, 79}
     assert "Anna Berg, Ben Kaya" in opened(found[78])
 
@@ -291,8 +311,15 @@ def test_each_clone_gets_a_comment(tmp_path: Path) -> None:
 def test_a_comment_calls_nobody_and_has_an_end(tmp_path: Path) -> None:
     """What a student prints stays words: no mention, no heading, no HTML; GitHub has a bound."""
     measured = "# <b>@octocat</b> " + "x" * 90_000
-    check = CheckResult(id="rate", title="A rate.", outcome="fail", points=0, max_points=5,
-                        measured=measured, log=("@teacher", "```", "# end"))  # fmt: skip
+    check = CheckResult(
+        id="rate",
+        title="A rate.",
+        outcome="fail",
+        points=0,
+        max_points=5,
+        measured=measured,
+        log=("@teacher", "```", "# end"),
+    )
     clone(tmp_path / "clones/lab-topics-anna")
 
     def result_of(name: str) -> Result:
@@ -330,8 +357,15 @@ def test_a_name_that_is_no_text_ends_nothing(tmp_path: Path) -> None:
 
 def test_hidden_checks_stay_hidden(tmp_path: Path) -> None:
     """In page, comment and worksheet they are one line together; the class page has them all."""
-    secret = CheckResult(id="secret", title="SECRET.", outcome="fail", points=0, max_points=5,
-                         measured="SECRET", hidden=True)  # fmt: skip
+    secret = CheckResult(
+        id="secret",
+        title="SECRET.",
+        outcome="fail",
+        points=0,
+        max_points=5,
+        measured="SECRET",
+        hidden=True,
+    )
 
     def result_of(name: str) -> Result:
         found = graded(name, "figure")
@@ -355,8 +389,13 @@ def test_hidden_checks_stay_hidden(tmp_path: Path) -> None:
 def test_the_page_tells_the_files(tmp_path: Path) -> None:
     """Each is named on it, and its loop over the comments finds each repository."""
     text = (course.root() / "site/pages/teachers/feedback.md").read_text("utf-8")
-    for name in (MOODLE_ZIP, CANVAS_ZIP, COMMENTS, "Upload multiple feedback files in a zip",
-                 "Re-upload Submissions"):  # fmt: skip
+    for name in (
+        MOODLE_ZIP,
+        CANVAS_ZIP,
+        COMMENTS,
+        "Upload multiple feedback files in a zip",
+        "Re-upload Submissions",
+    ):
         assert name in text
     done = played(of_classroom(tmp_path), verdicts)
     (loop,) = re.findall(r"```bash\n(for .*?)```", text, re.DOTALL)

@@ -47,8 +47,13 @@ Mallory Doe,s1002,mdoe
 Ben Kaya,s1003,bkaya
 """
 WITHOUT_MALLORY = "".join(line for line in PLAIN.splitlines(True) if "Mallory" not in line)
-LISTS = {"worksheet": WORKSHEET, "canvas": CANVAS, "plain": PLAIN, "without": WITHOUT_MALLORY,
-         "github": GITHUB}  # fmt: skip
+LISTS = {
+    "worksheet": WORKSHEET,
+    "canvas": CANVAS,
+    "plain": PLAIN,
+    "without": WITHOUT_MALLORY,
+    "github": GITHUB,
+}
 
 HOSTILE = (
     "Anna Berg_111_assignsubmission_file_chatter.zip",
@@ -104,21 +109,30 @@ class Source:
 
 SOURCES = {
     "moodle": Source(
-        f"Anna Berg_111{FILES}_{{}}", f"Ben Kaya_333{FILES}_{{}}", f"Mallory Doe_222{FILES}_{{}}",
+        f"Anna Berg_111{FILES}_{{}}",
+        f"Ben Kaya_333{FILES}_{{}}",
+        f"Mallory Doe_222{FILES}_{{}}",
         ("worksheet", "plain", "without"),
     ),
     "moodle-folders": Source(
-        f"Anna Berg_111{FILES}/{{}}", f"Ben Kaya_333{FILES}/{{}}", f"Mallory Doe_222{FILES}/{{}}",
+        f"Anna Berg_111{FILES}/{{}}",
+        f"Ben Kaya_333{FILES}/{{}}",
+        f"Mallory Doe_222{FILES}/{{}}",
         ("worksheet", "plain", "without"),
     ),
     "canvas": Source(
-        "berganna_111_8811_{}", "kayaben_333_8812_{}", "doemallory_LATE_222_8813_{}",
+        "berganna_111_8811_{}",
+        "kayaben_333_8812_{}",
+        "doemallory_LATE_222_8813_{}",
         ("canvas", "plain", "without"),
     ),
     "clones": Source(
-        "lab-topics-annaberg/{}", "lab-topics-bkaya/{}", "lab-topics-mdoe/{}", ("github",),
+        "lab-topics-annaberg/{}",
+        "lab-topics-bkaya/{}",
+        "lab-topics-mdoe/{}",
+        ("github",),
     ),
-}  # fmt: skip
+}
 
 
 def unpacked(folder: Path, names: Sequence[str]) -> Path:
@@ -197,15 +211,19 @@ def test_what_a_file_is_called_books_nothing(
         ("plain", [f"Anna Berg_111{FILES}", "s1001"], [], [0, 1]),
         ("canvas", ["berganna_111_1_a", "kayaben_333_2_b", f"Anna Berg_111{FILES}_x"], [0], [2]),
         # one's own, handed in again
-        ("worksheet", [f"Anna Berg_111{FILES}_topics-2", f"Anna Berg_111{FILES}_topics-10"],
-         [0, 1], []),
+        (
+            "worksheet",
+            [f"Anna Berg_111{FILES}_topics-2", f"Anna Berg_111{FILES}_topics-10"],
+            [0, 1],
+            [],
+        ),
         ("plain", [f"Anna Berg_111{FILES}", f"Anna Berg_111{FILES}_topics"], [0, 1], []),
         ("canvas", ["berganna_111_1_a", "berganna_LATE_111_2_a-1"], [0, 1], []),
         ("plain", ["s1001_topics-2", "s1001_topics-10"], [0, 1], []),
         # the class list of another assignment has other numbers: the names are all there is
         ("worksheet", [f"Anna Berg_711{FILES}", f"Ben Kaya_733{FILES}"], [0], []),
     ],
-)  # fmt: skip
+)
 def test_whose_it_is_is_never_decided_by_a_name_that_two_may_have(
     tmp_path: Path, list_: str, names: list[str], annas: list[int], unclear: list[int]
 ) -> None:
@@ -275,9 +293,11 @@ def test_unclear_is_shown_where_an_instructor_looks(tmp_path: Path) -> None:
 def test_the_instructors_word_decides(tmp_path: Path) -> None:
     """A column `submission` in the class list, and the same command again."""
     listed = [
-        f"{line},{name}" for line, name in
-        zip(PLAIN.splitlines(), ["submission", STOLEN[0], STOLEN[1], ""], strict=True)
-    ]  # fmt: skip
+        f"{line},{name}"
+        for line, name in zip(
+            PLAIN.splitlines(), ["submission", STOLEN[0], STOLEN[1], ""], strict=True
+        )
+    ]
     told, rows, page = handed_out(tmp_path, "\n".join(listed))
     assert rows["Anna Berg"]["submission"] == STOLEN[0]
     assert rows["Mallory Doe"]["submission"] == STOLEN[1]
@@ -286,8 +306,14 @@ def test_the_instructors_word_decides(tmp_path: Path) -> None:
 
 def test_a_diagnosis_is_held_against_the_platforms_part(tmp_path: Path) -> None:
     """Not against what its author calls the file."""
-    words = {"lab": "black-box", "digest": "d", "attempt": 1, "path": tmp_path, "room": tmp_path,
-             "seed": 1}  # fmt: skip
+    words = {
+        "lab": "black-box",
+        "digest": "d",
+        "attempt": 1,
+        "path": tmp_path,
+        "room": tmp_path,
+        "seed": 1,
+    }
     asked = {
         f"Mallory Doe_222{FILES}_Ada Lovelace": "Mallory Doe",
         "doemallory_222_8813_Ada Lovelace": "doemallory",
@@ -301,7 +327,10 @@ def test_a_diagnosis_is_held_against_the_platforms_part(tmp_path: Path) -> None:
 
 def test_no_name_has_both_forms() -> None:
     """A platform's own part says which it is."""
-    told = [platform_name(SOURCES[source].mallory.format(hostile))
-            for source in ("moodle", "canvas") for hostile in HOSTILE]  # fmt: skip
+    told = [
+        platform_name(SOURCES[source].mallory.format(hostile))
+        for source in ("moodle", "canvas")
+        for hostile in HOSTILE
+    ]
     assert all(told)
     assert [each.number for each in told if each] == ["222"] * len(told)

@@ -17,31 +17,71 @@ from roslings_class.roster import match, read_roster
 
 WORKSHEETS = {
     "de": (
-        "ID", "Vollständiger Name", "E-Mail-Adresse", "Status", "Bewertung", "Bestwertung",
-        "Bewertung kann geändert werden", "Zuletzt geändert (Abgabe)",
-        "Zuletzt geändert (Bewertung)", "Feedback als Kommentar", "Teilnehmer/in",
+        "ID",
+        "Vollständiger Name",
+        "E-Mail-Adresse",
+        "Status",
+        "Bewertung",
+        "Bestwertung",
+        "Bewertung kann geändert werden",
+        "Zuletzt geändert (Abgabe)",
+        "Zuletzt geändert (Bewertung)",
+        "Feedback als Kommentar",
+        "Teilnehmer/in",
     ),
     "es": (
-        "Identificador", "Nombre completo", "Dirección de correo", "Estado", "Calificación",
-        "Calificación máxima", "La calificación puede ser cambiada",
-        "Última modificación (entrega)", "Última modificación (calificación)",
-        "Comentarios de retroalimentación", "Participante ",
+        "Identificador",
+        "Nombre completo",
+        "Dirección de correo",
+        "Estado",
+        "Calificación",
+        "Calificación máxima",
+        "La calificación puede ser cambiada",
+        "Última modificación (entrega)",
+        "Última modificación (calificación)",
+        "Comentarios de retroalimentación",
+        "Participante ",
     ),
     "fr": (
-        "Identifiant", "Nom complet", "Adresse de courriel", "Statut", "Note", "Note maximale",
-        "La note peut être modifiée", "Dernière modification (travail remis)",
-        "Dernière modification (note)", "Feedback par commentaires", "Participant",
+        "Identifiant",
+        "Nom complet",
+        "Adresse de courriel",
+        "Statut",
+        "Note",
+        "Note maximale",
+        "La note peut être modifiée",
+        "Dernière modification (travail remis)",
+        "Dernière modification (note)",
+        "Feedback par commentaires",
+        "Participant",
     ),
     "pt": (
-        "Identificador", "Nome completo", "Endereço de email", "Status", "Nota", "Nota máxima",
-        "Nota pode ser alterada", "Última modificação (envio)", "Última modificação (nota)",
-        "Comentários de feedback", "Participante",
+        "Identificador",
+        "Nome completo",
+        "Endereço de email",
+        "Status",
+        "Nota",
+        "Nota máxima",
+        "Nota pode ser alterada",
+        "Última modificação (envio)",
+        "Última modificação (nota)",
+        "Comentários de feedback",
+        "Participante",
     ),
     "zh": (
-        "标识符", "全名", "电子邮件地址", "状态", "成绩", "最高分", "可以更改成绩",
-        "上次修改（作业）", "上次修改（评分）", "反馈评语", "参与人",  # noqa: RUF001
+        "标识符",
+        "全名",
+        "电子邮件地址",
+        "状态",
+        "成绩",
+        "最高分",
+        "可以更改成绩",
+        "上次修改（作业）",  # noqa: RUF001
+        "上次修改（评分）",  # noqa: RUF001
+        "反馈评语",
+        "参与人",
     ),
-}  # fmt: skip
+}
 """The head as Moodle writes it, and the word before the number."""
 GRADE, FEEDBACK = 4, 9
 
@@ -77,8 +117,9 @@ def test_a_worksheet_in_its_language_finds_all_and_goes_back(
     assert tuple(lines[0]) == WORKSHEETS[language][:-1]
     assert [line[GRADE] for line in lines[1:]] == ["19,60", ""]
     assert ["About figure." in lines[1][FEEDBACK], lines[2][FEEDBACK]] == [
-        True, "There is no package.",
-    ]  # fmt: skip
+        True,
+        "There is no package.",
+    ]
 
 
 @pytest.mark.parametrize(
@@ -144,12 +185,17 @@ def test_the_table_translates_known_columns_and_no_heading_has_two_meanings() ->
             for heading in headings if meant != PARTICIPANT else ():
                 meanings.setdefault(plain(heading), set()).add(meant)
     assert {heading: meant for heading, meant in meanings.items() if len(meant) > 1} == {}
-    assert {heading: meant for heading, meant in meanings.items()
-            if heading in COLUMNS and meant != {heading}} == {}  # fmt: skip
+    assert {
+        heading: meant
+        for heading, meant in meanings.items()
+        if heading in COLUMNS and meant != {heading}
+    } == {}
 
 
 def test_of_two_that_mean_the_same_the_first_counts() -> None:
     """The second is kept as it is; what nobody knows, too."""
     assert english(["Courriel", "Adresse e-mail", "Ville"]) == [
-        "email address", "adresse e-mail", "ville",
-    ]  # fmt: skip
+        "email address",
+        "adresse e-mail",
+        "ville",
+    ]

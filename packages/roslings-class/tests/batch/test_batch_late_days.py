@@ -95,10 +95,14 @@ def test_free_days_cost_nothing_and_say_nothing(tmp_path: Path, download: Path) 
 
 def test_an_extension_in_the_worksheet_counts(tmp_path: Path, download: Path) -> None:
     """Moodle writes it behind the status."""
-    granted = ("Submitted for grading - 2 days 9 hours late - Extension granted until: "
-               "Thursday, 3 December 2026, 8:00 AM")  # fmt: skip
-    lines = [line(name, time, granted if name.startswith("Z") else "Submitted - 1 day late")
-             for name, time in TIMES.items()]  # fmt: skip
+    granted = (
+        "Submitted for grading - 2 days 9 hours late - Extension granted until: "
+        "Thursday, 3 December 2026, 8:00 AM"
+    )
+    lines = [
+        line(name, time, granted if name.startswith("Z") else "Submitted - 1 day late")
+        for name, time in TIMES.items()
+    ]
     list_ = worksheet(tmp_path, lines)
     done = played(Choices("topics", download, tmp_path / "out", roster=list_, rule=rule()))
     assert done.late()["Zoë Müller"] == "1"
@@ -155,8 +159,11 @@ Student,ID,SIS User ID,SIS Login ID,Section,Lab 3 (48151)
 "Kaya, Ben",78,s1002,bkaya,A,
 "Müller, Zoë",79,s1003,zmueller,A,
 """
-CANVAS_FILES = ["berganna_77_8812_topics.zip", "kayaben_LATE_78_8813_topics.zip",
-                "müllerzoë_LATE_79_8814_topics-1.zip"]  # fmt: skip
+CANVAS_FILES = [
+    "berganna_77_8812_topics.zip",
+    "kayaben_LATE_78_8813_topics.zip",
+    "müllerzoë_LATE_79_8814_topics-1.zip",
+]
 
 
 def submissions_of_canvas() -> list[dict[str, object]]:
@@ -177,13 +184,15 @@ def test_canvas_marks_who_is_late(tmp_path: Path) -> None:
     """By its own due date, and not by how much: nobody is charged for what is not known."""
     (tmp_path / "canvas-list.csv").write_text(CANVAS_LIST, "utf-8")
     zip_ = canvas_zip(tmp_path, CANVAS_FILES)
-    done = played(Choices("topics", zip_, tmp_path / "out", roster=tmp_path / "canvas-list.csv",
-                          rule=rule()))  # fmt: skip
+    done = played(
+        Choices("topics", zip_, tmp_path / "out", roster=tmp_path / "canvas-list.csv", rule=rule())
+    )
     assert done.late() == {"Berg, Anna": "0", "Kaya, Ben": "", "Müller, Zoë": ""}
     rows = done.rows()
     assert (rows["Berg, Anna"]["handed in"], rows["Berg, Anna"]["told by"]) == (
-        "in time", "Canvas's file name",
-    )  # fmt: skip
+        "in time",
+        "Canvas's file name",
+    )
     assert rows["Kaya, Ben"]["handed in"] == "late, by how much is not known"
     assert rows["Kaya, Ben"]["final"] == "98"
     assert "Late, by how much is not known (2): Kaya, Ben, Müller, Zoë" in done.told
@@ -193,8 +202,9 @@ def test_without_a_due_date_canvas_marks_nobody(tmp_path: Path) -> None:
     """So no mark at all says nothing."""
     (tmp_path / "canvas-list.csv").write_text(CANVAS_LIST, "utf-8")
     zip_ = canvas_zip(tmp_path, [CANVAS_FILES[0], "kayaben_78_8813_topics.zip"])
-    done = played(Choices("topics", zip_, tmp_path / "out", roster=tmp_path / "canvas-list.csv",
-                          rule=rule()))  # fmt: skip
+    done = played(
+        Choices("topics", zip_, tmp_path / "out", roster=tmp_path / "canvas-list.csv", rule=rule())
+    )
     assert done.late() == {"Berg, Anna": "", "Kaya, Ben": "", "Müller, Zoë": ""}
 
 
@@ -208,14 +218,25 @@ def test_canvass_own_list_tells_by_how_much(tmp_path: Path, guard: str) -> None:
         files.append(tmp_path / f"page-{number}.json")
         files[-1].write_text(guard + json.dumps(page), "utf-8")
     zip_ = canvas_zip(tmp_path, CANVAS_FILES)
-    done = played(Choices("topics", zip_, tmp_path / "out", roster=tmp_path / "canvas-list.csv",
-                          rule=rule(), times=tuple(files)))  # fmt: skip
+    done = played(
+        Choices(
+            "topics",
+            zip_,
+            tmp_path / "out",
+            roster=tmp_path / "canvas-list.csv",
+            rule=rule(),
+            times=tuple(files),
+        )
+    )
     assert done.late() == {"Berg, Anna": "0", "Kaya, Ben": "1", "Müller, Zoë": ""}
     assert done.rows()["Kaya, Ben"]["told by"] == "Canvas"
     canvas = done.rows("canvas.csv", "Student")
     assert [row["A talker and a listener (topics)"] for row in canvas.values()] == [
-        "100", "98", "88", "98",
-    ]  # fmt: skip
+        "100",
+        "98",
+        "88",
+        "98",
+    ]
 
 
 # --- clones ------------------------------------------------------------------------------------
@@ -242,8 +263,9 @@ def clones(tmp_path: Path) -> Path:
 def test_a_clones_newest_commit_tells_the_time(tmp_path: Path, clones: Path) -> None:
     """And that the student's own computer says so."""
     (tmp_path / "class.csv").write_text(GITHUB_LIST)
-    done = played(Choices("topics", clones, tmp_path / "out", roster=tmp_path / "class.csv",
-                          rule=rule()))  # fmt: skip
+    done = played(
+        Choices("topics", clones, tmp_path / "out", roster=tmp_path / "class.csv", rule=rule())
+    )
     assert done.late() == {"Anna Berg": "0", "Ben Kaya": "1"}
     assert done.rows()["Ben Kaya"]["told by"] == "its newest commit"
 
@@ -254,11 +276,16 @@ def test_classrooms_grades_stand_before_a_commit(tmp_path: Path, clones: Path, w
     (tmp_path / "grades.csv").write_text(GRADES)
     (tmp_path / "class.csv").write_text(GITHUB_LIST)
     is_list = way == "as the class list"
-    done = played(Choices(
-        "topics", clones, tmp_path / "out", rule=rule(),
-        roster=tmp_path / ("grades.csv" if is_list else "class.csv"),
-        times=() if is_list else (tmp_path / "grades.csv",),
-    ))  # fmt: skip
+    done = played(
+        Choices(
+            "topics",
+            clones,
+            tmp_path / "out",
+            rule=rule(),
+            roster=tmp_path / ("grades.csv" if is_list else "class.csv"),
+            times=() if is_list else (tmp_path / "grades.csv",),
+        )
+    )
     assert list(done.late().values()) == ["0", "2"]
     assert {row["told by"] for row in done.rows().values()} == {"GitHub Classroom"}
 
@@ -279,8 +306,14 @@ def test_a_clones_own_settings_run_nothing(tmp_path: Path) -> None:
     hostile = clone(tmp_path / "hostile")
     bait = tmp_path / "ran"
     run = f"touch {bait}"
-    for key in ("gpg.program", "core.fsmonitor", "core.sshCommand", "core.pager",
-                "alias.cat-file", "remote.origin.uploadpack"):  # fmt: skip
+    for key in (
+        "gpg.program",
+        "core.fsmonitor",
+        "core.sshCommand",
+        "core.pager",
+        "alias.cat-file",
+        "remote.origin.uploadpack",
+    ):
         subprocess.run(["git", "-C", str(hostile), "config", key, run], check=True)
     for key, value in (("extensions.partialClone", "origin"), ("remote.origin.url", f"ext::{run}")):
         subprocess.run(["git", "-C", str(hostile), "config", key, value], check=True)
@@ -317,8 +350,16 @@ def test_a_list_tells_the_times(tmp_path: Path, download: Path) -> None:
     (tmp_path / "times.csv").write_text(
         "name,id,submitted\nAnna Berg,s1,2026-12-01 08:00\n,s2,2026-11-29T10:00Z\nZoe Mueller,,\n"
     )
-    done = played(Choices("topics", download, tmp_path / "out", roster=tmp_path / "class.csv",
-                          rule=rule(), times=(tmp_path / "times.csv",)))  # fmt: skip
+    done = played(
+        Choices(
+            "topics",
+            download,
+            tmp_path / "out",
+            roster=tmp_path / "class.csv",
+            rule=rule(),
+            times=(tmp_path / "times.csv",),
+        )
+    )
     late = done.late()
     assert [late[name] for name in ("Anna Berg", "Ben Kaya", "Zoë Müller")] == ["1", "0", ""]
 
@@ -332,10 +373,17 @@ def test_two_of_one_name_keep_their_own_times(tmp_path: Path) -> None:
         "name,id,submitted\nKim Lee,kim1,2026-12-02 08:00\nKim Lee,kim2,2026-12-03 08:00\n"
     )
     (tmp_path / "more.csv").write_text("name,id,until\nKim Lee,kim2,2026-12-05 08:00\n")
-    done = played(Choices(
-        "topics", tmp_path / "in", tmp_path / "out", roster=tmp_path / "class.csv", rule=rule(),
-        times=(tmp_path / "times.csv",), extensions=tmp_path / "more.csv",
-    ))  # fmt: skip
+    done = played(
+        Choices(
+            "topics",
+            tmp_path / "in",
+            tmp_path / "out",
+            roster=tmp_path / "class.csv",
+            rule=rule(),
+            times=(tmp_path / "times.csv",),
+            extensions=tmp_path / "more.csv",
+        )
+    )
     assert [row["days late"] for row in done.rows(key="id").values()] == ["2", "0"]
 
 
@@ -359,8 +407,11 @@ def test_who_has_more_time(tmp_path: Path, download: Path) -> None:
     list_ = worksheet(tmp_path, lines)
     (tmp_path / "more.csv").write_text("email,student,until\n,Ben Kaya,2026-12-02 12:00\n")
     out = tmp_path / "out"
-    done = played(Choices("topics", download, out, roster=list_, rule=rule(),
-                          extensions=tmp_path / "more.csv"))  # fmt: skip
+    done = played(
+        Choices(
+            "topics", download, out, roster=list_, rule=rule(), extensions=tmp_path / "more.csv"
+        )
+    )
     assert (done.late()["Anna Berg"], done.late()["Ben Kaya"]) == ("0", "1")
     override(out, "Anna Berg", 60, "showed it", "tutor")
     assert done.late()["Ben Kaya"] == "1", "it is kept"
@@ -431,8 +482,15 @@ def test_a_bad_list_is_told_before_anything_is_run(
         (tmp_path / name).write_text(text)
     times = () if name == "more.csv" else (tmp_path / name,)
     more = tmp_path / name if name == "more.csv" else None
-    choices = Choices("topics", download, tmp_path / "out", roster=tmp_path / "class.csv",
-                      rule=rule(), times=times, extensions=more)  # fmt: skip
+    choices = Choices(
+        "topics",
+        download,
+        tmp_path / "out",
+        roster=tmp_path / "class.csv",
+        rule=rule(),
+        times=times,
+        extensions=more,
+    )
     with pytest.raises((BadTable, ExtensionOfNobody), match=says) as refusal:
         played(choices)
     assert refusal.value.next_step
@@ -455,13 +513,23 @@ def test_without_a_deadline_nothing_is_said_of_late_days(tmp_path: Path, clones:
 def test_canvass_list_may_hold_what_nobody_expects(tmp_path: Path) -> None:
     """A broken time is none; what is missing is not guessed."""
     (tmp_path / "canvas-list.csv").write_text(CANVAS_LIST, "utf-8")
-    odd = [{}, {"user_id": None}, {"user_id": 78, "submitted_at": "soon", "late": "yes"},
-           {"user_id": 77, "submitted_at": 5}]  # fmt: skip
+    odd = [
+        {},
+        {"user_id": None},
+        {"user_id": 78, "submitted_at": "soon", "late": "yes"},
+        {"user_id": 77, "submitted_at": 5},
+    ]
     (tmp_path / "odd.json").write_text(json.dumps(odd))
-    done = played(Choices(
-        "topics", canvas_zip(tmp_path, CANVAS_FILES), tmp_path / "out", rule=rule(),
-        roster=tmp_path / "canvas-list.csv", times=(tmp_path / "odd.json",),
-    ))  # fmt: skip
+    done = played(
+        Choices(
+            "topics",
+            canvas_zip(tmp_path, CANVAS_FILES),
+            tmp_path / "out",
+            rule=rule(),
+            roster=tmp_path / "canvas-list.csv",
+            times=(tmp_path / "odd.json",),
+        )
+    )
     assert set(done.late().values()) == {""}
 
 
@@ -484,8 +552,9 @@ def test_the_page_is_true(tmp_path: Path) -> None:
     *_, more = re.findall(r"```text\n(.*?)```", text, re.DOTALL)
     (tmp_path / "more.csv").write_text(more)
     assert [each.who for each in read_extensions(tmp_path / "more.csv", "")] == [
-        ("Anna Berg", "s1001"), ("Ben Kaya", "s1002"),
-    ]  # fmt: skip
+        ("Anna Berg", "s1001"),
+        ("Ben Kaya", "s1002"),
+    ]
     for word in (NOT_KNOWN, LATE_BY_SOME, "in time", *re.findall(r"`(2026-11-30[ T].*?)`", text)):
         assert f"`{word}`" in text
         assert word[0].isalpha() or as_time(word) == as_time(word)

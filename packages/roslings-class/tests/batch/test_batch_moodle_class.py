@@ -19,12 +19,37 @@ from roslings.workspace.sources import files
 
 TOPICS = lab("topics")
 NAMES = (
-    "Anna Berg", "Ben Kaya", "Cleo Núñez", "Dora Meier-Lang", "Emil Öz", "Finn O'Neill",
-    "Gül Şahin", "Hugo van den Berg", "Ida Berg", "Jo Li", "Kim Lee", "Kim Lee", "Lea Groß",
-    "Mia Ann Fox", "Nils Å", "Olga Fox", "Pia Zoë", "Quin Roe", "Rosa Diaz", "Sam Poe",
-    "Tim Ott", "Uma Rao", "Vera Vogt", "Will Wu", "Xi Wang", "Yara Noor", "Zoe Adler",
-    "Ada Bly", "Bo Chen", "Cy Dunn",
-)  # fmt: skip
+    "Anna Berg",
+    "Ben Kaya",
+    "Cleo Núñez",
+    "Dora Meier-Lang",
+    "Emil Öz",
+    "Finn O'Neill",
+    "Gül Şahin",
+    "Hugo van den Berg",
+    "Ida Berg",
+    "Jo Li",
+    "Kim Lee",
+    "Kim Lee",
+    "Lea Groß",
+    "Mia Ann Fox",
+    "Nils Å",
+    "Olga Fox",
+    "Pia Zoë",
+    "Quin Roe",
+    "Rosa Diaz",
+    "Sam Poe",
+    "Tim Ott",
+    "Uma Rao",
+    "Vera Vogt",
+    "Will Wu",
+    "Xi Wang",
+    "Yara Noor",
+    "Zoe Adler",
+    "Ada Bly",
+    "Bo Chen",
+    "Cy Dunn",
+)
 FILES, TEXT = "_assignsubmission_file", "_assignsubmission_onlinetext"
 PERFECT = 6
 """The first ones hand in the solution, each packed in another way; the rest cannot be graded."""
@@ -84,9 +109,13 @@ def test_a_moodle_class_is_graded_by_one_command(download: Path, roster: Path) -
     words = ["grade", "topics", download.name, "--out", "out", "--roster", roster.name]
     (place / "tmp").mkdir()
     done = subprocess.run(
-        [sys.executable, "-m", "roslings", *words], cwd=place, capture_output=True, text=True,
-        env={**os.environ, "TMPDIR": str(place / "tmp")}, check=False,
-    )  # fmt: skip
+        [sys.executable, "-m", "roslings", *words],
+        cwd=place,
+        capture_output=True,
+        text=True,
+        env={**os.environ, "TMPDIR": str(place / "tmp")},
+        check=False,
+    )
     assert done.returncode == 0, done.stderr
     assert "30 of 30 submissions graded." in done.stdout
     assert "Handed in nothing (1): Late Lu" in done.stdout
@@ -97,6 +126,9 @@ def test_a_moodle_class_is_graded_by_one_command(download: Path, roster: Path) -
     assert [grades[f"Participant {101 + n}"] for n in range(30)] == ["100.00"] * PERFECT + [""] * 24
     with zipfile.ZipFile(place / "out/moodle-feedback.zip") as archive:
         folders = {unicodedata.normalize("NFC", name).split("/")[0] for name in archive.namelist()}
-    assert folders == {f"{name}_{number}{FILES}" for number, name in enumerate(NAMES, start=101)
-                       if name != "Ida Berg"} | {f"Ida Berg_109{TEXT}"}  # fmt: skip
+    assert folders == {
+        f"{name}_{number}{FILES}"
+        for number, name in enumerate(NAMES, start=101)
+        if name != "Ida Berg"
+    } | {f"Ida Berg_109{TEXT}"}
     assert list((place / "tmp").iterdir()) == []

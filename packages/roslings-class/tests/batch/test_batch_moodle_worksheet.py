@@ -44,11 +44,12 @@ line ""two"", with a comma</p>",-,""
 "Not marked",Yes,"Donnerstag, 26. November 2026, 18:14","","Freitag, 27. November 2026, 09:00",""
 """
 BLIND = "\n".join(
-    ",".join(cells) for cells in (
+    ",".join(cells)
+    for cells in (
         ("Identifier", "Status", "Grade", "Last modified (grade)"),
         *((f"Participant {number}", "Submitted", "", "-") for number in range(101, 105)),
     )
-)  # fmt: skip
+)
 AS_WRITTEN = {
     "plain": PLAIN.encode(),
     "a mark of UTF-8": b"\xef\xbb\xbf" + PLAIN.encode(),
@@ -136,16 +137,25 @@ SCALE = PLAIN.replace("Maximum Grade", "Scale").replace("100.00", '"Pass or fail
 @pytest.mark.parametrize(
     ("text", "says", "step"),
     [
-        ("Identifier,Full name,Email address\nParticipant 101,Anna Berg,\n", "no column 'Grade'",
-         "Download grading worksheet"),
-        (PLAIN.replace('"Last modified (grade)"', "Changed"), r"'Last modified \(grade\)'",
-         "Download grading worksheet"),
-        (CZECH + "Účastník101,Anna Berg,,-\nÚčastník102,Ben Kaya,,-\n",
-         "in a language that is not known", "headings.yaml"),
+        (
+            "Identifier,Full name,Email address\nParticipant 101,Anna Berg,\n",
+            "no column 'Grade'",
+            "Download grading worksheet",
+        ),
+        (
+            PLAIN.replace('"Last modified (grade)"', "Changed"),
+            r"'Last modified \(grade\)'",
+            "Download grading worksheet",
+        ),
+        (
+            CZECH + "Účastník101,Anna Berg,,-\nÚčastník102,Ben Kaya,,-\n",
+            "in a language that is not known",
+            "headings.yaml",
+        ),
         (PLAIN.replace("100.00", "Pass or fail"), "not graded by points", "type Point"),
         (SCALE, "its scale is 'Pass or fail'", "type Point"),
     ],
-)  # fmt: skip
+)
 def test_what_moodle_would_refuse_is_told_before_anything_is_run(
     text: str, says: str, step: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

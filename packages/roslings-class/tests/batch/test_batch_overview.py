@@ -39,8 +39,14 @@ def place(tmp_path: Path) -> Path:
     (tmp_path / "class.csv").write_text(CLASS)
     first, topics, services = LABS
     book(tmp_path, services, graded("s1001"), graded("s1003"))
-    book(tmp_path, first, graded("s1001"), graded("s1002"), graded("s1003"),
-         refused("s1004", "No package."))  # fmt: skip
+    book(
+        tmp_path,
+        first,
+        graded("s1001"),
+        graded("s1002"),
+        graded("s1003"),
+        refused("s1004", "No package."),
+    )
     times = {"s1002": NIGHT, "s1001": NIGHT}
     settings = Settings(roster=tmp_path / "class.csv", times=times)
     folder = book(tmp_path, topics, graded("s1001"), graded("s1002", "figure"), settings=settings)
@@ -64,9 +70,12 @@ def test_each_stands_somewhere(place: Path, capsys: pytest.CaptureFixture[str]) 
     assert "Stopped after topics (1): Ben Kaya" in told
     rows = {row["name"]: row for row in cells(place / "term/overview.csv")}
     assert {name: row["stands"] for name, row in rows.items()} == {
-        "Anna Berg": "", "Ben Kaya": "stopped after topics", "Cleo Ott": "left out topics",
-        "Dora Li": "stopped after nodes", "Eve Wu": "has not begun",
-    }  # fmt: skip
+        "Anna Berg": "",
+        "Ben Kaya": "stopped after topics",
+        "Cleo Ott": "left out topics",
+        "Dora Li": "stopped after nodes",
+        "Eve Wu": "has not begun",
+    }
     ben = rows["Ben Kaya"]
     assert (ben["since (UTC)"], ben["handed in"]) == ("2026-11-20 23:30", "2")
     assert (ben["topics"], ben["topics outcome"]) == ("98", "fail")
@@ -117,8 +126,10 @@ def test_a_person_is_one_though_each_lab_numbers_anew(tmp_path: Path) -> None:
         book(tmp_path, lab, graded(second), settings=Settings(roster=sheet))
     found = overview([tmp_path / "grades-topics", tmp_path / "grades-nodes"], None)
     assert [each.student.email for each in found.standings] == [
-        "k1@example.org", "k2@example.org", "z@example.org",
-    ]  # fmt: skip
+        "k1@example.org",
+        "k2@example.org",
+        "z@example.org",
+    ]
     assert [[*each.grades] for each in found.standings] == [[], ["nodes", "topics"], []]
 
 
@@ -178,5 +189,9 @@ def test_an_address_is_no_reason_to_join_two_who_have_other_numbers(tmp_path: Pa
     people.join([Student("Ada Lovelace", email="A@x.org"), Student("Kim Lee")])
     names = [(each.student.name, each.student.id) for each in people.standings]
     assert names == [
-        ("Kim Lee", "k1"), ("Kim Lee", "k2"), ("Kim Lee", "k3"), ("Ada", ""), ("Kim Lee", ""),
-    ]  # fmt: skip
+        ("Kim Lee", "k1"),
+        ("Kim Lee", "k2"),
+        ("Kim Lee", "k3"),
+        ("Ada", ""),
+        ("Kim Lee", ""),
+    ]

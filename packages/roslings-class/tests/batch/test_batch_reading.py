@@ -35,11 +35,22 @@ def test_it_is_refused_once(name: str, tmp_path: Path) -> None:
     (package / name).write_bytes(content)
     room = tmp_path / "room"
     room.mkdir()
-    order = Order.model_validate({
-        "lab": "topics", "submission": "anna", "digest": "d", "attempt": 1, "room": room,
-        "path": package.parent, "seed": 1, "clock": "auto", "builds": tmp_path / "builds",
-        "keeps_evidence": False, "strangers": True, "soak_s": 0.0,
-    })  # fmt: skip
+    order = Order.model_validate(
+        {
+            "lab": "topics",
+            "submission": "anna",
+            "digest": "d",
+            "attempt": 1,
+            "room": room,
+            "path": package.parent,
+            "seed": 1,
+            "clock": "auto",
+            "builds": tmp_path / "builds",
+            "keeps_evidence": False,
+            "strangers": True,
+            "soak_s": 0.0,
+        }
+    )
     result, evidence = grade(order)
     assert (result.word, result.is_conclusive, evidence) == ("refused", True, None)
     assert result.reason.startswith("submission/chatter")

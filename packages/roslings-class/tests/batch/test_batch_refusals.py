@@ -147,9 +147,13 @@ REASONS = [(each.problem, each.next_step) for some in TOLD.values() for each in 
 
 def test_the_table_has_every_refusal() -> None:
     """A new one is put into it."""
-    every = {each for each in vars(errors).values()
-             if isinstance(each, type) and issubclass(each, WorkspaceError)
-             and not issubclass(each, MachineTrouble)}  # fmt: skip
+    every = {
+        each
+        for each in vars(errors).values()
+        if isinstance(each, type)
+        and issubclass(each, WorkspaceError)
+        and not issubclass(each, MachineTrouble)
+    }
     assert set(TOLD) == every - {WorkspaceError}
 
 
@@ -165,8 +169,16 @@ def test_every_reason_is_whole_in_terminal_csv_and_page(tmp_path: Path) -> None:
     with gradebook(tmp_path, "topics") as book:
         keep(book, Settings(roster=tmp_path / "class.csv"))
         for name, (reason, step) in zip(names, REASONS, strict=True):
-            book.write(Result(submission=name, digest="d", attempt=1, state="refused",
-                              reason=reason, next_step=step))  # fmt: skip
+            book.write(
+                Result(
+                    submission=name,
+                    digest="d",
+                    attempt=1,
+                    state="refused",
+                    reason=reason,
+                    next_step=step,
+                )
+            )
         hand_out(book, TOPICS, tmp_path)
         shown = {name: "\n".join(summary_lines(book, [name])) for name in names}
     grades, moodle = (rows(tmp_path / name) for name in ("grades.csv", "moodle.csv"))

@@ -45,9 +45,12 @@ def test_a_regrade_tells_who_which_check_from_and_to(folder: Path) -> None:
     built = next(row for row in rows if row["check"] == "builds")
     most = next(c.max_points for c in verdict().checks if c.id == "builds")
     assert built == {
-        "name": "Anna Berg", "submission": "anna", "check": "builds",
-        "from": f"pass, {most:g} of {most:g}", "to": f"fail, 0 of {most:g}",
-    }  # fmt: skip
+        "name": "Anna Berg",
+        "submission": "anna",
+        "check": "builds",
+        "from": f"pass, {most:g} of {most:g}",
+        "to": f"fail, 0 of {most:g}",
+    }
     assert "  and " in told[11] and told[12].endswith("regraded.csv")
     page = (folder / "class.html").read_text("utf-8")
     part = page.partition("<h2>Judged again</h2>")[2].partition("</section>")[0]

@@ -43,9 +43,14 @@ def begin(place: Path, *more: str) -> subprocess.Popen[str]:
     words = ["grade", "topics", "handed in", "--out", "out", "--trust", "--jobs", "3", *more]
     environment = {**os.environ, "TMPDIR": str(place / "tmp"), "HOME": str(place)}
     return subprocess.Popen(
-        [sys.executable, "-m", "roslings", *words], cwd=place, env=environment, text=True,
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True,
-    )  # fmt: skip
+        [sys.executable, "-m", "roslings", *words],
+        cwd=place,
+        env=environment,
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        start_new_session=True,
+    )
 
 
 def processes_of(place: Path) -> list[int]:
@@ -146,9 +151,13 @@ def test_without_a_sandbox_it_asks_for_trust(place: Path) -> None:
     """And runs nothing until it has it."""
     words = ["grade", "topics", "handed in", "--out", "out"]
     done = subprocess.run(
-        [sys.executable, "-m", "roslings", *words], cwd=place, capture_output=True, text=True,
-        env={**os.environ, "ROSLINGS_ISOLATION": "domain"}, check=False,
-    )  # fmt: skip
+        [sys.executable, "-m", "roslings", *words],
+        cwd=place,
+        capture_output=True,
+        text=True,
+        env={**os.environ, "ROSLINGS_ISOLATION": "domain"},
+        check=False,
+    )
     assert done.returncode == 2
     assert "Leave that variable out" in done.stderr
     assert "--trust" in done.stderr

@@ -57,8 +57,13 @@ POOR, RICH = seen(TOPICS.starter), seen(TOPICS.solution, builds=True)
 
 def result(name: str, evidence: Evidence = POOR, attempt: int = 1) -> Result:
     """What came of a grading."""
-    words = {"submission": name, "digest": f"d-{name}", "attempt": attempt, "state": "graded",
-             "verdict": judge(TOPICS, evidence)}  # fmt: skip
+    words = {
+        "submission": name,
+        "digest": f"d-{name}",
+        "attempt": attempt,
+        "state": "graded",
+        "verdict": judge(TOPICS, evidence),
+    }
     return Result.model_validate(words)
 
 
@@ -314,9 +319,13 @@ BAD_KEYS: dict[Forge, tuple[str, str]] = {
     ids=[f.__name__ for f in BAD_KEYS],
 )
 def test_a_key_that_does_not_fit_stops_everything(
-    out: Path, forge: Forge, says: str, step: str, tmp_path: Path,
+    out: Path,
+    forge: Forge,
+    says: str,
+    step: str,
+    tmp_path: Path,
     capsys: pytest.CaptureFixture[str],
-) -> None:  # fmt: skip
+) -> None:
     """Nothing is judged and nothing is written, and the next step is told; so for `grade`."""
     forge(out)
     before = {path: path.read_bytes() for path in out.rglob("*.csv")}
@@ -385,9 +394,15 @@ def of_before(folder: Path) -> Path:
             connection.execute(
                 "INSERT INTO results (submission, digest, attempt, word, score, result, written)"
                 " VALUES (?, ?, ?, ?, ?, ?, '')",
-                (name, told.digest, attempt, told.word, told.score,
-                 told.model_dump_json(by_alias=True)),
-            )  # fmt: skip
+                (
+                    name,
+                    told.digest,
+                    attempt,
+                    told.word,
+                    told.score,
+                    told.model_dump_json(by_alias=True),
+                ),
+            )
         connection.execute(
             "INSERT INTO evidence VALUES (?, ?, 1, ?)", (name, f"d-{name}", packed(POOR))
         )

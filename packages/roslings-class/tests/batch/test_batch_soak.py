@@ -92,9 +92,13 @@ def pack(folder: Path, package: Path, *words: str) -> subprocess.Popen[str]:
     """`./roslings pack topics`, with the zip in `folder`."""
     command = [sys.executable, "-m", "roslings", "pack", "topics", str(package), *words]
     return subprocess.Popen(
-        command, cwd=folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+        command,
+        cwd=folder,
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
         start_new_session=True,
-    )  # fmt: skip
+    )
 
 
 @pytest.mark.slow

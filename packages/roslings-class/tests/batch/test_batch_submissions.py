@@ -53,11 +53,13 @@ HOSTILE: dict[str, tuple[Make, str]] = {
     "zip-drive": (lambda p: make_zip(p, [("C:\\b", b"1")]), "absolute"),
     "zip-bomb": (lambda p: make_zip(p, [("a", b"0" * 200_000)]), "larger than 100.0 kB"),
     "zip-bomb-in-parts": (
-        lambda p: make_zip(p, [(f"{n}", b"0" * 9_000) for n in range(20)]), "larger than",
+        lambda p: make_zip(p, [(f"{n}", b"0" * 9_000) for n in range(20)]),
+        "larger than",
     ),
     "zip-many": (lambda p: make_zip(p, [(f"{n}", b"") for n in range(60)]), "more than 50 files"),
     "zip-very-many": (
-        lambda p: make_zip(p, [(f"{n}", b"") for n in range(200)]), "more than 50 files",
+        lambda p: make_zip(p, [(f"{n}", b"") for n in range(200)]),
+        "more than 50 files",
     ),
     "zip-no-utf8": (lambda p: zip_with_raw_name(p, b"\xff\xfe\xfd", utf8=True), "no UTF-8"),
     "zip-control": (lambda p: make_zip(p, [("a\x1b[2Jb", b"1")]), "control characters"),
@@ -75,7 +77,7 @@ HOSTILE: dict[str, tuple[Make, str]] = {
     "tar-no-utf8": (lambda p: make_tar(p, [("\udcff\udcfe", b"1")]), "no UTF-8"),
     "tar-twice": (lambda p: make_tar(p, [("a", b"1"), ("a", b"2")]), "twice"),
     "tar-header": (lambda p: huge_header(p, 900_000_000), "fill the memory"),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize(("make", "says"), HOSTILE.values(), ids=HOSTILE.keys())

@@ -57,8 +57,9 @@ def verdicts(name: str) -> Result:
 def of_moodle(folder: Path) -> Choices:
     """Team folders, whose numbers are also those of two participants; one group has no number."""
     zip_ = moodle_zip(folder, MOODLE_NAMES)
-    entries = [(f"{name}_{number}{FILES}/t.zip", zip_bytes()) for name, number in
-               MOODLE_NAMES.items()]  # fmt: skip
+    entries = [
+        (f"{name}_{number}{FILES}/t.zip", zip_bytes()) for name, number in MOODLE_NAMES.items()
+    ]
     make_zip(zip_, [*entries, (f"Default group{FILES}/t.zip", zip_bytes())])
     (folder / "worksheet.csv").write_text(WORKSHEET, "utf-8")
     return Choices("topics", zip_, folder / "out", roster=folder / "worksheet.csv", rule=rule())
@@ -73,8 +74,14 @@ def of_canvas(folder: Path) -> Choices:
         ' {"user_id": 78, "submitted_at": "2026-12-01T07:00:00Z", "late": true},'
         ' {"user_id": 79, "submitted_at": "2026-11-30T07:00:00Z", "late": false}]'
     )
-    return Choices("topics", zip_, folder / "out", roster=folder / "groups.csv", rule=rule(),
-                   times=(folder / "times.json",))  # fmt: skip
+    return Choices(
+        "topics",
+        zip_,
+        folder / "out",
+        roster=folder / "groups.csv",
+        rule=rule(),
+        times=(folder / "times.json",),
+    )
 
 
 def of_classroom(folder: Path) -> Choices:
@@ -82,8 +89,9 @@ def of_classroom(folder: Path) -> Choices:
     for name in ("lab-topics-team-rot", "lab-topics-gruen"):
         clone(folder / "clones" / name)
     (folder / "grades.csv").write_text(CLASSROOM, "utf-8")
-    return Choices("topics", folder / "clones", folder / "out", roster=folder / "grades.csv",
-                   rule=rule())  # fmt: skip
+    return Choices(
+        "topics", folder / "clones", folder / "out", roster=folder / "grades.csv", rule=rule()
+    )
 
 
 def finals(done: Round) -> list[tuple[str, str, str]]:
@@ -97,9 +105,12 @@ def test_moodles_groups(tmp_path: Path) -> None:
     done = played(of_moodle(tmp_path), verdicts)
     red = "Anna Berg; Ben Kaya"
     assert finals(done) == [
-        ("1", "74", red), ("1", "74", red), ("0", "98", ""), ("0", "98", ""),
+        ("1", "74", red),
+        ("1", "74", red),
+        ("0", "98", ""),
+        ("0", "98", ""),
         ("", "", ""),
-    ]  # fmt: skip
+    ]
     back = done.rows("moodle.csv", "Full name")
     assert [row["Grade"] for row in back.values()] == ["7.40", "7.40", "9.80", "9.80", ""]
     assert back["Ben Kaya"]["Feedback comments"].startswith("Handed in 1 day late")
@@ -113,16 +124,20 @@ def test_canvass_groups(tmp_path: Path) -> None:
     """The CSV file of the group set is the class list; canvas.csv has what Canvas asks for."""
     done = played(of_canvas(tmp_path), verdicts)
     red = "Anna Berg; Ben Kaya"
-    assert finals(done) == [("1", "74", red), ("1", "74", red), ("0", "98", ""),
-                            ("", "", "")]  # fmt: skip
+    assert finals(done) == [("1", "74", red), ("1", "74", red), ("0", "98", ""), ("", "", "")]
     rows = done.rows("canvas.csv", "ID")
     assert rows["78"] == {
-        "Student": "Ben Kaya", "ID": "78", "SIS User ID": "s1002", "SIS Login ID": "bkaya",
-        "Section": "A", "A talker and a listener (topics)": "74",
-    }  # fmt: skip
+        "Student": "Ben Kaya",
+        "ID": "78",
+        "SIS User ID": "s1002",
+        "SIS Login ID": "bkaya",
+        "Section": "A",
+        "A talker and a listener (topics)": "74",
+    }
     assert [rows[number]["A talker and a listener (topics)"] for number in ("77", "79")] == [
-        "74", "98",
-    ]  # fmt: skip
+        "74",
+        "98",
+    ]
     assert "80" not in rows, "who has no score keeps what Canvas has"
 
 
@@ -136,14 +151,16 @@ def test_classrooms_groups(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("list_", "name"),
     [
-        ("name,github_username\nAnna Berg,red-team\nBen Kaya,red-team\nZoe,zoe\n",
-         "lab-topics-red-team"),
+        (
+            "name,github_username\nAnna Berg,red-team\nBen Kaya,red-team\nZoe,zoe\n",
+            "lab-topics-red-team",
+        ),
         ("name,submission\nAnna Berg,red.final\nBen Kaya,red.final\nZoe,\n", "red.final"),
         ("name,team\nAnna Berg,Team Rot\nBen Kaya,Team Rot\nZoe,Team Blau\n", "team_rot"),
         ("name,team\nAnna Berg,Team Rot\nBen Kaya,Team Rot\nZoe,Team Blau\n", "Team-Rot"),
         ("name,group_name\nAnna Berg,Team Rot\nBen Kaya,Team Rot\nZoe,\n", "lab-topics-team-rot"),
     ],
-)  # fmt: skip
+)
 def test_the_class_list_may_say_it(tmp_path: Path, list_: str, name: str) -> None:
     """One GitHub name, one submission, one team: in several lines."""
     (tmp_path / "class.csv").write_text(list_)
@@ -186,8 +203,9 @@ def students_of(*lines: tuple[str, str, str]) -> list[Student]:
     ]
 
 
-MONDAY = students_of(("Anna Berg", "101", "Monday"), ("Ben Kaya", "102", "Monday"),
-                     ("Mallory Doe", "103", "Tuesday"))  # fmt: skip
+MONDAY = students_of(
+    ("Anna Berg", "101", "Monday"), ("Ben Kaya", "102", "Monday"), ("Mallory Doe", "103", "Tuesday")
+)
 
 
 def test_a_tutorial_group_shares_no_hand_in() -> None:
@@ -203,15 +221,19 @@ def test_a_profile_that_is_called_like_a_team_gives_nobody_anything() -> None:
     assert found.of_student[MONDAY[0]] == [f"Anna Berg_101{FILES}"]
     assert found.of_student[MONDAY[1]] == []
     assert list(found.unclear) == [f"Monday_103{FILES}"]
-    canvas = [Student("Anna", "77", cells={"id": "77", "sis user id": "", "team": "Rot"}),
-              Student("Mal", "79", cells={"id": "79", "sis user id": "", "team": ""})]  # fmt: skip
+    canvas = [
+        Student("Anna", "77", cells={"id": "77", "sis user id": "", "team": "Rot"}),
+        Student("Mal", "79", cells={"id": "79", "sis user id": "", "team": ""}),
+    ]
     assert list(match(canvas, ["rot_79_8812_x", "blau_80_8813_x"]).unclear) == ["rot_79_8812_x"]
 
 
 def test_two_teams_whose_names_differ_in_a_mark_are_told_apart() -> None:
     """Where the file's name keeps it; else it is unclear."""
-    teams = [Student(name, cells={"team": team}) for name, team in
-             (("Anna", "Team 1.1"), ("Ben", "Team 11"), ("Cleo", "!!"))]  # fmt: skip
+    teams = [
+        Student(name, cells={"team": team})
+        for name, team in (("Anna", "Team 1.1"), ("Ben", "Team 11"), ("Cleo", "!!"))
+    ]
     names = [f"Team 1.1_3{FILES}", f"Team 11_4{FILES}", f"!!_5{FILES}"]
     found = match(teams, names)
     assert [found.of_student[each] for each in teams] == [[names[0]], [names[1]], []]

@@ -33,20 +33,24 @@ LISTS = {
     "addresses": ("name,email\nAnna Berg,a@example.org\n", "a@example.org"),
     "names": ("name\nAnna Berg\n", "Anna Berg"),
     "canvas": (
-        "Student,ID,SIS User ID,SIS Login ID,Section\nAnna Berg,77,s1001,aberg,A\n", "s1001",
+        "Student,ID,SIS User ID,SIS Login ID,Section\nAnna Berg,77,s1001,aberg,A\n",
+        "s1001",
     ),
     "canvas without numbers": (
-        "Student,ID,SIS User ID,SIS Login ID,Section\nAnna Berg,77,,aberg,A\n", "aberg",
+        "Student,ID,SIS User ID,SIS Login ID,Section\nAnna Berg,77,,aberg,A\n",
+        "aberg",
     ),
     "moodle": (
         "Identifier,Full name,Email address,Status,Grade\nParticipant 101,Anna Berg,"
-        "a@example.org,Submitted,\n", "a@example.org",
+        "a@example.org,Submitted,\n",
+        "a@example.org",
     ),
     "moodle with numbers": (
         "Identifier,Full name,ID number,Email address,Status,Grade\nParticipant 101,Anna Berg,"
-        "s1001,a@example.org,Submitted,\n", "s1001",
+        "s1001,a@example.org,Submitted,\n",
+        "s1001",
     ),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("kind", LISTS)
@@ -75,8 +79,10 @@ def roslings(*words: str | Path, code: int, home: Path) -> str:
     done = subprocess.run(
         [sys.executable, "-m", "roslings", *map(str, words)],
         env={**os.environ, "HOME": str(home), "ROSLINGS_WS": str(home / "roslings_ws")},
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert done.returncode == code, done.stdout + done.stderr
     return done.stdout + done.stderr
 
@@ -97,8 +103,15 @@ def test_what_cannot_be_is_told_before_anything_is_run(
     shutil.copytree(TOPICS.starter, tmp_path / "hand-ins" / "s1001")
     more = tuple(str(tmp_path / word) if word == "class.csv" else word for word in more)
     said = roslings(
-        "grade", name, tmp_path / "hand-ins", "--variants", "--out", tmp_path / "out", *more,
-        code=2, home=tmp_path,
-    )  # fmt: skip
+        "grade",
+        name,
+        tmp_path / "hand-ins",
+        "--variants",
+        "--out",
+        tmp_path / "out",
+        *more,
+        code=2,
+        home=tmp_path,
+    )
     assert told in said
     assert not (tmp_path / "out").exists()

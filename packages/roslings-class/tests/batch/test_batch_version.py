@@ -18,8 +18,9 @@ from roslings_class.version import ENGINE, engine_in, version_of
 def copied(tmp_path: Path) -> Lab:
     """The lab topics, in a folder of its own."""
     one = lab("topics")
-    folder = shutil.copytree(one.folder, tmp_path / "topics")
-    grader = Path(shutil.copy(one.grader, tmp_path))
+    folder = shutil.copytree(one.folder, tmp_path / "labs/topics")
+    (tmp_path / "graders").mkdir()
+    grader = Path(shutil.copy(one.grader, tmp_path / "graders"))
     return dataclasses.replace(one, folder=folder, grader=grader)
 
 
@@ -33,7 +34,7 @@ def engine(tmp_path: Path) -> Path:
     return folder
 
 
-@pytest.mark.parametrize("file", ["card.yaml", "hints.yaml", "../grade_topics.py"])
+@pytest.mark.parametrize("file", ["card.yaml", "hints.yaml", "../../graders/grade_topics.py"])
 def test_what_a_lab_is_judged_by_counts(file: str, copied: Lab) -> None:
     """One byte more, another version."""
     before = version_of(copied)
@@ -85,16 +86,16 @@ def test_each_package_that_measures_or_judges_counts(package: Path, tmp_path: Pa
     assert engine_in(*copies) != version.engine_version()
 
 
-@pytest.mark.parametrize("file", ["shared.py", "topics/near.py", "grade_services.py"])
+@pytest.mark.parametrize(
+    "file", ["shared.py", "topics/near.py", "topics/near.xml", "grade_services.py"]
+)
 def test_of_the_graders_its_own_count_and_what_several_share(file: str, copied: Lab) -> None:
     """No other lab's."""
-    graders = copied.grader.parent / "graders"
-    graders.mkdir()
-    one = dataclasses.replace(copied, grader=Path(shutil.copy(copied.grader, graders)))
-    before = version_of(one)
+    graders = copied.grader.parent
+    before = version_of(copied)
     (graders / file).parent.mkdir(exist_ok=True)
     (graders / file).write_text("MOST = 3\n")
-    assert (version_of(one) != before) == (file != "grade_services.py")
+    assert (version_of(copied) != before) == (file != "grade_services.py")
 
 
 def test_another_engine_does_not_grade(engine: Path, monkeypatch: pytest.MonkeyPatch) -> None:

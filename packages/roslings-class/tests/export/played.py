@@ -44,10 +44,14 @@ class Played:
     ) -> subprocess.CompletedProcess[str]:
         """A command as the platform gives it: its user, its variables and no others."""
         return subprocess.run(
-            [*readable_to_all(self.user, f"--hide={course.root() / 'labs'}"), *words], cwd=cwd,
-            env={**self.environment, **(env or {})}, timeout=within_s, text=True,
-            capture_output=True, check=False,
-        )  # fmt: skip
+            [*readable_to_all(self.user, f"--hide={course.root() / 'labs'}"), *words],
+            cwd=cwd,
+            env={**self.environment, **(env or {})},
+            timeout=within_s,
+            text=True,
+            capture_output=True,
+            check=False,
+        )
 
     def hand_in(self, to: Path) -> Path:
         """The solution's files in the folder `to`."""

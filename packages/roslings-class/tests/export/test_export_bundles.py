@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import json
 import re
+import shutil
 import stat
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -16,6 +18,7 @@ from roslings import course
 from roslings_class.export import SYSTEMS, CannotExport, System, bundle, export
 from roslings_class.export.systems import OF_SYSTEM
 from roslings_class.release import leaks
+from roslings_launcher import built_interfaces
 from roslings_launcher.cli import main
 
 LAB = "topics"
@@ -105,8 +108,11 @@ def test_its_words_are_filled_in(bundles: Path, system: System) -> None:
 @each_system
 def test_its_scripts_are_sound(bundles: Path, system: System) -> None:
     """shellcheck says nothing, and each can be run."""
-    scripts = [path for path in own_files(bundles / system.name, system)
-               if path.read_text("utf-8").startswith("#!")]  # fmt: skip
+    scripts = [
+        path
+        for path in own_files(bundles / system.name, system)
+        if path.read_text("utf-8").startswith("#!")
+    ]
     for script in scripts:
         done = subprocess.run(
             ["shellcheck", "--shell=bash", str(script)], capture_output=True, text=True, check=False
@@ -232,17 +238,25 @@ WITHOUT_SYSTEM = {"ros2", "vision"}
 def test_every_platform_brings_what_the_labs_card_needs(
     tmp_path: Path, system: System, name: str
 ) -> None:
-    """A compiler for message types; and nothing where the card asks for nothing."""
-    lab = course.lab(name)
+    """No compiler: the course's own message types come built."""
+    bundle.write_own_files(system, course.lab(name), tmp_path)
+    assert "g++" not in (tmp_path / INSTALLS[system.name]).read_text("utf-8")
+
+
+@each_system
+def test_every_platform_brings_a_compiler_for_other_types(tmp_path: Path, system: System) -> None:
+    """And the headers of its Python, where the image has none: an instructor has own types."""
+    folder = Path(shutil.copytree(course.lab("actions").folder, tmp_path / "labs/actions"))
+    with (folder / "interfaces/rover_interfaces/action/Charge.action").open("a") as types:
+        types.write("float32 current\n")
+    lab = replace(course.lab("actions"), folder=folder)
     bundle.write_own_files(system, lab, tmp_path)
     text = (tmp_path / INSTALLS[system.name]).read_text("utf-8")
-    compiles = "interfaces" in lab.card.groups
-    assert ("g++" in text) == compiles
+    assert "g++" in text
     image = "".join(each.read_text("utf-8") for each in tmp_path.rglob("Containerfile"))
-    assert ("python3-dev" in text) == (compiles and "python:3.12" not in text + image)
+    assert ("python3-dev" in text) == ("python:3.12" not in text + image)
     if system.name == "classroom50":
-        wanted = ["g++", "python3-dev"] if compiles else []
-        assert json.loads(text)["apt"] == ["bubblewrap", *wanted]
+        assert json.loads(text)["apt"] == ["bubblewrap", "g++", "python3-dev"]
 
 
 def test_every_group_of_a_card_is_known() -> None:
@@ -254,10 +268,11 @@ def test_every_group_of_a_card_is_known() -> None:
 
 @pytest.mark.parametrize("name", ["distance-sensor", "pi-camera", "actions"])
 def test_other_labs_can_be_exported_too(tmp_path: Path, name: str) -> None:
-    """Those with message types of their own as well: their sources go along."""
+    """Those with message types of their own as well: they go along, as sources and built."""
     export("gradescope", course.lab(name), tmp_path / "it")
     own = course.lab(name).folder / "interfaces"
     assert (tmp_path / f"it/course/labs/{name}/interfaces").exists() == own.exists()
+    assert list((tmp_path / "it/course").glob(f"{built_interfaces.FOLDER}/rover_interfaces.tar.gz"))
 
 
 def test_the_page_lists_every_platform() -> None:

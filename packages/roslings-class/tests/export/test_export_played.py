@@ -131,9 +131,16 @@ def test_prairielearn(name: str) -> None:
         zipped = str(grade / "student" / own.name)
         shutil.make_archive(zipped, "zip", own.solution.parent, own.solution.name)
         done = grader.run(
-            "unshare", "--net", "sh", "-c", 'ip link set lo up && exec "$0" "$1"',
-            str(grader.bundle / "grade.sh"), str(grade), cwd=grade, within_s=TEN_MINUTES_S,
-        )  # fmt: skip
+            "unshare",
+            "--net",
+            "sh",
+            "-c",
+            'ip link set lo up && exec "$0" "$1"',
+            str(grader.bundle / "grade.sh"),
+            str(grade),
+            cwd=grade,
+            within_s=TEN_MINUTES_S,
+        )
         done_well(done)
         table = valid(grade / "results/results.json", "prairielearn")
         assert (table["gradable"], table["score"]) == (True, SCORE / 100), done.stdout + done.stderr
@@ -214,11 +221,17 @@ def test_github_classroom() -> None:
 def test_classroom50() -> None:
     """The runner's user, in the student's checkout, with the variables of its contract."""
     identity = {
-        "CLASSROOM": "ros", "ASSIGNMENT": LAB.name, "USERNAME": "anna", "OWNER": "anna",
-        "ASSIGNMENT_TYPE": "individual", "SUBMISSION_TAG": "submit/2026-11-20T22-14-05Z-a1b2c3d",
-        "COMMIT_URL": "https://example.org/c", "RELEASE_URL": "https://example.org/r",
-        "REVIEW_URL": "https://example.org/d", "CI": "true",
-    }  # fmt: skip
+        "CLASSROOM": "ros",
+        "ASSIGNMENT": LAB.name,
+        "USERNAME": "anna",
+        "OWNER": "anna",
+        "ASSIGNMENT_TYPE": "individual",
+        "SUBMISSION_TAG": "submit/2026-11-20T22-14-05Z-a1b2c3d",
+        "COMMIT_URL": "https://example.org/c",
+        "RELEASE_URL": "https://example.org/r",
+        "REVIEW_URL": "https://example.org/d",
+        "CI": "true",
+    }
     with played("classroom50", "bundle", identity, ORDINARY) as runner:
         checkout = runner.hand_in(runner.place / "checkout")
         script = str(runner.bundle / "autograders" / LAB.name / "autograder.py")

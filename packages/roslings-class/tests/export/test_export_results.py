@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 import written_verdicts
 
-from roslings import report
-from roslings.report import Refusal
+from roslings.platforms import writer_of
+from roslings.report.refusal import Refusal
 from roslings.verdict import Verdict
 
 SCHEMAS = Path(__file__).parent / "schemas"
@@ -36,7 +36,7 @@ def schema(name: str) -> Any:
 
 def written(shape: str, told: Verdict | Refusal, folder: Path) -> str:
     """The file of a platform."""
-    getattr(report, f"write_{shape}")(told, folder / shape)
+    writer_of(shape)(told, folder / shape)
     return (folder / shape).read_text("utf-8")
 
 

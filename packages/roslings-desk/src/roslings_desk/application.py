@@ -40,10 +40,16 @@ def application(
     if phone:
         _add_page_for_phone(hub)
     ui.run_with(
-        app, title=TITLE, dark=None, language="en-US", tailwind=False, gzip_middleware_factory=None,
-        reconnect_timeout=RECONNECTS_WITHIN_S, message_history_length=KEPT_MESSAGES,
+        app,
+        title=TITLE,
+        dark=None,
+        language="en-US",
+        tailwind=False,
+        gzip_middleware_factory=None,
+        reconnect_timeout=RECONNECTS_WITHIN_S,
+        message_history_length=KEPT_MESSAGES,
         show_welcome_message=False,
-    )  # fmt: skip
+    )
     return app
 
 

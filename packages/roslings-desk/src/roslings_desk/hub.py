@@ -125,9 +125,9 @@ class TopicSeen:
 class Hub:
     """A context manager: leaving the block ends node and thread."""
 
-    def __init__(self) -> None:
-        self.name = f"desk_{os.getpid()}"
-        """Of the node: two desks of one domain see each other."""
+    def __init__(self, hidden: bool = False) -> None:
+        self.name = f"{'_' if hidden else ''}desk_{os.getpid()}"
+        """Of the node: two desks of one domain see each other. Lists leave a hidden one out."""
         self.eye = Look(self.name)
         self.closing: set[Callable[[], None]] = set()
         """What is to be called before the node ends: it closes a tab that is open then."""
@@ -247,12 +247,17 @@ class Hub:
         publishers = self.eye.publishers(heard.topic)
         heard.fits_nobody = not publishers
         heard.subscription = self.eye.node.create_subscription(
-            heard.cls, heard.topic, heard.add, heard_from_all(publishers), raw=True,
+            heard.cls,
+            heard.topic,
+            heard.add,
+            heard_from_all(publishers),
+            raw=True,
             event_callbacks=SubscriptionEventCallbacks(
                 incompatible_qos=lambda _: self.do(partial(self._again, heard)),
-                message_lost=lose, use_default_callbacks=False,
+                message_lost=lose,
+                use_default_callbacks=False,
             ),
-        )  # fmt: skip
+        )
 
     def _unsubscribe(self, heard: Heard) -> None:
         if heard.subscription is not None:

@@ -12,8 +12,8 @@ from importlib.util import find_spec
 from typing import Any
 
 from roslings_rover.models.differential_drive import Body, Pose
-from roslings_rover.models.world import default_world
-from roslings_rover.rover.picture import PATH, draw_body, draw_world
+from roslings_rover.models.world import World
+from roslings_rover.rover.picture import PATH, draw_body, draw_moving, draw_world
 from roslings_rover.rover.rover import Moment
 
 FRAME_S = 0.25
@@ -27,9 +27,12 @@ def can_draw() -> bool:
     return find_spec("matplotlib") is not None and find_spec("PIL") is not None
 
 
-def gif_of(way: Sequence[Moment]) -> bytes:
-    """A GIF of the way, in real time, again and again; `way` has one moment at least."""
-    frames = list(_frames(list(_steps(way))))
+def gif_of(way: Sequence[Moment], world: World) -> bytes:
+    """A GIF of the way, in real time, again and again; `way` has one moment at least.
+
+    What moves in the world stands where it is in the end.
+    """
+    frames = list(_frames(list(_steps(way)), world))
     shown_ms = [round(FRAME_S * 1000)] * (len(frames) - 1) + [round(LAST_FRAME_S * 1000)]
     file = io.BytesIO()
     frames[0].save(
@@ -49,7 +52,7 @@ def _steps(way: Sequence[Moment]) -> Iterator[Pose]:
                 return
 
 
-def _frames(poses: list[Pose]) -> Iterator[Any]:
+def _frames(poses: list[Pose], world: World) -> Iterator[Any]:
     """A Pillow image each. What does not move is drawn once."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
@@ -58,7 +61,8 @@ def _frames(poses: list[Pose]) -> Iterator[Any]:
     figure = Figure(figsize=INCHES, dpi=DOTS_PER_INCH, layout="constrained")
     canvas: Any = FigureCanvasAgg(figure)  # matplotlib has no types for it
     axes: Any = figure.add_subplot()
-    draw_world(default_world(), axes)
+    draw_world(world, axes)
+    draw_moving(world, axes)
     canvas.draw()
     still = canvas.copy_from_bbox(figure.bbox)
     (line,) = axes.plot([], [], color=PATH)

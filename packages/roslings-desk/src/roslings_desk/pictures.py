@@ -43,13 +43,17 @@ class Encoding:
 
 
 ENCODINGS = {
-    "mono8": Encoding("u1", 1, (0,)), "8UC1": Encoding("u1", 1, (0,)),
-    "rgb8": Encoding("u1", 3, (0, 1, 2)), "bgr8": Encoding("u1", 3, (2, 1, 0)),
+    "mono8": Encoding("u1", 1, (0,)),
+    "8UC1": Encoding("u1", 1, (0,)),
+    "rgb8": Encoding("u1", 3, (0, 1, 2)),
+    "bgr8": Encoding("u1", 3, (2, 1, 0)),
     "8UC3": Encoding("u1", 3, (2, 1, 0)),
-    "rgba8": Encoding("u1", 4, (0, 1, 2)), "bgra8": Encoding("u1", 4, (2, 1, 0)),
-    "mono16": Encoding("u2", 1, (0,)), "16UC1": Encoding("u2", 1, (0,)),
+    "rgba8": Encoding("u1", 4, (0, 1, 2)),
+    "bgra8": Encoding("u1", 4, (2, 1, 0)),
+    "mono16": Encoding("u2", 1, (0,)),
+    "16UC1": Encoding("u2", 1, (0,)),
     "32FC1": Encoding("f4", 1, (0,)),
-}  # fmt: skip
+}
 
 
 @dataclass(frozen=True)

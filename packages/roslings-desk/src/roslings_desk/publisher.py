@@ -46,6 +46,11 @@ class Publisher:
     ) -> None:
         self._hub.do(self._close)
 
+    @property
+    def listeners(self) -> int:
+        """How many subscriptions hear what is published now."""
+        return int(self._publisher.get_subscription_count()) if self._publisher else 0
+
     def announce(self) -> None:
         """Be there before the first message, so that nobody who listens misses it."""
         self._hub.do(self._open)

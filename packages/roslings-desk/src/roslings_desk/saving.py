@@ -15,6 +15,8 @@ from ros2_on_pip.rosbag2.writing import BagWriter, Plan
 from roslings_desk.hub import Heard, Message
 from roslings_desk.map_gif import can_draw, gif_of
 from roslings_desk.odometry import ODOM, ODOMETRY, pose_in
+from roslings_desk.room_heard import world_heard
+from roslings_rover.models.world import World
 from roslings_rover.rover.rover import Moment
 
 LAST_S = 20.0
@@ -73,7 +75,7 @@ def save(heard: Sequence[Heard], place: Path) -> Saved:
         _write(folder, kept, now_ns - round(now_s * 1e9))
     except BagError as error:
         raise CannotSave(error) from error
-    words = _save_map(folder, kept)
+    words = _save_map(folder, kept, world_heard(heard))
     cut_s = {
         each.topic: now_s - messages[0].came_s
         for each, messages in kept.items()
@@ -83,7 +85,7 @@ def save(heard: Sequence[Heard], place: Path) -> Saved:
     return Saved(folder, counts, cut_s, words)
 
 
-def _save_map(folder: Path, kept: dict[Heard, list[Message]]) -> str:
+def _save_map(folder: Path, kept: dict[Heard, list[Message]], world: World) -> str:
     """Beside the bag, where the robot said where it was. Raises CannotSave."""
     heard = next((each for each in kept if (each.topic, each.type_name) == (ODOM, ODOMETRY)), None)
     places = [(m.came_s, pose_in(heard.read(m))) for m in kept[heard]] if heard else []
@@ -94,7 +96,7 @@ def _save_map(folder: Path, kept: dict[Heard, list[Message]]) -> str:
         return " No GIF of the map: matplotlib is not installed here."
     file = folder.with_name(f"{folder.name}.gif")
     try:
-        file.write_bytes(gif_of(way))
+        file.write_bytes(gif_of(way, world))
     except OSError as error:
         raise CannotSave(error) from error
     return f" The map: {file}"

@@ -69,6 +69,8 @@ class Wish:
     """One telephone of the network may drive."""
     phone_address: str = ""
     """Of this computer, for the telephone; empty: the one of its network."""
+    hidden: bool = False
+    """Its node has a hidden name, so the lists and graphs of a lesson are as without a desk."""
     bag: Path | None = None
     """It is played for the pages, in place of what runs on this computer."""
 
@@ -95,7 +97,7 @@ def run(wish: Wish) -> None:
         raise NoWords(wish.tab, wish.shown)
     bag: AbstractContextManager[BagPlayer | None]
     bag = playing(wish.bag) if wish.bag else nullcontext()
-    with _own_storage(), _sockets(wish) as sockets, bag as player, Hub() as hub:
+    with _own_storage(), _sockets(wish) as sockets, bag as player, Hub(wish.hidden) as hub:
         _serve(wish, sockets, hub, player)
 
 
@@ -139,10 +141,12 @@ def _serve(wish: Wish, sockets: Sockets, hub: Hub, bag: BagPlayer | None) -> Non
     guard = Guard(app, port, wish.allowed)
     phone = _phone_guard(app, sockets.phone)
     config = uvicorn.Config(
-        Doors(guard, phone) if phone else guard, log_level="warning", access_log=False,
+        Doors(guard, phone) if phone else guard,
+        log_level="warning",
+        access_log=False,
         server_header=False,
         timeout_graceful_shutdown=LEAVES_WITHIN_S,
-    )  # fmt: skip
+    )
     with door(f"http://{HOST}:{port}{ENTRANCE}?key={guard.key}&tab={wish.tab}") as file:
         try:
             _end_kindly()

@@ -12,7 +12,7 @@ from roslings_launcher import sizes
 from roslings_launcher.bytecode import compile_packages
 from roslings_launcher.errors import Trouble, say, wrapped
 from roslings_launcher.installing import TOOLS, Installer
-from roslings_launcher.interfaces import GROUP, Interfaces
+from roslings_launcher.interfaces import GENERATORS, GROUP, Interfaces
 from roslings_launcher.lock import locked
 from roslings_launcher.machine import require_wheels, this_machine
 from roslings_launcher.packages import forget_damaged
@@ -99,27 +99,25 @@ class _Work:
         self.virtual.moved_from(old / self.place.name)
         self.virtual.see(self.place.root)
         if self.virtual.runs() and not forget_damaged(self.virtual.site):
-            if GROUP in groups:
-                self._interfaces().name_headers()
+            if GENERATORS in groups:
+                self._interfaces().build.prepare()
             compile_packages(self.virtual)  # a copy may have given its files new times
             self.record.write(groups, self._installer().libraries())
 
     def _make(self) -> None:
         started_s = time.monotonic()
-        if GROUP in self.request.groups:
-            self._interfaces().require_compiler()
+        if GENERATORS in self._with_generators(self.request.groups):
+            self._interfaces().build.require_compiler()
         if not self.virtual.runs():
             self._start_anew()
         elif not self.record.complete or self.record.is_added_to:
             say("The last set-up was interrupted. Mending it.")
             forget_damaged(self.virtual.site)
         self.virtual.see(self.place.root)
-        groups = {*self.record.groups, *self.request.groups}
-        self._install(self._to_install())
-        if GROUP in groups:
-            self._interfaces().build()
+        self._install([group for group in self._wanted() if group not in self._from_ros()])
+        self._provide_interfaces()
         compile_packages(self.virtual)
-        self.record.write({TOOLS, *groups}, self._installer().libraries())
+        self.record.write({TOOLS, *self._wanted()}, self._installer().libraries())
         say(f"The environment is ready, after {time.monotonic() - started_s:.0f} s.\n")
 
     def _start_anew(self) -> None:
@@ -128,15 +126,30 @@ class _Work:
         say(f"Making the environment in {self.place.name}, once.")
         self.virtual.make(python, sees_system=self.ros is not None)
 
-    def _to_install(self) -> list[str]:
-        """The groups wanted now or before, without those that the sourced ROS brings."""
-        wanted = [*self.request.groups, *sorted(self.record.groups - set(self.request.groups))]
-        return [group for group in wanted if group not in self._from_ros()]
+    def _wanted(self) -> list[str]:
+        """The groups wanted now or before."""
+        before = sorted(self.record.groups - set(self.request.groups))
+        return self._with_generators([*self.request.groups, *before])
+
+    def _with_generators(self, groups: Sequence[str]) -> list[str]:
+        """And what builds the message types that do not come built, where such are wanted."""
+        builds = GROUP in groups and GENERATORS not in groups and self._interfaces().to_build
+        return [*groups, GENERATORS] if builds else [*groups]
+
+    def _provide_interfaces(self) -> None:
+        interfaces = self._interfaces()
+        if GENERATORS in self.request.groups:
+            interfaces.build.require_headers()
+        if GROUP in self._wanted():
+            interfaces.provide()
+        if GENERATORS in self._wanted():
+            interfaces.build.prepare()
 
     def _from_ros(self) -> set[str]:
         if not self.ros:
             return set()
-        return {"ros", GROUP, "colcon"} if shutil.which("colcon") else {"ros", GROUP}
+        brought = {"ros", GROUP, GENERATORS}
+        return {*brought, "colcon"} if shutil.which("colcon") else brought
 
     def _install(self, groups: Sequence[str]) -> None:
         installer = self._installer()

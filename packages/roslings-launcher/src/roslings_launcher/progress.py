@@ -79,7 +79,11 @@ def _tell(told: Callable[[], str], ended: threading.Event) -> None:
     moves, began_s = sys.stderr.isatty(), time.monotonic()
     while not ended.wait(_EVERY_S * 5 if moves else _PLAIN_EVERY_S):
         line = f"  {told()}, {time.monotonic() - began_s:.0f} s"
-        print(f"\r\033[K{line}" if moves else line, end="" if moves else "\n",
-              file=sys.stderr, flush=True)  # fmt: skip
+        print(
+            f"\r\033[K{line}" if moves else line,
+            end="" if moves else "\n",
+            file=sys.stderr,
+            flush=True,
+        )
     if moves:
         print("\r\033[K", end="", file=sys.stderr, flush=True)

@@ -41,7 +41,10 @@ def readiness(
     if machine.system == "Windows":
         return [_no_shell(machine)]
     path = environment.get("PATH", os.defpath)
-    return [_system(machine), *_ros(machine, environment, root), _compiler(path), _disk(folder)]
+    seen = [_system(machine), *_ros(machine, environment, root)]
+    if environment.get("ROS_DISTRO"):  # else the course's own message types come built with it
+        seen.append(_compiler(path))
+    return [*seen, _disk(folder)]
 
 
 def _no_shell(machine: Machine) -> Line:
@@ -91,7 +94,7 @@ def _compiler(path: str) -> Line:
         return Line(True, "a C++ compiler")
     return Line(
         False,
-        "a C++ compiler. Only labs with message types of their own need one (day 5).",
+        "a C++ compiler. Beside an installed ROS, day 5 needs one: it builds message types.",
         ("On Ubuntu and Debian: sudo apt install build-essential",),
     )
 

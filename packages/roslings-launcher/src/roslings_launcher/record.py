@@ -5,7 +5,7 @@
     entry_points.txt  what the course's own packages offer, file behind file
     groups/NAME       an empty file for each group that is installed
     libraries         what LD_LIBRARY_PATH needs for the ROS wheels; empty without them
-    interfaces/       the sources of the labs' own message types, as they were built
+    interfaces/       the course's own message types as they were put there: sources, built ones
     bytecode          an empty file: all packages are compiled
 
 The script `./roslings` reads the same files. A record is there only while all of it is true: it
@@ -21,7 +21,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from roslings_launcher.interfaces import GROUP, files_of
+from roslings_launcher.interface_sources import files_of
+from roslings_launcher.interfaces import GROUP
 from roslings_launcher.place import Place
 from roslings_launcher.sources import OFFERS, offers_as_written
 

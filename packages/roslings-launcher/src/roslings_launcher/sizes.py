@@ -17,4 +17,5 @@ def megabytes(python: tuple[int, int], groups: Iterable[str]) -> float | None:
     """What `groups` download on `python`, or None where nobody has measured it."""
     table = read().get(".".join(map(str, python)), {})
     known = [table.get(group) for group in groups]
-    return sum(mb for mb in known if mb is not None) if all(known) else None
+    measured = [mb for mb in known if mb is not None]
+    return sum(measured) if len(measured) == len(known) else None

@@ -13,9 +13,17 @@ from roslings_launcher.errors import Trouble, disk_full
 from roslings_launcher.sources import OFFERS, offers, seen_by_python
 
 COMMANDS = (
-    "ros2", "rqt", "rqt_console", "rqt_graph", "rqt_image_view", "rqt_plot", "rqt_publisher",
-    "rqt_reconfigure", "rqt_topic", "rviz2",
-)  # fmt: skip
+    "ros2",
+    "rqt",
+    "rqt_console",
+    "rqt_graph",
+    "rqt_image_view",
+    "rqt_plot",
+    "rqt_publisher",
+    "rqt_reconfigure",
+    "rqt_topic",
+    "rviz2",
+)
 _COMMAND = """#!/bin/sh
 # `{name}` of roslings, for machines where the real one is not installed.
 exec {script} {name} "$@"

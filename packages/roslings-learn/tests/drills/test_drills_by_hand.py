@@ -73,16 +73,29 @@ class Terminal:
         for name in ("home", "log", "tmp"):
             (self.folder / name).mkdir(exist_ok=True)
         own = {
-            "HOME": str(self.home), "ROS_DOMAIN_ID": str(self.domain), "TERM": "dumb",
-            "ROS_LOG_DIR": str(self.folder / "log"), "TMPDIR": str(self.folder / "tmp"),
-            "PATH": os.environ["PATH"], "PYTHONDONTWRITEBYTECODE": "1", "PYTHONUNBUFFERED": "1",
-        }  # fmt: skip
+            "HOME": str(self.home),
+            "ROS_DOMAIN_ID": str(self.domain),
+            "TERM": "dumb",
+            "ROS_LOG_DIR": str(self.folder / "log"),
+            "TMPDIR": str(self.folder / "tmp"),
+            "PATH": os.environ["PATH"],
+            "PYTHONDONTWRITEBYTECODE": "1",
+            "PYTHONUNBUFFERED": "1",
+        }
         typed = f"source '{root()}/setup.bash'; exec {RUNNERS[file.suffix]} {file.name}"
         output = self.folder / f"{file.stem}.txt"
-        with output.open("wb") as said, subprocess.Popen(
-            ["bash", "--norc", "-c", typed], cwd=file.parent, env=own, start_new_session=True,
-            stdin=subprocess.DEVNULL, stdout=said, stderr=subprocess.STDOUT,
-        ) as process:  # fmt: skip
+        with (
+            output.open("wb") as said,
+            subprocess.Popen(
+                ["bash", "--norc", "-c", typed],
+                cwd=file.parent,
+                env=own,
+                start_new_session=True,
+                stdin=subprocess.DEVNULL,
+                stdout=said,
+                stderr=subprocess.STDOUT,
+            ) as process,
+        ):
             try:
                 yield Program(process, output)
             finally:
@@ -251,9 +264,13 @@ def test_what_runs_beside_comes_along_and_is_told(one: Drill, tmp_path: Path) ->
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("line", "outcome"),
-    [("export ROBOT=rover", "pass"), ("ROBOT=rover; export ROBOT", "pass"), ("ROBOT=rover", "fail"),
-     ("export ROBOT=tower", "fail")],
-)  # fmt: skip
+    [
+        ("export ROBOT=rover", "pass"),
+        ("ROBOT=rover; export ROBOT", "pass"),
+        ("ROBOT=rover", "fail"),
+        ("export ROBOT=tower", "fail"),
+    ],
+)
 def test_each_way_to_hand_on_a_variable_mends_the_drill(
     line: str, outcome: str, tmp_path: Path
 ) -> None:

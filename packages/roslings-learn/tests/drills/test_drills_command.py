@@ -26,9 +26,13 @@ class Student:
     def types(self, *words: str) -> subprocess.CompletedProcess[str]:
         """One command, to its end."""
         return subprocess.run(
-            [sys.executable, "-m", "roslings", *words], cwd=root(), capture_output=True, text=True,
-            check=False, env={**os.environ, "ROSLINGS_WS": str(self.workspace), "COLUMNS": "80"},
-        )  # fmt: skip
+            [sys.executable, "-m", "roslings", *words],
+            cwd=root(),
+            capture_output=True,
+            text=True,
+            check=False,
+            env={**os.environ, "ROSLINGS_WS": str(self.workspace), "COLUMNS": "80"},
+        )
 
     def file(self, name: str) -> Path:
         """Theirs of a drill."""

@@ -7,25 +7,9 @@ import shutil
 from pathlib import Path
 
 import pytest
-from fresh import in_fresh_process
+from changed_drills import changed, check
 
-from roslings_learn.drills import Drill, drill, running
-from roslings_learn.drills.judging import DrillVerdict
-
-
-def check(one: Drill, file: Path) -> DrillVerdict:
-    """The verdict on the program in `file`."""
-    return in_fresh_process(running.check, one, file)
-
-
-def changed(tmp_path: Path, name: str, before: str, after: str, of: str = "starter") -> Path:
-    """A program of a drill with one thing changed."""
-    source = getattr(drill(name), of)
-    file = tmp_path / source.name
-    text = source.read_text("utf-8")
-    assert text.count(before) == 1
-    file.write_text(text.replace(before, after), "utf-8")
-    return file
+from roslings_learn.drills import Drill, drill
 
 
 def test_a_file_that_python_cannot_read_is_not_run(tmp_path: Path) -> None:
@@ -67,7 +51,7 @@ def test_a_wrong_answer_is_told_without_the_right_one(tmp_path: Path) -> None:
     """The right one is for the student to find."""
     file = changed(tmp_path, "full_name", "ANSWER = None", "ANSWER = '/wheel'")
     verdict = check(drill("full_name"), file)
-    assert verdict.first and verdict.first.fault == "WrongAnswer"
+    assert verdict.first and verdict.first.fault == "WrongPrediction"
     assert "/left/front/wheel" not in verdict.first.model_dump_json()
 
 
@@ -108,7 +92,55 @@ def test_a_wrong_sum_is_told_with_both_numbers(tmp_path: Path) -> None:
     file = changed(tmp_path, "doubler", "* 2", "+ 2", of="solution")
     verdict = check(drill("doubler"), file)
     assert verdict.first and verdict.first.fault == "WrongReaction"
-    assert verdict.headline == "after /number (data: 2.5), /doubled carries data: 4.5"
+    assert verdict.headline == "after data 2.5 on /number: data 4.5 on /doubled"
+
+
+def with_card(tmp_path: Path, name: str, before: str, after: str) -> Drill:
+    """A drill with one word of its card changed."""
+    one = drill(name)
+    folder = tmp_path / one.folder.name
+    shutil.copytree(one.folder, folder)
+    card = folder / "drill.yaml"
+    text = card.read_text("utf-8")
+    assert before in text
+    card.write_text(text.replace(before, after), "utf-8")
+    return Drill(one.name, one.day, one.number, folder)
+
+
+TYPE = "type: std_msgs/msg/Float64, "
+
+
+@pytest.mark.parametrize(
+    ("within", "outcome"), [(TYPE, "fail"), (f"{TYPE}numbers_within: 0.01, ", "pass")]
+)
+def test_a_card_says_how_far_off_a_number_may_be(tmp_path: Path, within: str, outcome: str) -> None:
+    """As the card of a lab does."""
+    file = changed(tmp_path, "doubler", "* 2", "* 2.001", of="solution")
+    one = with_card(tmp_path, "doubler", f"{TYPE}fields", f"{within}fields")
+    assert check(one, file).outcome == outcome
+
+
+def test_what_hears_another_type_is_told_nothing(tmp_path: Path) -> None:
+    """A message of the card does not fit into it."""
+    source = drill("doubler").solution.read_text("utf-8")
+    file = tmp_path / "doubler.py"
+    file.write_text(
+        source.replace("import Float64", "import Float64, Int32").replace(
+            'Float64, "number"', 'Int32, "number"'
+        )
+    )
+    verdict = check(drill("doubler"), file)
+    assert verdict.first and verdict.first.fault == "WrongType"
+    assert "std_msgs/msg/Int32" in verdict.headline
+
+
+def test_an_answer_that_does_not_come_is_told_with_its_case(tmp_path: Path) -> None:
+    """A node that hears, and says nothing."""
+    before = "self.publisher.publish(Float64(data=message.data * 2))"
+    file = changed(tmp_path, "doubler", before, "pass", of="solution")
+    verdict = check(drill("doubler"), file)
+    assert verdict.first and verdict.first.fault == "DoesNotReact"
+    assert verdict.headline == "after data 2.5 on /number: no message on /doubled"
 
 
 OWN_CHECK = """

@@ -61,16 +61,24 @@ YOURS, OURS = "a = 1\nb = 2\nprint(a)\n", "a = 1\nb = 3\nc = 4\nprint(a)\n"
 def test_there_is_room_for_two_columns() -> None:
     """A line that differs is marked; what only one of both has stands alone."""
     assert list(beside(YOURS, OURS, 40)) == [
-        "yours    | ours", "a = 1    | a = 1", "b = 2    > b = 3", "         > c = 4",
+        "yours    | ours",
+        "a = 1    | a = 1",
+        "b = 2    > b = 3",
+        "         > c = 4",
         "print(a) | print(a)",
-    ]  # fmt: skip
+    ]
 
 
 def test_there_is_room_for_one_column() -> None:
     """As `diff` shows it."""
     assert list(beside(YOURS, OURS, 15)) == [
-        "- yours   + ours", "  a = 1", "- b = 2", "+ b = 3", "+ c = 4", "  print(a)",
-    ]  # fmt: skip
+        "- yours   + ours",
+        "  a = 1",
+        "- b = 2",
+        "+ b = 3",
+        "+ c = 4",
+        "  print(a)",
+    ]
 
 
 def test_what_could_steer_the_terminal_is_shown() -> None:
@@ -158,9 +166,14 @@ def test_no_path_of_a_room_is_told() -> None:
     """The student's file has another folder."""
     room = "/tmp/roslings-x/room/install/"
     first = CheckResult(
-        id="runs", title="It runs.", outcome="fail", points=0, max_points=0,
-        measured=f"it ended: {room}01_no_spin.py", log=(f'  File "{room}01_no_spin.py", line 3',),
-    )  # fmt: skip
+        id="runs",
+        title="It runs.",
+        outcome="fail",
+        points=0,
+        max_points=0,
+        measured=f"it ended: {room}01_no_spin.py",
+        log=(f'  File "{room}01_no_spin.py", line 3',),
+    )
     told = DrillVerdict("no_spin", "fail", (), first).without(room)
     assert told.first and told.first.log == ('  File "01_no_spin.py", line 3',)
     assert told.headline == "it ended: 01_no_spin.py"

@@ -54,9 +54,10 @@ class Kernel:
             "XDG_CACHE_HOME": str(Path("~/.cache").expanduser()),  # matplotlib's list of fonts
         }
         self.manager = KernelManager(
-            kernel_name=KERNEL, kernel_spec_manager=_specs(folder),
+            kernel_name=KERNEL,
+            kernel_spec_manager=_specs(folder),
             connection_file=str(folder / f"connection-{time.monotonic_ns()}.json"),
-        )  # fmt: skip
+        )
         self.manager.start_kernel(
             cwd=str(folder), env={**kept, **names, "ROSLINGS_WS": str(folder / "ws"), **variables}
         )

@@ -138,6 +138,16 @@ with session() as ros:
     assert drawn[2].startswith(b"\x89PNG")
 
 
+def test_a_cells_rover_is_the_only_one_in_its_domain(cells: Kernel) -> None:
+    """Beside the rover of a terminal it does not start, and says what to do."""
+    cells.run("from roslings_rover.rover.one_rover import rover_of_terminal")
+    there = cells.run("with session() as ros, rover_of_terminal():\n    ros.rover()")
+    assert there.error == "RoverThere" and "End the other one: with Ctrl-C" in there.told
+    assert len(there.trace) == 2
+    alone = cells.run("with session() as ros:\n    ros.rover()")
+    assert alone.error == ""
+
+
 IMAGE = """
 from sensor_msgs.msg import Image
 image = Image(width=2, height=1, encoding="bgr8", step=8, data=bytes([255, 0, 0, 0, 0, 255, 9, 9]))
@@ -233,9 +243,12 @@ def test_a_kernel_without_ros_is_told_in_a_line() -> None:
     )
     environment = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
     done = subprocess.run(
-        [sys.executable, "-I", "-S", "-c", source], env=environment, capture_output=True,
-        text=True, check=False,
-    )  # fmt: skip
+        [sys.executable, "-I", "-S", "-c", source],
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     last = done.stderr.splitlines()[-1]
     assert "NoRos" in last and "./roslings lab" in last
 
@@ -244,7 +257,41 @@ def test_importing_is_quiet_outside_of_notebooks() -> None:
     """A program that imports it gets no IPython."""
     source = "import roslings_learn.notebook, sys; print('IPython' in sys.modules)"
     done = subprocess.run(
-        [sys.executable, "-c", source], capture_output=True, text=True, check=True,
+        [sys.executable, "-c", source],
+        capture_output=True,
+        text=True,
+        check=True,
         env={**os.environ, "PYTHONPATH": python_path()},
-    )  # fmt: skip
+    )
     assert done.stdout.strip() == "False"
+
+
+def test_the_desk_of_a_window_stands_below_the_cell(cells: Kernel) -> None:
+    """In the domain of this notebook, behind the server's own address."""
+    ran = cells.run("""
+import os
+from roslings_learn.notebook import desk
+os.environ["ROSLINGS_WINDOW"] = "/user/ann/"
+with session() as ros:
+    print(ros.context.get_domain_id())
+desk("graph")
+del os.environ["ROSLINGS_WINDOW"]
+""")
+    assert ran.error == "", ran
+    (shown,) = ran.shown
+    assert f'src="/user/ann/roslings/desk/{ran.text.strip()}/graph"' in shown["text/html"]
+    wrong = cells.run("desk('plott')")
+    assert wrong.error == "NoSuchTab" and "It has: rover, graph, topics, plot" in wrong.told
+
+
+def test_elsewhere_the_desk_is_a_program_beside_the_cell(cells: Kernel) -> None:
+    """It says where its page is. The next one takes its place, and it ends with the kernel."""
+    ran = cells.run("os.environ['BROWSER'] = 'true'\ndesk()\ndesk('plot')")
+    assert ran.error == "", ran
+    assert ran.text.count("The desk is open. Its page, for a browser of yours: file://") == 2
+    there = cells.run("""
+import psutil
+words = [child.cmdline() for child in psutil.Process().children(recursive=True)]
+print(sorted(each[-1] for each in words if "desk" in each))
+""")
+    assert there.text.strip() == "['plot']"

@@ -13,6 +13,7 @@ from kernels import Kernel, Ran, kernel
 from test_notebook_cells import alt_of, content_of
 
 from roslings.course import lab, root
+from roslings_rover.models.rooms import room_of
 
 pytestmark = pytest.mark.slow
 PAGE = (root() / "site/pages/reference/my-rover.md").read_text("utf-8")
@@ -57,11 +58,21 @@ def test_one_call_shows_the_own_rover(cells: Kernel) -> None:
 
 def test_the_pages_cells_run_as_they_stand_there(cells: Kernel) -> None:
     """The one call, and the rover that drives beside the lines of a cell."""
-    assert len(CELLS) == 2
-    for code in CELLS:
+    assert len(CELLS) == 3
+    for code in CELLS[:2]:
         words, _ = drawn(cells.run(code))
         assert "Your rover's map." in words and "voice" in words
     assert left_behind() == ""
+
+
+def test_the_pages_rover_bumps_in_its_room(cells: Kernel) -> None:
+    """Its map is that of the room; the bump is told in words and counted."""
+    ran = cells.run(CELLS[2])
+    words, picture = drawn(ran)
+    assert re.search(r"^The rover's map\. It is at x .* It has bumped once\.$", words), words
+    assert "bumps: 1" in ran.text
+    obstacles = len(room_of(17).world.obstacles)
+    assert picture.count(b'class="obstacle"') == obstacles and b">moves<" in picture
 
 
 def test_the_parts_of_a_day_alone(cells: Kernel) -> None:

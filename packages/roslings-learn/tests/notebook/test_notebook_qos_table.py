@@ -16,8 +16,10 @@ WEAKEST = {rule.name: rule.choices[0].words for rule in RULES}
 STRONGEST = {rule.name: rule.choices[-1].words for rule in RULES}
 PAIRS = [
     pytest.param(rule, o.words, a.words, id=f"{rule.title}: {o.words}, {a.words}")
-    for rule in RULES for o in rule.choices for a in rule.choices
-]  # fmt: skip
+    for rule in RULES
+    for o in rule.choices
+    for a in rule.choices
+]
 
 
 @pytest.mark.parametrize(("rule", "offered", "asked"), PAIRS)

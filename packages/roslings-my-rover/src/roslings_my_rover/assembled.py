@@ -25,8 +25,13 @@ from roslings_rover.rover.rover import Rover
 
 LOOK_EVERY_S = 0.2
 NOTICE_LASTS_S = 6.0
-OF_ROS = ("ROS_DOMAIN_ID", "ROS_AUTOMATIC_DISCOVERY_RANGE", "RMW_IMPLEMENTATION",
-          "FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_BUILTIN_TRANSPORTS")  # fmt: skip
+OF_ROS = (
+    "ROS_DOMAIN_ID",
+    "ROS_AUTOMATIC_DISCOVERY_RANGE",
+    "RMW_IMPLEMENTATION",
+    "FASTRTPS_DEFAULT_PROFILES_FILE",
+    "FASTDDS_BUILTIN_TRANSPORTS",
+)
 """Variables by which the parts and the rover find each other."""
 
 
@@ -155,9 +160,14 @@ def assembled(
         board = stack.enter_context(_board(rover)) if CABLE in parts else None
         device = stack.enter_context(_camera(rover, home)) if EYES in parts else None
         crew = Crew(
-            built, environment(home), home, board.name if board else "", str(device or ""),
-            wish.follows, home / NAME if wish.keeps_bag else None,
-        )  # fmt: skip
+            built,
+            environment(home),
+            home,
+            board.name if board else "",
+            str(device or ""),
+            wish.follows,
+            home / NAME if wish.keeps_bag else None,
+        )
         node = MyRover(
             rover, by_keys=wish.by_keys, wiring=crew.wiring.robot, more_keys=wish.more_keys
         )

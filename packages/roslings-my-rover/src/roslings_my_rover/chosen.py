@@ -115,16 +115,22 @@ def _insist_on_days(borrowed: Collection[int], labs: dict[str, Lab]) -> None:
             raise CannotBorrow(day, f"its lab is no part of the rover. Those of days {known} are.")
         if not days[day].solution.is_dir():
             raise CannotBorrow(
-                day, "this is the students' edition, without solutions. Do its lab first:"
+                day,
+                "this is the students' edition, without solutions. Do its lab first:"
                 f" {program()} start {days[day].name}",
-            )  # fmt: skip
+            )
 
 
 def told(choice: Choice) -> Iterator[str]:
     """A line a part: `day 7  eyes  pi-camera  60 of 100`, for `--parts`."""
     lines = [(day_number(each.lab), _there(each)) for each in choice.there]
-    lines += [(day_number(each.lab), f"{each.part.name:8} not there yet"
-               f"   {program()} start {each.lab.name}") for each in choice.absent]  # fmt: skip
+    lines += [
+        (
+            day_number(each.lab),
+            f"{each.part.name:8} not there yet   {program()} start {each.lab.name}",
+        )
+        for each in choice.absent
+    ]
     for day, line in sorted(lines):
         yield f"day {day:2}  {line}".rstrip()
 

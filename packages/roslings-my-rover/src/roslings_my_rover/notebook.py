@@ -17,6 +17,7 @@ from roslings_my_rover.assembled import Assembled, Wish, assembled, started
 from roslings_my_rover.chosen import Choice, NoPart, chosen
 from roslings_rover.models.differential_drive import Pose
 from roslings_rover.rover.moving_map import moving_map
+from roslings_rover.rover.one_rover import rover_of_cell
 from roslings_rover.rover.rover import Moment
 
 
@@ -26,6 +27,7 @@ class LiveMyRover:
     def __init__(self, choice: Choice, wish: Wish) -> None:
         self._running, self._stopping = ExitStack(), threading.Event()
         with ExitStack() as stack:
+            stack.enter_context(rover_of_cell())
             self._made: Assembled = stack.enter_context(assembled(choice, wish, print, print))
             stack.enter_context(started(self._made))
             self._thread = threading.Thread(target=self._run, name="my rover", daemon=True)
@@ -86,13 +88,17 @@ class LiveMyRover:
 
 
 def start(
-    day: int | None = None, *, borrow: Collection[int] = (), todays: bool = False,
-    follow: bool = False, seed: int = 0,
-) -> LiveMyRover:  # fmt: skip
+    day: int | None = None,
+    *,
+    borrow: Collection[int] = (),
+    todays: bool = False,
+    follow: bool = False,
+    seed: int = 0,
+) -> LiveMyRover:
     """Build and start the parts, those up to a `day`; returns when all programs are started.
 
     The options are those of `./roslings my-rover`. Without a word about the range, only this
-    computer hears it. Raises NoPart, CannotBorrow, and what a build raises.
+    computer hears it. Raises NoPart, CannotBorrow, RoverThere, and what a build raises.
     """
     os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
     choice = chosen(day, borrow, todays)

@@ -24,18 +24,23 @@ class Part:
 
 VOICE = Part("voice", "nodes", ("minimal_publisher",), "says its status over its head")
 SONAR = Part(
-    "sonar", "distance-sensor", ("distance_sensor", "distance_subscriber"),
+    "sonar",
+    "distance-sensor",
+    ("distance_sensor", "distance_subscriber"),
     "brakes before a wall",
-)  # fmt: skip
+)
 PACE = Part("pace", "services", ("motor_controller",), "drives slowly when it is told to")
 PILOT = Part("pilot", "actions", ("drive_server",), "drives to a point by itself")
 CABLE = Part("cable", "serial-bridge", ("serial_bridge",), "drives its wheels through the Arduino")
 EYES = Part("eyes", "pi-camera", ("camera", "ball_finder"), "sees the ball")
 LIMITER = Part("limiter", "bring-up", ("speed_limiter", "beacon"), "keeps to a limit of its own")
 GUARD = Part(
-    "guard", "e-stop", ("e_stop_button", "guard"), "stops when the button is pressed",
+    "guard",
+    "e-stop",
+    ("e_stop_button", "guard"),
+    "stops when the button is pressed",
     holds_its_place=True,
-)  # fmt: skip
+)
 PARTS = (VOICE, SONAR, PACE, PILOT, CABLE, EYES, LIMITER, GUARD)
 """In the order of the days. The talker and the black box are no parts: one only chats, the other
 reads what the rover has left behind."""

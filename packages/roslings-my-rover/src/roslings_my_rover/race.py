@@ -114,8 +114,9 @@ def result(entrants: Sequence[Entrant]) -> str:
     first = home[0]
     others = [each for each in entrants if each is not first]
     if min(_time_s(each) for each in others) - _time_s(first) > DEAD_HEAT_S:
-        return " ".join([f"{first.colour.capitalize()} wins: {_time_s(first):.1f} s.",
-                         *map(_later, home[1:])])  # fmt: skip
+        return " ".join(
+            [f"{first.colour.capitalize()} wins: {_time_s(first):.1f} s.", *map(_later, home[1:])]
+        )
     if len(home) < len(entrants):
         return ""
     times = ", ".join(f"{each.colour} {_time_s(each):.1f} s" for each in home)

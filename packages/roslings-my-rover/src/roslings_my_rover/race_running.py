@@ -12,7 +12,7 @@ from pathlib import Path
 from ros2_on_pip.errors import RoslingsError
 from roslings.arena import Launch, Process
 from roslings.experiment.run_folder import run_folder
-from roslings.report import Progress
+from roslings.report.progress import Progress
 from roslings.typed import program
 from roslings_my_rover.assembled import environment
 from roslings_my_rover.chosen import Choice, Chosen

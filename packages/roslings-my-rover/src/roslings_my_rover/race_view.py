@@ -157,9 +157,13 @@ class RaceWindow:
         yield from self._axes.plot([p.x_m for p in path], [p.y_m for p in path], color=colour)
         yield from draw_rover(rover.rover, self._axes, colour)
         yield self._axes.annotate(
-            heard(rover), (rover.rover.pose.x_m, rover.rover.pose.y_m), xytext=(0, 12),
-            textcoords="offset points", ha="center", parse_math=False,
-        )  # fmt: skip
+            heard(rover),
+            (rover.rover.pose.x_m, rover.rover.pose.y_m),
+            xytext=(0, 12),
+            textcoords="offset points",
+            ha="center",
+            parse_math=False,
+        )
 
 
 class RaceTerminal:

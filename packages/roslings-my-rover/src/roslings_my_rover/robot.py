@@ -98,9 +98,12 @@ class MyRover(DrivenRover):
         from rclpy.qos import qos_profile_sensor_data
 
         return self._node.create_subscription(
-            class_of(steady.kind, "msg"), steady.link or steady.topic,
-            lambda _: self._silence.hear(steady.topic), qos_profile_sensor_data, raw=True,
-        )  # fmt: skip
+            class_of(steady.kind, "msg"),
+            steady.link or steady.topic,
+            lambda _: self._silence.hear(steady.topic),
+            qos_profile_sensor_data,
+            raw=True,
+        )
 
     def _close_links(self) -> None:
         for each in self._links:

@@ -7,13 +7,14 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 
-from roslings.report import Progress
+from roslings.report.progress import Progress
 from roslings_my_rover.assembled import Assembled, Wish, assembled, started
 from roslings_my_rover.chosen import Choice
 from roslings_my_rover.drive_bag import kept, require_place
 from roslings_my_rover.hands import TOLD, hands
 from roslings_rover.asked import listening
 from roslings_rover.rover.displays import Display, View, opened
+from roslings_rover.rover.one_rover import rover_of_terminal
 from roslings_rover.rover.rover import Rover
 from roslings_rover.rover.words import position
 
@@ -23,13 +24,14 @@ def run(
 ) -> Rover:
     """Run it until Ctrl-C; returns the rover as it then is. With `keeps_bag`, see `drive_bag`.
 
-    Raises NotOurBag, NoPart where there is nothing to carry, NoTerminal, NoWindow, and what a
-    board, a camera or a build raises.
+    Raises RoverInCell, NotOurBag, NoPart where there is nothing to carry, NoTerminal, NoWindow, and
+    what a board, a camera or a build raises.
     """
     if keeps_bag:
         require_place()
     wish = Wish(follows, keeps_bag, seed, keys, TOLD)
     with ExitStack() as stack:
+        stack.enter_context(rover_of_terminal())
         made = stack.enter_context(_told(choice, wish))
         look = stack.enter_context(hands(keys, made.shown.tell, made.pull, made.follow))
         asked = stack.enter_context(listening())

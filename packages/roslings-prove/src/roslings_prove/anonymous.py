@@ -70,8 +70,12 @@ def replacements() -> Iterator[Replacement]:
         "/grading",
     )  # arena's folder, wherever it lies
     yield r"(?<=/grading/devices/)tmp\w+", "it"
-    folders = {str(course.root()): "/course", sys.prefix: "/venv", sys.base_prefix: "/python",
-               str(Path.home()): "/home"}  # fmt: skip
+    folders = {
+        str(course.root()): "/course",
+        sys.prefix: "/venv",
+        sys.base_prefix: "/python",
+        str(Path.home()): "/home",
+    }
     for folder in sorted(filter(_is_a_place, folders), key=len, reverse=True):
         yield rf"{re.escape(folder)}(?!{IN_A_NAME})", folders[folder]
     yield rf"(?<=\d-){re.escape(socket.gethostname())}(?=-\d)", "computer"

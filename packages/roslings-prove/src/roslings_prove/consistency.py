@@ -38,9 +38,11 @@ def files_fit(lab: Lab) -> Iterator[Proof]:
     """All that must hold of a lab's files. What cannot be read is told, and the rest goes on."""
     seen = LabFiles(lab)
     asked = [
-        *ALL, *(WITH_CARD if seen.card else ()), *(WITH_SOLUTION if seen.solution else ()),
+        *ALL,
+        *(WITH_CARD if seen.card else ()),
+        *(WITH_SOLUTION if seen.solution else ()),
         *(WITH_GRADER if seen.checks else ()),
-    ]  # fmt: skip
+    ]
     for about, problems in asked:
         yield Proof(f"{lab.name}: {about}", "\n       ".join(problems(seen)))
     unread = "\n       ".join(seen.unread)

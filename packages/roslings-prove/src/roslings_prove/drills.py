@@ -48,7 +48,7 @@ class Program:
     def _wanted(self) -> tuple[str, str, str]:
         starter = self.drill.card.starter
         if self.name == "wrong answer":
-            return "foretold", "WrongAnswer", ""
+            return "foretold", "WrongPrediction", ""
         return starter.check, starter.fault, starter.names
 
     def problem(self, verdict: DrillVerdict) -> str:

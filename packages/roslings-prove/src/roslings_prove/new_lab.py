@@ -10,6 +10,7 @@ from pathlib import Path
 from roslings import course
 from roslings.course import CourseError, Lab
 from roslings.course.labs import EXAMPLE, example_root
+from roslings.lab_folders import GRADER, GRADERS, folder_beside
 from roslings.workspace.sources import files
 
 LAB_NAME, PACKAGE_NAME = re.compile(r"[a-z][a-z0-9-]*"), re.compile(r"[a-z][a-z0-9_]*")
@@ -58,12 +59,12 @@ def new_lab(name: str, package: str | None = None, day: str | None = None) -> La
     names = Names(name, package or name.replace("-", "_"), day or _last_day())
     _insist_on(names)
     folder = course.root() / "labs" / name
-    grader = course.root() / "graders" / f"grade_{name.replace('-', '_')}.py"
-    for path in (folder, grader):
+    grader = course.root() / GRADERS / f"{GRADER}{name.replace('-', '_')}.py"
+    for path in (folder, grader, folder_beside(grader)):
         if path.exists():
             raise CannotMake(f"{path} is there already. Give another name, or remove it first.")
     _copy(example_root() / "labs" / EXAMPLE, folder, names)
-    text = (example_root() / "graders" / f"grade_{EXAMPLE}.py").read_text("utf-8")
+    text = (example_root() / GRADERS / f"{GRADER}{EXAMPLE}.py").read_text("utf-8")
     grader.parent.mkdir(exist_ok=True)
     grader.write_text(names.put_into(text), "utf-8")
     return course.lab(name)

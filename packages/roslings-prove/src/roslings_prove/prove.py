@@ -266,9 +266,12 @@ class _ManyLabs(GradingRequest):
         """The order for one try of a submission."""
         package = self.packages[submission.name]
         own = {
-            "lab": package.lab.name, "clock": package.clock, "course": package.course,
-            "builds_as_kin": True, "soak_s": _soak_s_of(package),
-        }  # fmt: skip
+            "lab": package.lab.name,
+            "clock": package.clock,
+            "course": package.course,
+            "builds_as_kin": True,
+            "soak_s": _soak_s_of(package),
+        }
         return super().order(submission, digest, attempt).model_copy(update=own)
 
 
@@ -292,9 +295,13 @@ def graded(
     """Package's name to what came of it; the gradebook lies in `scratch`, a run's folder."""
     submissions = [Submission(each.name, each.make(scratch / "made")) for each in packages]
     request = _ManyLabs(
-        "", scratch, scratch / LOCK, keeps_evidence=keeps_evidence, life=life,
+        "",
+        scratch,
+        scratch / LOCK,
+        keeps_evidence=keeps_evidence,
+        life=life,
         packages={each.name: each for each in packages},
-    )  # fmt: skip
+    )
     (scratch / book).mkdir(exist_ok=True)  # a place outside of the scratch keeps what it has
     with gradebook(scratch / book, "labs") as results:
         scheduler = Scheduler(request, results, Capacity(fixed=jobs), watcher, still)

@@ -22,9 +22,14 @@ HOME = "index.html"
 RECORD = "made-of.txt"
 """In the site: what the course's texts were when it was made."""
 TEXTS = (
-    "days/**/*", "glossary/*", "site/**/*", "labs/*/task.md", "labs/*/card.yaml",
-    "labs/*/pictures/*", "packages/*/src/*/COMMANDS.md",
-)  # fmt: skip
+    "days/**/*",
+    "glossary/*",
+    "site/**/*",
+    "labs/*/task.md",
+    "labs/*/card.yaml",
+    "labs/*/pictures/*",
+    "packages/*/src/*/COMMANDS.md",
+)
 NO_TEXT = ("__pycache__", "html", ".ipynb_checkpoints")
 SCRIPT = "_static/progress.js"
 TELLS = "roslings.tell("
@@ -77,10 +82,11 @@ def yours(workspace: Path) -> dict[str, Any]:
     return {
         "labs": {
             name: {"score": lab.best, "passed": lab.done}
-            for name, lab in kept.labs.items() if lab.checks
+            for name, lab in kept.labs.items()
+            if lab.checks
         },
         "drills": {day: [done[day], of] for day, of in Counter(day for day, _ in there).items()},
-    }  # fmt: skip
+    }
 
 
 def tell(html: Path, workspace: Path) -> None:

@@ -1,7 +1,8 @@
 """What the engine knows of a kind of thing that a robot program does, and where it finds it.
 
-The rooms of the engine call no capability by its name: they ask here. A course of others brings
-its own by an entry point of the group `roslings.capability`:
+The rooms of the engine call no capability by its name: they ask here. What only one lab needs
+lies beside its grader (`lab_folders.py`), and its `__init__.py` has the `CAPABILITY`. What several
+courses use is a package of its own, with an entry point of the group `roslings.capability`:
 
     [project.entry-points."roslings.capability"]
     lifecycle = "my_course.lifecycle:CAPABILITY"
@@ -16,10 +17,12 @@ from collections.abc import Callable, Iterable, Mapping
 from contextlib import ExitStack
 from dataclasses import dataclass, field
 from functools import cache
-from importlib import import_module
 from importlib.metadata import EntryPoint, entry_points
+from pathlib import Path
 from typing import Any, Generic, TypeVar
 
+from roslings.course_folder import root
+from roslings.lab_folders import imported, lab_folders, module_of
 from roslings.record import PartSeen
 
 R = TypeVar("R", bound=PartSeen)
@@ -68,6 +71,9 @@ class Capability(Generic[R]):
     """Version n of the record to the step to n + 1."""
     in_schema_1: Mapping[str, str] = field(default_factory=dict)
     """Fields that evidence of schema 1 had for it, to the fields of the record today."""
+    formerly: Mapping[tuple[str, int], tuple[str, ...]] = field(default_factory=dict)
+    """Fields of its record, in version 1, that another capability's record had up to a version:
+    that one's name and version, to the fields."""
     words: Place | None = None
     """Its `Words`; None where a card says nothing of it."""
     sections: Place | None = None
@@ -109,38 +115,58 @@ BUILT_IN = {
         "camera",
         "serial",
         "robot",
-        "bags",
         "qos",
     )
 }
-"""Name to where it is; others come by entry points. None is imported before it is asked for."""
+"""Name to where it is; the others are found. None is imported before it is asked for."""
+ATTRIBUTE = "CAPABILITY"
+"""What a lab's own folder calls it."""
 
 
 def at(place: Place) -> Any:
-    """What is there. Raises ImportError and AttributeError where nothing is."""
+    """What is there. Raises ImportError, AttributeError, and BadLabFolder, where nothing is."""
     module, _, name = place.partition(":")
-    return getattr(import_module(module), name)
+    return getattr(imported(module), name)
 
 
-@cache
 def capability(name: str) -> Capability[Any] | None:
     """The capability of this name; None where nobody here has it."""
-    place = BUILT_IN.get(name)
-    if place is None:
-        found = _others().get(name)
-        return None if found is None else _loaded(found)
-    return at(place)  # type: ignore[no-any-return]
+    if name in BUILT_IN:
+        return _built_in(name)
+    return _others(root()).get(name)
 
 
 def capabilities() -> tuple[Capability[Any], ...]:
     """All that are here: the built-in ones first, in the order of the table."""
-    known = (capability(name) for name in (*BUILT_IN, *sorted(_others())))
-    return tuple(each for each in known if each is not None)
+    others = _others(root())
+    return (*map(_built_in, BUILT_IN), *(others[name] for name in sorted(others)))
+
+
+def of_labs() -> tuple[Capability[Any], ...]:
+    """Those that a lab of the course brings, in a folder beside its grader."""
+    return tuple(_of_folders(root()).values())
 
 
 @cache
-def _others() -> dict[str, EntryPoint]:
-    return {each.name: each for each in entry_points(group=GROUP) if each.name not in BUILT_IN}
+def _built_in(name: str) -> Capability[Any]:
+    return at(BUILT_IN[name])  # type: ignore[no-any-return]
+
+
+@cache
+def _others(course: Path) -> dict[str, Capability[Any]]:
+    """Those of packages, and those of a course's labs: a lab's own comes first."""
+    installed = (each for each in entry_points(group=GROUP) if each.name not in BUILT_IN)
+    return {**{each.name: _loaded(each) for each in installed}, **_of_folders(course)}
+
+
+@cache
+def _of_folders(course: Path) -> dict[str, Capability[Any]]:
+    """Of the course that is used now. Raises TypeError where one has the name of a built-in one."""
+    brought = (imported(module_of(folder)) for folder in lab_folders())
+    found = [vars(each)[ATTRIBUTE] for each in brought if ATTRIBUTE in vars(each)]
+    if taken := [each.name for each in found if each.name in BUILT_IN]:
+        raise TypeError(f"a lab's own capability is called {taken[0]!r}, as a built-in one is")
+    return {each.name: each for each in found}
 
 
 def _loaded(found: EntryPoint) -> Capability[Any]:

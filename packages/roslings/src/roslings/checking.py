@@ -44,7 +44,7 @@ class Ready:
 
         Raises MeasuringFailed, GraderBroke, and whatever reading and staging the package raises.
         """
-        from roslings.report import Progress
+        from roslings.report.progress import Progress
 
         with Progress(quiet=quiet) as progress:
             progress.step(f"Reading {shown(package)}")

@@ -282,7 +282,20 @@ def _read_parts(parts: Any) -> Any:
     """Each part as its capability has it; one that nobody here can read is kept whole."""
     if not isinstance(parts, Mapping):
         raise ValueError("the parts are no mapping of names")
-    return {name: _read_part(name, content) for name, content in parts.items()}
+    divided = {each: it for name, content in parts.items() for each, it in _own(name, content)}
+    return {name: _read_part(name, content) for name, content in divided.items()}
+
+
+def _own(name: str, content: Any) -> Iterator[tuple[str, Any]]:
+    """A part, and before it what others have a record of their own for since its version."""
+    known = capability(name)
+    version = content.get("v") if isinstance(content, Mapping) else None
+    if known is not None and isinstance(version, int) and version < known.version:
+        for each in capabilities():
+            fields = each.formerly.get((name, version), ())
+            if found := {one: content[one] for one in fields if content.get(one)}:
+                yield each.name, {"v": 1, **found}
+    yield name, content
 
 
 def _read_part(name: str, content: Any) -> PartSeen:

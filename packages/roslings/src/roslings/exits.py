@@ -120,9 +120,12 @@ def without_interrupt(seen: ProcessSeen) -> list[LogLine]:
 
 
 BEGINNINGS = (
-    "Traceback (most recent", "Exception ignored ", "Exception in thread", "During handling of ",
+    "Traceback (most recent",
+    "Exception ignored ",
+    "Exception in thread",
+    "During handling of ",
     "The above exception was",
-)  # fmt: skip
+)
 """How the lines begin that Python writes of an error that nobody catches, or of one in a chain."""
 LAUNCHED = re.compile(r"^\[[^\]\s]+-\d+\] ")
 """What `ros2 launch` writes before each line of a node."""

@@ -10,6 +10,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, Literal, overload
 
+from roslings.lab_folders import take_beside
+
 Clock = Literal["auto", "sim", "wall"]
 """Which clock rules: the simulated one, the wall's, or the simulated one where it is believed."""
 
@@ -67,7 +69,11 @@ def experiment(
 
 
 def load_grader(path: Path) -> ModuleType:
-    """Import a grader's file, once: the course's own code, never the student's."""
+    """Import a grader's file, once: the course's own code, never the student's.
+
+    What it imports from `graders` is the folder that lies beside it.
+    """
+    take_beside(path)
     return _loaded(path, path.stat().st_mtime_ns)
 
 

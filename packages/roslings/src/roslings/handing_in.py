@@ -39,8 +39,10 @@ def left_running(
         with mistakes_told(lab):
             evidence = measure(lab.name, package, files, choices, tell)
     except TROUBLE as trouble:
-        return ["Your nodes could not be run here, so nobody has seen that they stay:",
-                *str(trouble).splitlines()]  # fmt: skip
+        return [
+            "Your nodes could not be run here, so nobody has seen that they stay:",
+            *str(trouble).splitlines(),
+        ]
     return [*_told(lab, evidence)]
 
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,7 +17,7 @@ from roslings.workspace.student import package_of
 
 if TYPE_CHECKING:
     from roslings.course import Lab
-    from roslings.report import Refusal
+    from roslings.report.refusal import Refusal
 
 NOT_HERE = "It could not be graded on this machine."
 TELL = "Why, stands in the output of the autograder, which your instructor can read."
@@ -35,12 +36,17 @@ def for_others(options: argparse.Namespace) -> bool:
     return bool(asked - {"junit"}) or (in_ci and bool(asked))
 
 
+def writer_of(shape: str) -> Callable[[Verdict | Refusal, Path], None]:
+    """Writes a verdict, or why there is none, to a file; raises CannotWrite."""
+    module = import_module(f"roslings.report.{shape}")  # only what this shape needs
+    writer: Callable[[Verdict | Refusal, Path], None] = getattr(module, f"write_{shape}")
+    return writer
+
+
 def write_shapes(told: Verdict | Refusal, options: argparse.Namespace) -> None:
     """Write the verdict, or why there is none, for each platform. Raises CannotWrite."""
-    from roslings import report
-
     for name, path in shapes_asked(options).items():
-        getattr(report, f"write_{name}")(told, path)
+        writer_of(name)(told, path)
 
 
 class Ungradable(WorkspaceError):
@@ -85,7 +91,7 @@ def refusal_written(
 
 def refusal_of(lab: str, error: Exception, places: Iterable[Path]) -> Refusal:
     """What the student reads of an error: what is the machine's trouble is told the instructor."""
-    from roslings.report import Refusal
+    from roslings.report.refusal import Refusal
 
     if not isinstance(error, WorkspaceError) or isinstance(error, MachineTrouble):
         return Refusal(lab, NOT_HERE, TELL, is_students=False)

@@ -97,8 +97,8 @@ def free_name(path: Path) -> Path:
 
 def draw(graph: Graph, place: Path, everything: bool) -> None:
     """Write the picture. Raises NoMatplotlib, CannotSave."""
-    from roslings.report import CannotWrite, draw_graph
-    from roslings.report.graph_picture import NotAPng
+    from roslings.report.graph_picture import NotAPng, draw_graph
+    from roslings.report.whole_file import CannotWrite
 
     try:
         draw_graph(graph, place, title=TITLE, show_hidden=everything, overwrite=True)

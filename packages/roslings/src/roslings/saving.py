@@ -12,9 +12,9 @@ from ros2_on_pip.errors import RoslingsError
 from roslings.course import Lab
 from roslings.evidence import Evidence
 from roslings.experiment.run_folder import run_folder
-from roslings.report import write_json
 from roslings.report.evidence_folder import CannotKeepThere, fill, in_the_making, require_free
 from roslings.report.html import Asked, Reader, write_html
+from roslings.report.json_file import write_json
 from roslings.verdict import Verdict
 
 BAGS, VERDICT, PAGE = "bags", "verdict.json", "report.html"

@@ -35,8 +35,12 @@ VALUE = "{value}"
 OF_ALL = ("id", "title", "day", "needs", "package", "points", "groups")
 """What no student has alone: a lab is found, built and paid by it."""
 NOT_FOR_STUDENTS = (
-    "solution", "mutants", "promises.yaml", "generated.yaml", "variants_solution.yaml",
-)  # fmt: skip
+    "solution",
+    "mutants",
+    "promises.yaml",
+    "generated.yaml",
+    "variants_solution.yaml",
+)
 """Of a lab's folder: they hold answers."""
 _LEFT_OUT = (*NOT_FOR_STUDENTS, FILE, "__pycache__", ".*")
 """Of a student's own course: there is no second choice on top of the first."""

@@ -47,9 +47,12 @@ def behind_the_wall(source: str) -> str:
     script = BEHIND_THE_WALL + textwrap.dedent(source)
     command = [*BARE, str(ENTER), sys.executable, "-c", script]
     done = subprocess.run(
-        command, capture_output=True, text=True, check=False,
+        command,
+        capture_output=True,
+        text=True,
+        check=False,
         env={**os.environ, "PYTHONPATH": str(ROOT)},
-    )  # fmt: skip
+    )
     assert done.returncode == 0, done.stderr
     return done.stdout
 
@@ -169,9 +172,12 @@ def test_a_kernel_that_refuses_is_told_with_its_reason(monkeypatch: pytest.Monke
 def test_who_has_no_rights_is_told_so() -> None:
     """Without a user namespace of one's own, an ordinary user may make no network."""
     refused = subprocess.run(
-        [sys.executable, "-c", REFUSED], capture_output=True, text=True, check=False,
+        [sys.executable, "-c", REFUSED],
+        capture_output=True,
+        text=True,
+        check=False,
         env={**os.environ, "PYTHONPATH": str(ROOT)},
-    )  # fmt: skip
+    )
     assert refused.stdout.startswith("this computer cannot play two computers"), refused.stderr
     assert os.strerror(errno.EPERM) in refused.stdout
 

@@ -30,6 +30,13 @@ NUMBERS_OUTSIDE = """
                 if line.startswith(("Uid", "Gid")):
                     yield from line.split()[1:]
 
+    def says_it(pid, says):
+        try:
+            told = Path("/proc", pid, "cmdline").read_bytes()
+        except FileNotFoundError:  # somebody else's process, which has ended since it was listed
+            return False
+        return told.endswith(says.encode() + b"\\0") and pid != str(os.getpid())
+
     def look(walls, held, room, home):
         walls.enter(room, held)
         says = "import os; print(os.getuid(), os.getgid(), os.getgroups()); import rclpy; input()"
@@ -38,9 +45,7 @@ NUMBERS_OUTSIDE = """
         with Process("it", launch) as it:
             it.wait_until(lambda: bool(it.lines()), 60)
             print("inside", *(line.text for line in it.lines()))
-            there = [pid for pid in os.listdir("/proc") if pid.isdigit()
-                     and Path("/proc", pid, "cmdline").read_bytes().endswith(says.encode() + b"\\0")
-                     and pid != str(os.getpid())]
+            there = [pid for pid in os.listdir("/proc") if pid.isdigit() and says_it(pid, says)]
             print("outside", *sorted(set(numbers_of(there))))
 
     walls = isolation_for_strangers()

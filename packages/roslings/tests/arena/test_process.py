@@ -332,8 +332,10 @@ def test_nothing_outlives_an_arena_that_is_killed(tmp_path: Path, namespaces: bo
     """
     arena = subprocess.Popen(
         [sys.executable, "-c", textwrap.dedent(source)],
-        stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
-    )  # fmt: skip
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
     assert arena.stdout is not None
     wait_for(lambda: (tmp_path / "pid").exists())
     arena.kill()
@@ -381,7 +383,7 @@ def test_what_a_process_has_worked_is_counted_with_its_children(
     tmp_path: Path, namespaces: bool
 ) -> None:
     """Seconds of a processor: of those that run and of those that ended; none when it is gone."""
-    burn = "import time; [None for _ in iter(lambda: time.process_time() < 0.4, False)]"
+    burn = "import time; [None for _ in iter(lambda: time.process_time() < 0.45, False)]"
     children = f"import subprocess, sys; subprocess.run([sys.executable, '-c', {burn!r}])"
     source = f"{children}; print('done', flush=True); import time; time.sleep(1000)"
     with Process("it", launch(tmp_path, namespaces, *python(source))) as process:

@@ -24,9 +24,12 @@ def said_of(profile: Path) -> str:
         "RMW_FASTRTPS_PUBLICATION_MODE": "ASYNCHRONOUS",  # paced.xml asks for it
     }
     ran = subprocess.run(
-        [sys.executable, "-c", ONE_NODE], env=os.environ | told, capture_output=True, text=True,
+        [sys.executable, "-c", ONE_NODE],
+        env=os.environ | told,
+        capture_output=True,
+        text=True,
         check=False,
-    )  # fmt: skip
+    )
     assert ran.returncode == 0, ran.stderr
     return ran.stdout + ran.stderr
 

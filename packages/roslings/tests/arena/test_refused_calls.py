@@ -52,9 +52,13 @@ MAKES = """
     print("io_uring_setup", call(425, 0, None))
 """
 REFUSED = {
-    "unshare": "EPERM", "add_key": "EPERM", "keyctl": "EPERM", "ptrace": "EPERM",
-    "clone3": "ENOSYS", "io_uring_setup": "ENOSYS",
-}  # fmt: skip
+    "unshare": "EPERM",
+    "add_key": "EPERM",
+    "keyctl": "EPERM",
+    "ptrace": "EPERM",
+    "clone3": "ENOSYS",
+    "io_uring_setup": "ENOSYS",
+}
 
 
 COUNTED = {name: 1 for name, answer in REFUSED.items() if answer == "EPERM"}

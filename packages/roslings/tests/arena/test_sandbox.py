@@ -221,9 +221,12 @@ def test_many_processes_have_so_much_memory(sandbox: Sandbox, grouped: bool) -> 
     trees = sandbox.trees if grouped else ()
     bounds = replace(Bounds(), memory_bytes=160 * MB)
     launch = Launch(
-        [sys.executable, "-I", "-S", "-c", textwrap.dedent(HOGS)], {"PATH": os.defpath},
-        Path("/"), namespaces=True, sandbox=replace(sandbox, trees=trees, bounds=bounds),
-    )  # fmt: skip
+        [sys.executable, "-I", "-S", "-c", textwrap.dedent(HOGS)],
+        {"PATH": os.defpath},
+        Path("/"),
+        namespaces=True,
+        sandbox=replace(sandbox, trees=trees, bounds=bounds),
+    )
     with Process("it", launch) as process:
         process.wait_ended(2.0 if grouped else LONG_S)
     assert process.seen.bounds_met == ["memory"]

@@ -15,10 +15,14 @@ from roslings.arena.ways import APPARMOR, DEBIAN, MOST, Facts
 EVERY = [
     Facts(root, container, sudo, people, settings, new)
     for root, container, sudo, people, settings, new in product(
-        (False, True), (False, True), (False, True), ((), ("anna",)),
-        ({}, {APPARMOR: 1}, {DEBIAN: 0}, {MOST[1]: 0}), (False, True),
+        (False, True),
+        (False, True),
+        (False, True),
+        ((), ("anna",)),
+        ({}, {APPARMOR: 1}, {DEBIAN: 0}, {MOST[1]: 0}),
+        (False, True),
     )
-]  # fmt: skip
+]
 STEPS = (ways.to_namespaces, ways.to_a_sandbox, ways.to_bounds)
 
 
@@ -51,8 +55,10 @@ def test_what_the_kernel_forbids_is_named_with_its_mend() -> None:
 def test_no_more_namespaces_is_no_full_disk() -> None:
     """The kernel has one word for both."""
     none = Facts(is_root=False, settings={MOST[0]: 0})
-    for refusal in ("unshare: No space left on device",
-                    "bwrap: Creating new namespace failed: No space left on device"):  # fmt: skip
+    for refusal in (
+        "unshare: No space left on device",
+        "bwrap: Creating new namespace failed: No space left on device",
+    ):
         assert ways.in_words(refusal, none) == f"{MOST[0]} is 0"
         assert "disk" not in ways.in_words(refusal, Facts(is_root=False))
     assert ways.in_words("unshare: not permitted", none) == "unshare: not permitted"
@@ -65,11 +71,19 @@ def test_this_machine_is_looked_at() -> None:
     assert "root" not in here.people
 
 
-@pytest.mark.parametrize("home", [Path("/root"), Path("/home"), Path.home(),
-                                  *(Path(each.pw_dir) for each in pwd.getpwall()[:3])])  # fmt: skip
+@pytest.mark.parametrize(
+    "home",
+    [
+        Path("/root"),
+        Path("/home"),
+        Path.home(),
+        *(Path(each.pw_dir) for each in pwd.getpwall()[:3]),
+    ],
+)
 def test_nobody_is_told_to_open_a_home(home: Path) -> None:
     """What else lies there would be open, too."""
-    if any(home == Path(each.pw_dir) or home in Path(each.pw_dir).parents
-           for each in pwd.getpwall()):  # fmt: skip
+    if any(
+        home == Path(each.pw_dir) or home in Path(each.pw_dir).parents for each in pwd.getpwall()
+    ):
         assert "chmod" not in _closed(home).next_step
     assert "/opt" in _closed(home).next_step

@@ -17,9 +17,13 @@ def recorded(runs: Sequence[ExperimentSeen]) -> Evidence:
     """Evidence in which the last run counts."""
     *before, counted = runs
     return Evidence(
-        lab="topics", seed=0, machine=MACHINE, package=PACKAGE,
-        experiments={counted.name: counted}, attempts=before,
-    )  # fmt: skip
+        lab="topics",
+        seed=0,
+        machine=MACHINE,
+        package=PACKAGE,
+        experiments={counted.name: counted},
+        attempts=before,
+    )
 
 
 def view(runs: Sequence[ExperimentSeen]) -> ExperimentView:

@@ -72,11 +72,13 @@ def runs(ran: Ran) -> list[ExperimentSeen]:
     first.not_believed = ran.reason
     first.ticks = [
         Tick(
-            sim_ns=1_700_000_000 * NS + round(n * ran.step_s * NS), wall_ns=0,
-            at_ns=round(n * ran.tick_s * NS), kept_up=True,
+            sim_ns=1_700_000_000 * NS + round(n * ran.step_s * NS),
+            wall_ns=0,
+            at_ns=round(n * ran.tick_s * NS),
+            kept_up=True,
         )
         for n in range(ran.ticks)
-    ]  # fmt: skip
+    ]
     second = _run("wall", ran, [n / ran.hz for n in range(11)], ran.crashed[1])
     second.machine_fault = ran.machine_fault
     return [first, second]
@@ -91,14 +93,20 @@ def _run(
         for n, at in enumerate(round(time_s * NS) for time_s in times_s)
     ]
     process = ProcessSeen(
-        executable="talker", started_ns=0, asked_to_end_ns=None if crashed else 20 * NS,
-        ended_ns=20 * NS, status=1 if crashed else 0, ended_by_itself=crashed,
-    )  # fmt: skip
+        executable="talker",
+        started_ns=0,
+        asked_to_end_ns=None if crashed else 20 * NS,
+        ended_ns=20 * NS,
+        status=1 if crashed else 0,
+        ended_by_itself=crashed,
+    )
     seen = ExperimentSeen(
-        name="talking", clock=clock, graph=GraphSeen(nodes=["/talker"], endpoints=ends),
+        name="talking",
+        clock=clock,
+        graph=GraphSeen(nodes=["/talker"], endpoints=ends),
         topics={TOPIC: TopicSeen(name=TOPIC, type="String", messages=messages)},
         processes={"talker": process},
-    )  # fmt: skip
+    )
     return seen
 
 
@@ -116,28 +124,36 @@ SLOW = Ran(each_s=0.4, tick_s=0.08)
 REMARKS: dict[str, tuple[Ran, list[str]]] = {
     "a thread speaks by real time": (SLEEPS, [DOES_NOT_FOLLOW]),
     "nothing came while much simulated time went by": (
-        Ran(reason="no message came in 10 s of simulated time"), [DOES_NOT_FOLLOW],
+        Ran(reason="no message came in 10 s of simulated time"),
+        [DOES_NOT_FOLLOW],
     ),
     "it speaks while the clock stands still": (
-        Ran(ticks=1, each_s=0.5, pause_s=3.0, reason="it did not handle a step of the clock in"
-            " time"), [DOES_NOT_FOLLOW],
+        Ran(
+            ticks=1, each_s=0.5, pause_s=3.0, reason="it did not handle a step of the clock in time"
+        ),
+        [DOES_NOT_FOLLOW],
     ),
     "the computer was slow, and the timer was right": (SLOW, []),
     "slower than real time, so both say the same": (
-        replace(SLOW, each_s=0.52, tick_s=0.104, reason="it is slower than real time"), [],
+        replace(SLOW, each_s=0.52, tick_s=0.104, reason="it is slower than real time"),
+        [],
     ),
     "the experiment belongs on the wall": (
-        Ran(ticks=0, reason="it has no parameter services, which show that it keeps up"), [],
+        Ran(ticks=0, reason="it has no parameter services, which show that it keeps up"),
+        [],
     ),
     "its clock never began": (Ran(ticks=0, reason="it does not listen to /clock"), []),
     "one step was late, and nothing more is known": (
-        Ran(ticks=1, reason="it did not handle a step of the clock in time"), [],
+        Ran(ticks=1, reason="it did not handle a step of the clock in time"),
+        [],
     ),
     "it crashed in simulated time alone": (
-        Ran(ticks=0, reason="it ended by itself there", crashed=(True, False)), [ENDED],
+        Ran(ticks=0, reason="it ended by itself there", crashed=(True, False)),
+        [ENDED],
     ),
     "it crashed in both": (
-        replace(SLEEPS, reason="it ended by itself there", crashed=(True, True)), [],
+        replace(SLEEPS, reason="it ended by itself there", crashed=(True, True)),
+        [],
     ),
     "it crashed in real time": (replace(SLEEPS, crashed=(False, True)), []),
     "the run in real time tells nothing": (replace(SLEEPS, machine_fault="too busy"), []),
@@ -145,7 +161,7 @@ REMARKS: dict[str, tuple[Ran, list[str]]] = {
         Ran(ticks=0, reason="/talker publishes on /clock itself", clock_publisher=True),
         [PUBLISHES],
     ),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("name", REMARKS)

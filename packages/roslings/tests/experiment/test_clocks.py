@@ -13,7 +13,7 @@ from ros2_on_pip.rates import NS_PER_S
 from roslings.capabilities.topics.demands import have_rate
 from roslings.evidence import ExperimentSeen
 from roslings.experiment.clock_advice import advice_on_clocks
-from roslings.experiment.scene import ENDED
+from roslings.experiment.watching import ENDED
 from roslings.grader import Clock
 from roslings.judge import come_up, stay_up
 from roslings.judge.dropped import Looks, watched_experiment

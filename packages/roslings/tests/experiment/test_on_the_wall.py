@@ -72,10 +72,13 @@ def kept_waiting(rate: Rate | None, waited_s: float, devices_s: float = 0.0) -> 
 @pytest.mark.parametrize(
     ("stamped", "waited_s", "told"),
     [
-        (True, 0.0, False), (True, 1.0, False), (True, 2.0, True),
-        (False, 0.1, False), (False, 1.0, True),
+        (True, 0.0, False),
+        (True, 1.0, False),
+        (True, 2.0, True),
+        (False, 0.1, False),
+        (False, 1.0, True),
     ],
-)  # fmt: skip
+)
 def test_what_a_busy_computer_may_have_made_uneven_tells_nothing(
     stamped: bool, waited_s: float, told: bool
 ) -> None:

@@ -30,8 +30,19 @@ PATIENCE_S = 60.0
 
 def udp(payload: bytes, port: int = PORT) -> bytes:
     """An IPv4 packet, as the kernel hands it over."""
-    head = struct.pack("!BBHHHBBH4s4s", 0x45, 0, 28 + len(payload), 0, 0, 64, 17, 0,
-                       socket.inet_aton("127.0.0.1"), socket.inet_aton("127.0.0.1"))  # fmt: skip
+    head = struct.pack(
+        "!BBHHHBBH4s4s",
+        0x45,
+        0,
+        28 + len(payload),
+        0,
+        0,
+        64,
+        17,
+        0,
+        socket.inet_aton("127.0.0.1"),
+        socket.inet_aton("127.0.0.1"),
+    )
     return head + struct.pack("!HHHH", 40000, port, 8 + len(payload), 0) + payload
 
 

@@ -37,9 +37,12 @@ def ended_after(after_s: float | None, waited_s: float, others_s: float = 0.0) -
     """A process that took so long to end after Ctrl-C; None where 10 s were not enough."""
     process = ended(0)
     process.seen.ending = Ending(
-        signal="SIGINT", after_s=after_s, watched_s=after_s or 10.0, waited_s=waited_s,
+        signal="SIGINT",
+        after_s=after_s,
+        watched_s=after_s or 10.0,
+        waited_s=waited_s,
         others_waited_s=others_s,
-    )  # fmt: skip
+    )
     return process
 
 

@@ -59,22 +59,30 @@ def evidence() -> Evidence:
 WHEN_LOADED = {
     "no Python": ("def test_runs(", "def test_runs((", "def test_runs((", "SyntaxError"),
     "a demand is misspelt": (
-        "import count_up, have_rate, say", "import count_up, hav_rate, say", "hav_rate",
+        "import count_up, have_rate, say",
+        "import count_up, hav_rate, say",
+        "hav_rate",
         "ImportError: cannot import name 'hav_rate'",
     ),
     "no such module": (
-        "from roslings.course import lab", "from roslings.corse import lab", "roslings.corse",
+        "from roslings.course import lab",
+        "from roslings.corse import lab",
+        "roslings.corse",
         "ModuleNotFoundError: No module named 'roslings.corse'",
     ),
     "a name is misspelt": (
-        "ALIVE = BEACON.publishes[0]", "ALIVE = BECON.publishes[0]", "BECON",
+        "ALIVE = BEACON.publishes[0]",
+        "ALIVE = BECON.publishes[0]",
+        "BECON",
         "NameError: name 'BECON' is not defined",
     ),
     "the card has no such node": (
-        'CARD.node("beacon")', 'CARD.node("becon")', "becon",
+        'CARD.node("beacon")',
+        'CARD.node("becon")',
+        "becon",
         "has no executable 'becon'",
     ),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize(("old", "new", "at", "said"), WHEN_LOADED.values(), ids=WHEN_LOADED)

@@ -6,16 +6,9 @@ from typing import Any
 
 import pytest
 
-from roslings.capabilities.actions import faults as action_faults
-from roslings.capabilities.actions.contract import ActionContract
-from roslings.capabilities.actions.demands import accept, hear_meanwhile
-from roslings.capabilities.actions.record import HEARS, GoalSeen, answer_to
 from roslings.capabilities.camera.act import MISSING
 from roslings.capabilities.camera.demands import tell_of_trouble
-from roslings.capabilities.camera.detection import Screen, find_the_ball
-from roslings.capabilities.camera.faults import detection as showing_faults
 from roslings.capabilities.camera.faults import images as camera_faults
-from roslings.capabilities.camera.record import PictureShown
 from roslings.capabilities.serial import faults as cable_faults
 from roslings.capabilities.serial.demands import drive_as_told, stop_by_itself
 from roslings.capabilities.serial.record import BoardMark, BoardSeen, CableLine
@@ -23,7 +16,7 @@ from roslings.capabilities.services import faults
 from roslings.capabilities.services.contract import ServiceContract
 from roslings.capabilities.services.demands import answer_in_time, give_up
 from roslings.capabilities.services.record import CLIENT_ENDS, CallSeen
-from roslings.course import NodeContract, TopicContract
+from roslings.course import NodeContract
 from roslings.evidence import HeldUp, ProcessSeen, StageMark
 from roslings.experiment.own_time import PATIENCE_S
 from roslings.judge import ExperimentView, Inconclusive
@@ -35,17 +28,21 @@ from seen_with import seen_with
 S = 10**9
 LAMP = ServiceContract.model_validate(
     {
-        "service": "/light", "type": "std_srvs/srv/SetBool", "within_s": 0.1,
+        "service": "/light",
+        "type": "std_srvs/srv/SetBool",
+        "within_s": 0.1,
         "answers": [{"when": "on", "request": {"data": True}, "response": {"success": True}}],
     }
-)  # fmt: skip
+)
 NODE = NodeContract.model_validate(
     {
-        "node": "/it", "executable": "it", "serves": [LAMP], "log": "Trouble: {text}",
+        "node": "/it",
+        "executable": "it",
+        "serves": [LAMP],
+        "log": "Trouble: {text}",
         "gives_up": {"within_s": 2.0, "log": "nobody", "exit_code": 1},
     }
-)  # fmt: skip
-FLY = ActionContract(action="/fly", type="birds/action/Fly")
+)
 
 
 def view(part: str, held_s: float, ended_ns: int | None = None, **seen: Any) -> ExperimentView:
@@ -67,11 +64,16 @@ def calls(took_s: float, count: int = 10) -> list[CallSeen]:
     """A row of answers."""
     return [
         CallSeen(
-            service="/light", type=LAMP.type, request={"data": True}, part="row",
-            response={"success": True}, sent_ns=0, answered_ns=round(took_s * S),
+            service="/light",
+            type=LAMP.type,
+            request={"data": True},
+            part="row",
+            response={"success": True},
+            sent_ns=0,
+            answered_ns=round(took_s * S),
         )
         for _ in range(count)
-    ]  # fmt: skip
+    ]
 
 
 @pytest.mark.parametrize(("held_s", "is_told"), [(0.0, True), (0.9, True), (1.1, False)])
@@ -91,23 +93,6 @@ def test_another_part_excuses_nothing() -> None:
 def test_a_client_that_does_not_give_up(held_s: float, is_told: bool) -> None:
     """It ran for nine seconds, seven more than it had."""
     assert told(CLIENT_ENDS, held_s, give_up(NODE), faults.NeverGivesUp, ended_ns=9 * S) is is_told
-
-
-@pytest.mark.parametrize(("held_s", "is_told"), [(1.0, True), (PATIENCE_S + 1, False)])
-def test_a_node_that_does_not_hear(held_s: float, is_told: bool) -> None:
-    """It was given time of its own, up to a bound."""
-    blocks = action_faults.BlocksTheNode
-    assert told(HEARS, held_s, hear_meanwhile, blocks, stuck=["/it"]) is is_told
-
-
-@pytest.mark.parametrize(("held_s", "is_told"), [(1.0, True), (6.0, False)])
-def test_a_goal_without_an_answer(held_s: float, is_told: bool) -> None:
-    """Five seconds were waited for it."""
-    goal = GoalSeen(action="/fly", type=FLY.type, goal={"x": 1.0}, part="first", id=[], sent_ns=0)
-    words = {"goals": [goal], "drive": {}}
-    demand = accept(NODE, "first", "at first")
-    unanswered = action_faults.GoalUnanswered
-    assert told(answer_to("first"), held_s, demand, unanswered, **words) is is_told
 
 
 def board(*, stops_at_s: float | None = None) -> BoardSeen:
@@ -185,19 +170,6 @@ def test_a_node_that_says_nothing_about_its_camera(held_s: float, is_told: bool)
     stages = [StageMark(part="missing", at_ns=0)]
     silent = camera_faults.SilentAboutCamera
     assert told("missing", held_s, demand, silent, stages=stages) is is_told
-
-
-@pytest.mark.parametrize(("held_s", "is_told"), [(1.0, True), (PATIENCE_S + 1, False)])
-def test_a_picture_without_an_answer(held_s: float, is_told: bool) -> None:
-    """It was shown, and the node had its time."""
-    says = TopicContract(topic="/ball", type="geometry_msgs/msg/PointStamped")
-    shown = PictureShown(
-        part="ball", topic="/pictures", width=8, height=8, encoding="bgr8", step=24, bytes=192,
-        stamp_ns=1, frame_id="eye", ball={"x_px": 1, "y_px": 1, "radius_px": 1, "hue": 5}, tries=1,
-    )  # fmt: skip
-    demand = find_the_ball(Screen(NODE, says, says, 3.0), "ball")
-    slow = showing_faults.TooSlowForPictures
-    assert told("ball", held_s, demand, slow, shown=[shown]) is is_told
 
 
 def test_the_worst_of_all_parts_counts_where_none_is_named() -> None:

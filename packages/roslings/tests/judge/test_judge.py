@@ -122,12 +122,14 @@ BARE: dict[str, tuple[str, str]] = {
         f"assert {PUBLISHED} == [], f'it publishes on {{{PUBLISHED}}}'",
         "it publishes on ['/chatter']",
     ),
-    "one of two lines": ("assert not CHATTER, 'it is there,\\nand was seen'",
-                         "it is there, and was seen"),
+    "one of two lines": (
+        "assert not CHATTER, 'it is there,\\nand was seen'",
+        "it is there, and was seen",
+    ),
     "none": (f"assert {PUBLISHED} == []", "it is not so"),
     "one that is raised": ("raise AssertionError('it is not even')", "it is not even"),
     "none that is raised": ("raise AssertionError", "it is not so"),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize(("line", "measured"), BARE.values(), ids=BARE)

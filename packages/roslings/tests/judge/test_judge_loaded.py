@@ -22,9 +22,14 @@ TOPICS = lab("topics")
 def evidence() -> Evidence:
     """Of a package of which nothing was built."""
     machine = MachineSeen(
-        roslings="0", ros_distro="jazzy", rmw="r", python="3", platform="p", isolation="user",
+        roslings="0",
+        ros_distro="jazzy",
+        rmw="r",
+        python="3",
+        platform="p",
+        isolation="user",
         wall="user",
-    )  # fmt: skip
+    )
     return Evidence(
         lab="topics", seed=1, machine=machine, package=inspect_package(TOPICS.solution, TOPICS.card)
     )

@@ -34,15 +34,23 @@ def alone(kind: str, said: str = "amber 1", reliability: str = "reliable") -> Ex
     name = "talker" if kind == "publisher" else "listener"
     end = Endpoint(
         node=f"/{name}", topic=CHATTER.topic, type=CHATTER.type, kind=kind, qos=qos, gid="1"
-    )  # fmt: skip
+    )
     text = LogLine(arrival_ns=1, text="I heard: 'amber 1'", source="terminal")
-    spoken = Spoken(topic=CHATTER.topic, type=CHATTER.type, content={"data": said}, sent_ns=0,
-                    matched=True, offered=QOS)  # fmt: skip
+    spoken = Spoken(
+        topic=CHATTER.topic,
+        type=CHATTER.type,
+        content={"data": said},
+        sent_ns=0,
+        matched=True,
+        offered=QOS,
+    )
     seen = ExperimentSeen(
-        name=name, clock="wall", graph=GraphSeen(nodes=[f"/{name}"], endpoints=[end]),
+        name=name,
+        clock="wall",
+        graph=GraphSeen(nodes=[f"/{name}"], endpoints=[end]),
         processes={name: ProcessSeen(executable=name, started_ns=0, lines=[text])},
         spoken=[spoken],
-    )  # fmt: skip
+    )
     return ExperimentView(seen)
 
 
@@ -53,16 +61,20 @@ def unobserved(
     shown = {} if sent is None else {CHATTER.topic: [line.arrival_ns for line in sent]}
     process = ProcessSeen(executable="listener", started_ns=0, lines=written)
     seen = ExperimentSeen(
-        name="unobserved", clock="wall", processes={"listener": process}, machine_fault=fault,
+        name="unobserved",
+        clock="wall",
+        processes={"listener": process},
+        machine_fault=fault,
         sent_ns=shown,
-    )  # fmt: skip
+    )
     return ExperimentView(seen)
 
 
 def judged(
-    view: ExperimentView, talking: ExperimentView | None = None,
+    view: ExperimentView,
+    talking: ExperimentView | None = None,
     hearing: ExperimentView | None = None,
-) -> None:  # fmt: skip
+) -> None:
     """Raises the fault."""
     talking, hearing = talking or alone("publisher"), hearing or alone("subscription")
     view.must(speak_unobserved(talking, hearing, (TALKER, LISTENER), (CHATTER, HEARD)))

@@ -38,12 +38,17 @@ for _ in range(20):
 def said_by(file: Path, *words: str) -> list[str]:
     """What a program writes before it ends with an error."""
     environment = {
-        **os.environ, "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST", "PYTHONPATH": str(file.parent),
-    }  # fmt: skip
+        **os.environ,
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+        "PYTHONPATH": str(file.parent),
+    }
     ran = subprocess.run(
-        [sys.executable, str(file), *words], capture_output=True, text=True, check=False,
+        [sys.executable, str(file), *words],
+        capture_output=True,
+        text=True,
+        check=False,
         env={**environment, "ROS_LOG_DIR": str(file.parent)},
-    )  # fmt: skip
+    )
     assert ran.returncode != 0
     return ran.stderr.splitlines()
 
@@ -106,10 +111,12 @@ def test_a_call_of_rclpy(tmp_path: Path, words: str, hint: str, mend: str) -> No
 def test_a_callback_that_was_called_and_failed(line: str, named: bool) -> None:
     """The program ends inside of it, with any error; the line above tells why it ran at all."""
     log = [
-        'File ".../talker.py", line 15, in __init__', f"  {line}",
-        'File ".../talker.py", line 21, in tell', "  message.data = self.count",
+        'File ".../talker.py", line 15, in __init__',
+        f"  {line}",
+        'File ".../talker.py", line 21, in tell',
+        "  message.data = self.count",
         "AttributeError: 'Talker' object has no attribute 'count'",
-    ]  # fmt: skip
+    ]
     assert ("want a function" in hint_for(log)) == named
     assert ("the function itself: self.tell" in mend_for(log)) == named
 
@@ -139,10 +146,12 @@ def test_what_python_cannot_read(tmp_path: Path, text: str, hint: str) -> None:
 @pytest.mark.parametrize(
     ("name", "slip"),
     [
-        ("/alve", "'i' is missing"), ("/aliive", "'i' is too much"),
-        ("/alove", "'o' stands where 'i' is wanted"), ("/laive", ""),
+        ("/alve", "'i' is missing"),
+        ("/aliive", "'i' is too much"),
+        ("/alove", "'o' stands where 'i' is wanted"),
+        ("/laive", ""),
     ],
-)  # fmt: skip
+)
 def test_one_letter_is_named(name: str, slip: str) -> None:
     """/alve and /alive look alike."""
     near = nearest("/alive", [name])

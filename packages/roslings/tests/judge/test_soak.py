@@ -29,9 +29,13 @@ def left(executable: str, died_after_s: float | None = None) -> ProcessSeen:
     if died_after_s is None:
         return ProcessSeen(executable=executable, started_ns=0, asked_to_end_ns=31 * NS, status=0)
     return ProcessSeen(
-        executable=executable, started_ns=0, ended_ns=round(died_after_s * NS), status=1,
-        ended_by_itself=True, lines=lines,
-    )  # fmt: skip
+        executable=executable,
+        started_ns=0,
+        ended_ns=round(died_after_s * NS),
+        status=1,
+        ended_by_itself=True,
+        lines=lines,
+    )
 
 
 def soaked(evidence: Evidence, *processes: ProcessSeen) -> Verdict:
@@ -93,12 +97,17 @@ def test_seconds_are_the_cards_the_environments_or_those_asked_for(
 
 def test_each_lab_says_which_nodes_stay() -> None:
     """A client that has one task is not left running."""
-    stays = {node.executable: node.stays for name in ("services", "actions")
-             for node in lab(name).card.nodes}  # fmt: skip
+    stays = {
+        node.executable: node.stays
+        for name in ("services", "actions")
+        for node in lab(name).card.nodes
+    }
     assert stays == {
-        "motor_controller": True, "motor_client": False, "drive_server": True,
+        "motor_controller": True,
+        "motor_client": False,
+        "drive_server": True,
         "drive_client": False,
-    }  # fmt: skip
+    }
 
 
 def test_old_evidence_has_no_soak(evidence: Evidence, tmp_path: Path) -> None:

@@ -40,18 +40,25 @@ def run(clock: Literal["sim", "wall"], died_after_s: float | None, **words: str)
         for s in range(11)
     ]
     return ExperimentSeen(
-        name="talking", clock=clock, processes={"talker": process},
-        ticks=ticks if clock == "sim" else [], **words,
-    )  # fmt: skip
+        name="talking",
+        clock=clock,
+        processes={"talker": process},
+        ticks=ticks if clock == "sim" else [],
+        **words,
+    )
 
 
 def view(last: ExperimentSeen, *before: ExperimentSeen) -> ExperimentView:
     """What a check looks at, of an experiment with earlier runs."""
     evidence = Evidence(
-        lab="topics", seed=0, machine=MACHINE, build=None, experiments={"talking": last},
+        lab="topics",
+        seed=0,
+        machine=MACHINE,
+        build=None,
+        experiments={"talking": last},
         package=PackageSeen(name="chatter", folder="chatter", build_type="ament_python"),
         attempts=list(before),
-    )  # fmt: skip
+    )
     found = views_of(evidence)["talking"]
     assert isinstance(found, ExperimentView)
     return found

@@ -37,10 +37,11 @@ def said(*texts: str) -> ExperimentSeen:
     """An experiment in which the grader said these."""
     seen = ExperimentSeen(name="hearing", clock="wall")
     seen.spoken = [
-        Spoken(topic="/it", type=STRING, content={"data": text}, sent_ns=n, matched=True,
-               offered=Qos())
+        Spoken(
+            topic="/it", type=STRING, content={"data": text}, sent_ns=n, matched=True, offered=Qos()
+        )
         for n, text in enumerate(texts)
-    ]  # fmt: skip
+    ]
     return seen
 
 

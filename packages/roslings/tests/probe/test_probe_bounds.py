@@ -64,11 +64,14 @@ def test_what_is_counted_is_what_it_takes() -> None:
     tracemalloc.start()
     messages = [
         MessageSeen(
-            source_ns=10**18 + n, sequence=10**6 + n, arrival_ns=10**15 + n, size=300 + n,
+            source_ns=10**18 + n,
+            sequence=10**6 + n,
+            arrival_ns=10**15 + n,
+            size=300 + n,
             content={"data": f"Hello {n}", "list": [float(n), n, "\x01" * 9], "deep": {"x": {}}},
         )
         for n in range(1000)
-    ]  # fmt: skip
+    ]
     taken, _ = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     seen = ExperimentSeen(name="it", clock="wall", canary=CanarySeen(wanted_hz=1.0))
@@ -241,9 +244,13 @@ def test_a_queue_of_large_messages_is_made_shorter(domain: int, flooder: Any) ->
     executor.add_node(node)
     sizes: list[int] = []
     ear = Ear(
-        node, String, "/big", lambda raw, info: sizes.append(len(raw)), QoSProfile(depth=5000),
+        node,
+        String,
+        "/big",
+        lambda raw, info: sizes.append(len(raw)),
+        QoSProfile(depth=5000),
         Queues(),
-    )  # fmt: skip
+    )
     publisher = flooder.create_publisher(String, "/big", 5)
     big = String(data="x" * 1_000_000)
     try:
@@ -271,9 +278,13 @@ def test_an_honest_queue_stays_as_it_is(flooder: Any, kind: str, wanted: int, si
     from rclpy.qos import QoSProfile
 
     ear = Ear(
-        flooder, message_class(kind), "/it", lambda raw, info: None, QoSProfile(depth=5000),
+        flooder,
+        message_class(kind),
+        "/it",
+        lambda raw, info: None,
+        QoSProfile(depth=5000),
         Queues(),
-    )  # fmt: skip
+    )
     assert ear.depth == wanted
     assert wanted * size < (OWN_BYTES if size < 100 else QUEUE_BYTES)
     late = {"received_timestamp": 1}

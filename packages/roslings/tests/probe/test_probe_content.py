@@ -27,11 +27,22 @@ for name in sys.argv[1:]:
 print(halves)
 """
 SERVICES = [
-    *(f"rcl_interfaces/srv/{name}" for name in ("ListParameters", "GetParameters",
-      "SetParameters", "DescribeParameters", "GetParameterTypes", "SetParametersAtomically")),
-    "std_srvs/srv/Trigger", "std_srvs/srv/SetBool", "std_srvs/srv/Empty",
+    *(
+        f"rcl_interfaces/srv/{name}"
+        for name in (
+            "ListParameters",
+            "GetParameters",
+            "SetParameters",
+            "DescribeParameters",
+            "GetParameterTypes",
+            "SetParametersAtomically",
+        )
+    ),
+    "std_srvs/srv/Trigger",
+    "std_srvs/srv/SetBool",
+    "std_srvs/srv/Empty",
     "action_msgs/srv/CancelGoal",
-]  # fmt: skip
+]
 
 
 def test_who_gets_a_service_gets_it_whole() -> None:

@@ -12,9 +12,15 @@ import pytest
 from written_evidence import evidence, messages, process, steady, talking
 
 from roslings.evidence import Evidence, LogLine
-from roslings.report import BadEvidence, CannotKeepThere, CannotWrite, read_evidence
-from roslings.report.evidence_file import evidence_bytes
-from roslings.report.evidence_folder import fill, in_the_making, log_files, require_free
+from roslings.report.evidence_file import BadEvidence, evidence_bytes, read_evidence
+from roslings.report.evidence_folder import (
+    CannotKeepThere,
+    fill,
+    in_the_making,
+    log_files,
+    require_free,
+)
+from roslings.report.whole_file import CannotWrite
 
 
 def seen() -> Evidence:
@@ -53,15 +59,30 @@ OUT_OF_STEP = {
         (changed(experiments={"talking": {}}), "damaged: experiments.talking", "--evidence DIR"),
         (changed(attempts=[OUT_OF_STEP]), "damaged: talking: a segment", "--evidence DIR"),
         (changed(machine=None), "damaged: machine", "--evidence DIR"),
-        (changed(timeline={"rows": 9, "fields": {"of": ["it"]}}), "1 values for 9 rows",
-         "--evidence DIR"),
+        (
+            changed(timeline={"rows": 9, "fields": {"of": ["it"]}}),
+            "1 values for 9 rows",
+            "--evidence DIR",
+        ),
         (changed(schema=4), "newer roslings (schema 4; this one reads 3)", "git pull"),
         (changed(lab="services"), "lab 'services', not of 'topics'", "regrade services"),
         (changed(checks=[], score=100), "a verdict, not the evidence", "evidence.json"),
     ],
-    ids=["empty", "binary", "deep", "foreign", "cut", "hollow", "ticks-gone", "part-gone",
-         "short-table", "newer", "lab", "verdict"],
-)  # fmt: skip
+    ids=[
+        "empty",
+        "binary",
+        "deep",
+        "foreign",
+        "cut",
+        "hollow",
+        "ticks-gone",
+        "part-gone",
+        "short-table",
+        "newer",
+        "lab",
+        "verdict",
+    ],
+)
 def test_what_cannot_be_judged_is_said(
     tmp_path: Path, content: bytes, words: str, step: str
 ) -> None:

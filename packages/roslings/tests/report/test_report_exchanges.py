@@ -30,17 +30,28 @@ def page(**fields: object) -> str:
 def call(at_ms: int, took_ms: int | None, part: str = "") -> CallSeen:
     """One call; None: without an answer."""
     answered = None if took_ms is None else (at_ms + took_ms) * MS
-    return CallSeen(service="/light", type=LIGHT, request={"data": True}, part=part,
-                    response=None if took_ms is None else {"success": True, "message": "<on>"},
-                    sent_ns=at_ms * MS, answered_ns=answered)  # fmt: skip
+    return CallSeen(
+        service="/light",
+        type=LIGHT,
+        request={"data": True},
+        part=part,
+        response=None if took_ms is None else {"success": True, "message": "<on>"},
+        sent_ns=at_ms * MS,
+        answered_ns=answered,
+    )
 
 
 def goal(part: str, **words: object) -> GoalSeen:
     """One goal of 100 ms."""
     usual: dict[str, object] = {
-        "id": [1] * 16, "sent_ns": 0, "answered_ns": 5 * MS, "accepted": True,
-        "ended_ns": 100 * MS, "status": "succeeded", "result": {"sequence": [0, 1]},
-    }  # fmt: skip
+        "id": [1] * 16,
+        "sent_ns": 0,
+        "answered_ns": 5 * MS,
+        "accepted": True,
+        "ended_ns": 100 * MS,
+        "status": "succeeded",
+        "result": {"sequence": [0, 1]},
+    }
     return GoalSeen(action="/fly", type=FLY, goal={"order": 2}, part=part, **(usual | words))
 
 
@@ -55,8 +66,12 @@ def test_calls_and_their_answers() -> None:
     """Few are told one by one; of many, how many there were, and the slowest."""
     text = page(calls=[call(0, 7), call(20, None), *(call(n, n, "row") for n in range(100, 110))])
     assert "Calls of services" in text
-    assert row(text, "/light") == ["/light", "7.000 ms", "data: true",
-                                   "success: true, message: &lt;on&gt;"]  # fmt: skip
+    assert row(text, "/light") == [
+        "/light",
+        "7.000 ms",
+        "data: true",
+        "success: true, message: &lt;on&gt;",
+    ]
     assert "no answer" in text and "12 calls, 1 without an answer." in text
     assert row(text, "/light, row: 10 calls, the slowest")[1] == "109.0 ms"
     assert text.count('class="bar-missing"') == 2  # on wide paper and on narrow
@@ -65,17 +80,30 @@ def test_calls_and_their_answers() -> None:
 
 def test_goals_their_feedback_and_their_ends() -> None:
     """Answer, work and feedback in the picture; how it ended in words."""
-    told = [MessageSeen(source_ns=None, sequence=None, arrival_ns=at * MS, size=1,
-                        content={"goal_id": {"uuid": [number] * 16}})
-            for at, number in ((20, 1), (40, 1), (60, 2))]  # fmt: skip
+    told = [
+        MessageSeen(
+            source_ns=None,
+            sequence=None,
+            arrival_ns=at * MS,
+            size=1,
+            content={"goal_id": {"uuid": [number] * 16}},
+        )
+        for at, number in ((20, 1), (40, 1), (60, 2))
+    ]
     topic = "/fly/_action/feedback"
     feedback = TopicSeen(name=topic, type=f"{FLY}_FeedbackMessage", messages=told)
     lost = goal("lost", id=[3] * 16, ended_ns=None, status=None, result=None)
     refused = goal("far", accepted=False, ended_ns=None, status=None, result=None)
     order = goal("", id=[4] * 16, ended_ns=None, status=None, result=None)
     text = page(goals=[goal("near"), lost, refused], orders=[order], topics={topic: feedback})
-    assert row(text, "near") == ["near", "succeeded", "100.0 ms", "2", "order: 2",
-                                 "sequence: [0, 1]"]  # fmt: skip
+    assert row(text, "near") == [
+        "near",
+        "succeeded",
+        "100.0 ms",
+        "2",
+        "order: 2",
+        "sequence: [0, 1]",
+    ]
     assert row(text, "lost")[1:4] == ["without an end", "-", "0"]
     assert row(text, "far")[1] == "refused"
     assert row(text, "/fly")[1] == "accepted by the grader"
@@ -87,13 +115,18 @@ def test_goals_their_feedback_and_their_ends() -> None:
 def test_parameters_and_what_became_of_them() -> None:
     """Taken, refused with the node's reason, or not answered."""
     words = {"node": "/it", "name": "period", "asked_ns": 0}
-    sets = [ParameterSet(value=0.5, answered_ns=1, accepted=True, **words),
-            ParameterSet(value=-1, answered_ns=1, reason="below 0 & wrong", **words),
-            ParameterSet(value="x", **words)]  # fmt: skip
+    sets = [
+        ParameterSet(value=0.5, answered_ns=1, accepted=True, **words),
+        ParameterSet(value=-1, answered_ns=1, reason="below 0 & wrong", **words),
+        ParameterSet(value="x", **words),
+    ]
     text = page(parameter_sets=sets)
     outcomes = re.findall(r"<td>period</td><td>(.*?)</td><td>(.*?)</td>", text)
-    assert outcomes == [("0.5", "taken"), ("-1", "refused: below 0 &amp; wrong"),
-                        ("x", "no answer")]  # fmt: skip
+    assert outcomes == [
+        ("0.5", "taken"),
+        ("-1", "refused: below 0 &amp; wrong"),
+        ("x", "no answer"),
+    ]
 
 
 def test_bad_lines_on_the_cable_are_marked() -> None:
@@ -102,8 +135,11 @@ def test_bad_lines_on_the_cable_are_marked() -> None:
     texts = [*good, "$M,2,0,0*0000", "M,2,0,0*8961", "<b>"]
     heard = [CableLine(board_s=n, sent_ns=n, text=text) for n, text in enumerate(texts)]
     text = page(board=BoardSeen(heard=heard, rejected=3, lost_bytes=70))
-    assert re.findall(r"<mark>(.*?)</mark>", text)[-3:] == ["$M,2,0,0*0000", "M,2,0,0*8961",
-                                                            "&lt;b&gt;"]  # fmt: skip
+    assert re.findall(r"<mark>(.*?)</mark>", text)[-3:] == [
+        "$M,2,0,0*0000",
+        "M,2,0,0*8961",
+        "&lt;b&gt;",
+    ]
     assert "13 lines, 3 refused by the board" in text
     assert "70 bytes were read too late" in text
     assert text.count("$M,0,0,0*CDE2") == 3

@@ -14,10 +14,10 @@ from ros2_on_pip.graph.line import INK, WARNING
 from ros2_on_pip.graph.shape import shape_of
 from ros2_on_pip.graph.words import describe_graph
 from roslings.evidence import GraphSeen
-from roslings.report import CannotWrite, draw_graph
-from roslings.report.graph_picture import NotAPng
+from roslings.report.graph_picture import NotAPng, draw_graph
 from roslings.report.graph_sheet import NODE_FILL, TOPIC_FILL
 from roslings.report.lettering import Lettering
+from roslings.report.whole_file import CannotWrite
 
 GRAPHS = {
     "empty": written.empty(),

@@ -311,10 +311,16 @@ def test_what_the_grader_said_is_told() -> None:
     """And whether somebody was there to hear it."""
     seen = ExperimentSeen(name="hearing", clock="wall")
     seen.spoken = [
-        Spoken(topic="/chatter", type=STRING, content=content, sent_ns=1, matched=matched,
-               offered=Qos())
+        Spoken(
+            topic="/chatter",
+            type=STRING,
+            content=content,
+            sent_ns=1,
+            matched=matched,
+            offered=Qos(),
+        )
         for content, matched in (({"data": "amber 1234"}, True), ({"x": 1, "y": 2}, False))
-    ]  # fmt: skip
+    ]
     text = page(evidence(seen)).text
     assert "in hearing, on /chatter: 'amber 1234'" in text
     assert "{'x': 1, 'y': 2} (nobody was listening)" in text

@@ -11,8 +11,9 @@ from pathlib import Path
 import pytest
 import written_verdicts as written
 
-from roslings.report import BadVerdictFile, CannotWrite, read_json, write_json
+from roslings.report.json_file import BadVerdictFile, read_json, write_json
 from roslings.report.schema import SCHEMA_FILE, schema_text, verdict_schema
+from roslings.report.whole_file import CannotWrite
 from roslings.verdict import SCHEMA_VERSION, Verdict
 from skips import imported
 
@@ -75,7 +76,7 @@ def test_dash_is_standard_output_and_utf_8() -> None:
     """Also where the terminal is not."""
     code = (
         "import sys; from pathlib import Path; import written_verdicts as w;"
-        "from roslings.report import write_json;"
+        "from roslings.report.json_file import write_json;"
         "write_json(w.verdict(w.failing('text', measured='ü')), Path('-'))"
     )
     done = subprocess.run(

@@ -10,13 +10,13 @@ import sys
 import pytest
 from rich.console import Console
 
-from roslings.report import Progress
+from roslings.report.progress import Progress
 
 
 def test_plain_lines_where_there_is_no_terminal() -> None:
     """Standard error gets one short line a step; standard output nothing."""
     code = (
-        "from roslings.report import Progress\n"
+        "from roslings.report.progress import Progress\n"
         "with Progress() as progress:\n"
         "    progress.step('Building chatter')\n"
         "    progress.step('Listening \\x1b[2J\\n to /chatter')\n"

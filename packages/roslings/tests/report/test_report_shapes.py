@@ -9,7 +9,10 @@ from xml.etree.ElementTree import fromstring
 import pytest
 import written_verdicts
 
-from roslings.report import Refusal, write_check50, write_gradescope, write_junit
+from roslings.report.check50 import write_check50
+from roslings.report.gradescope import write_gradescope
+from roslings.report.junit import write_junit
+from roslings.report.refusal import Refusal
 from roslings.verdict import Verdict
 
 WRITTEN = {

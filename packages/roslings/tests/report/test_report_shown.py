@@ -27,11 +27,14 @@ def odometry(points: list[tuple[Any, Any]]) -> TopicSeen:
     """What a node told of its place."""
     messages = [
         MessageSeen(
-            source_ns=None, sequence=None, arrival_ns=n, size=1,
+            source_ns=None,
+            sequence=None,
+            arrival_ns=n,
+            size=1,
             content={"pose": {"pose": {"position": {"x": x, "y": y, "z": 0.0}}}},
         )
         for n, (x, y) in enumerate(points)
-    ]  # fmt: skip
+    ]
     return TopicSeen(name="/odom", type=ODOMETRY, messages=messages)
 
 

@@ -10,8 +10,8 @@ import written_verdicts as written
 from rich.cells import cell_len
 from rich.console import Console
 
-from roslings.report import NoSuchCheck, print_verdict
 from roslings.report.log_lines import helpful
+from roslings.report.terminal import NoSuchCheck, print_verdict
 from roslings.verdict import Verdict
 
 COLOUR = re.compile(r"\x1b\[3[0-7]m|\x1b\[1;3[0-7]m")

@@ -9,8 +9,8 @@ import pytest
 import written_verdicts as written
 from rich.console import Console
 
-from roslings.report import print_verdict
 from roslings.report.html.verdict_part import head
+from roslings.report.terminal import print_verdict
 from roslings.report.typed import Typed
 from roslings.verdict import Verdict
 

@@ -22,9 +22,13 @@ from roslings.evidence import (
 START_NS = 5_000_000_000
 EPOCH_NS = 1_800_000_000_000_000_000
 MACHINE = MachineSeen(
-    roslings="0.1.0", ros_distro="jazzy", rmw="rmw_fastrtps_cpp", python="3.12.3",
-    platform="Linux 6.8 x86_64", isolation="namespace",
-)  # fmt: skip
+    roslings="0.1.0",
+    ros_distro="jazzy",
+    rmw="rmw_fastrtps_cpp",
+    python="3.12.3",
+    platform="Linux 6.8 x86_64",
+    isolation="namespace",
+)
 
 
 def messages(
@@ -83,8 +87,11 @@ def evidence(*experiments: ExperimentSeen, package: str = "chatter") -> Evidence
         machine=MACHINE,
         package=PackageSeen(name=package, folder=package, build_type="ament_python"),
         build=BuildSeen(
-            succeeded=True, recognised_as="ros.ament_python", seconds=1.5,
-            output=["Finished <<< chatter [1.20s]"], executables=["talker", "listener"],
+            succeeded=True,
+            recognised_as="ros.ament_python",
+            seconds=1.5,
+            output=["Finished <<< chatter [1.20s]"],
+            executables=["talker", "listener"],
         ),
         experiments={each.name: each for each in experiments},
-    )  # fmt: skip
+    )

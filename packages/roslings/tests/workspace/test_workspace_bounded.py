@@ -113,12 +113,24 @@ ALIASES = "\n".join(
 )
 HEAD = '<?xml version="1.0"?><package format="3"><name>chatter</name>'
 HOSTILE = {
-    "package.xml": [HEAD + "<!--" * 15_900, HEAD + "<depend " * 7_900, HEAD + "<!-->" * 12_000,
-                    HEAD + "<build_type " * 5_000, HEAD + "<a>" * 21_000, HEAD + "<name>" * 10_000],
+    "package.xml": [
+        HEAD + "<!--" * 15_900,
+        HEAD + "<depend " * 7_900,
+        HEAD + "<!-->" * 12_000,
+        HEAD + "<build_type " * 5_000,
+        HEAD + "<a>" * 21_000,
+        HEAD + "<name>" * 10_000,
+    ],
     "setup.cfg": ["[develop]\n" + "y\n" * 1_900, "[develop]\n" + ("a" + " " * 900 + "b\n") * 60],
-    "colcon.pkg": [MERGES, f"{ALIASES}\ntype: *a11\nname: *a11", "[" * 60_000, "? " * 30_000,
-                   "type: " + "1" * 60_000, "type: 2001-99-99"],
-}  # fmt: skip
+    "colcon.pkg": [
+        MERGES,
+        f"{ALIASES}\ntype: *a11\nname: *a11",
+        "[" * 60_000,
+        "? " * 30_000,
+        "type: " + "1" * 60_000,
+        "type: 2001-99-99",
+    ],
+}
 EACH = [(name, text) for name, texts in HOSTILE.items() for text in texts]
 
 
@@ -143,9 +155,12 @@ def test_a_hostile_file_within_the_bounds_is_read(
 
 
 TOO_LARGE = {
-    "package.xml": " " * 64_001, "setup.cfg": "#" * 64_001, "colcon.pkg": "#" * 64_001,
-    "setup.cfg ": "[a]\n" + "y\n" * 2_000, "setup.cfg  ": "[a]\n#" + "y" * 1_000,
-}  # fmt: skip
+    "package.xml": " " * 64_001,
+    "setup.cfg": "#" * 64_001,
+    "colcon.pkg": "#" * 64_001,
+    "setup.cfg ": "[a]\n" + "y\n" * 2_000,
+    "setup.cfg  ": "[a]\n#" + "y" * 1_000,
+}
 
 
 @pytest.mark.parametrize("name", TOO_LARGE)

@@ -93,8 +93,11 @@ def test_plain_files_folders_and_links_are_copied(tmp_path: Path) -> None:
     (folder / "away").symlink_to("/nonexistent")
     os.mkfifo(folder / "pipe")
     copy_foreign(folder, tmp_path / "copy")
-    copied = {path.relative_to(tmp_path / "copy").as_posix(): path.lstat().st_mode & 0o7777
-              for path in (tmp_path / "copy").rglob("*") if not path.is_symlink()}  # fmt: skip
+    copied = {
+        path.relative_to(tmp_path / "copy").as_posix(): path.lstat().st_mode & 0o7777
+        for path in (tmp_path / "copy").rglob("*")
+        if not path.is_symlink()
+    }
     assert copied == {"lib": 0o755, "lib/deep": 0o755, "lib/deep/text": 0o644, "lib/runs": 0o755}
     assert (tmp_path / "copy/link").readlink() == Path("lib/runs")
     assert (tmp_path / "copy/away").readlink() == Path("/nonexistent")
@@ -111,8 +114,13 @@ def test_a_build_full_of_holes_is_used_and_not_kept(
     (source / "setup.py").write_text(HOLES + (source / "setup.py").read_text())
     taken: list[int] = []
     for allowance in (Allowance(most_bytes=500 * MB), PLENTY):
-        monkeypatch.setattr(building, "copy_foreign", lambda folder, to, it=allowance: copy_foreign(
-            folder, to, Allowance(it.most_bytes, it.reserve_bytes)))  # fmt: skip
+        monkeypatch.setattr(
+            building,
+            "copy_foreign",
+            lambda folder, to, it=allowance: copy_foreign(
+                folder, to, Allowance(it.most_bytes, it.reserve_bytes)
+            ),
+        )
         person = tmp_path / f"person-{len(taken)}"
         for folder in ("room", "home"):
             (person / folder).mkdir(parents=True)

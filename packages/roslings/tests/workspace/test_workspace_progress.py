@@ -173,9 +173,18 @@ def test_a_full_disk_keeps_the_old_file(with_little_room: Run) -> None:
     assert with_little_room(source) == "1 2"
 
 
-@pytest.mark.parametrize(("days", "row"), [
-    ([], 0), ([0], 1), ([1], 1), ([2], 0), ([0, 1, 2, 4], 3), ([1, 2], 2), ([0, 2, 3], 1),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("days", "row"),
+    [
+        ([], 0),
+        ([0], 1),
+        ([1], 1),
+        ([2], 0),
+        ([0, 1, 2, 4], 3),
+        ([1, 2], 2),
+        ([0, 2, 3], 1),
+    ],
+)
 def test_days_in_a_row_end_today_or_yesterday(days: list[int], row: int) -> None:
     """Numbers are days ago; who has not begun today has lost nothing yet."""
     today = date(2026, 3, 1)

@@ -311,15 +311,22 @@ def empy(machine: Machine) -> Finding:
     lesson="05-actions#an-interface-of-your-own",
 )
 def compiler(machine: Machine) -> Finding:
-    """A lab with message types of its own says that there is no C and C++ compiler."""
+    """A build of message types says that there is no C and C++ compiler."""
     names = (("cc", "gcc", "clang"), ("c++", "g++", "clang++"))
     found = [next(filter(None, map(machine.which, each)), None) for each in names]
     if all(found):
         return ok(f"{found[1]} is there.")
     return advice(
-        "There is no C++ compiler. Only message types of your own need one (day 5).",
+        f"There is no C++ compiler. {_who_needs_one(machine)}",
         *install_program(machine, "build-essential" if machine.which("apt") else "gcc-c++"),
     )
+
+
+def _who_needs_one(machine: Machine) -> str:
+    ros = find_ros(machine)
+    if ros and ros.kind != "wheels":
+        return "Message types need one: those of day 5, which your ROS builds, and your own."
+    return "Only message types of your own need one; no lab does."
 
 
 def _user_packages(machine: Machine) -> list[Path]:

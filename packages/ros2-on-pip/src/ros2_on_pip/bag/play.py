@@ -70,9 +70,11 @@ def chosen(reader: BagReader, options: argparse.Namespace) -> list[Topic]:
         if name not in there:
             raise NotInBag(name, there)
     choice = Choice(
-        names=wanted, regex=options.regex, without_regex=options.exclude_regex,
+        names=wanted,
+        regex=options.regex,
+        without_regex=options.exclude_regex,
         without=[absolute(name) for name in options.exclude_topics],
-    )  # fmt: skip
+    )
     return [each for each in reader.metadata.topics if choice.takes(each.name, each.type)]
 
 

@@ -116,15 +116,16 @@ class Wanted:
         _require_many(options, every or options.topic_types or options.regex)
         if options.topics:
             tell(options.node_name, POSITIONAL, "WARN")
-        chosen = {} if every else {
-            "names": names, "types": options.topic_types, "regex": options.regex
-        }  # fmt: skip
+        chosen = (
+            {} if every else {"names": names, "types": options.topic_types, "regex": options.regex}
+        )
         with told():
             choice = Choice(
                 without=[checked_topic(name) for name in options.exclude_topics],
                 without_types=options.exclude_topic_types,
-                without_regex=options.exclude_regex, **chosen,
-            )  # fmt: skip
+                without_regex=options.exclude_regex,
+                **chosen,
+            )
         return cls(choice, options)
 
     def takes(self, eye: Eye, topic: str, types: list[str]) -> bool:

@@ -32,9 +32,11 @@ def declare(command: argparse.ArgumentParser) -> None:
     _action_name(info)
     show_types(info, "action")
     info.add_argument(
-        "-c", "--count", action="store_true",
+        "-c",
+        "--count",
+        action="store_true",
         help="Only display the number of action clients and action servers",
-    )  # fmt: skip
+    )
     kind = verbs("type", "Print an action's type", show_type)
     _action_name(kind)
     for verb in (listing, info, kind):
@@ -42,14 +44,20 @@ def declare(command: argparse.ArgumentParser) -> None:
     send = verbs("send_goal", "Send an action goal", send_goal)
     _action_name(send)
     add(
-        send, "action_type", complete=complete_type_of("action", "action", actions),
+        send,
+        "action_type",
+        complete=complete_type_of("action", "action", actions),
         help="Type of the ROS action (e.g. 'test_msgs/action/Fibonacci')",
-    )  # fmt: skip
+    )
     goal = send.add_mutually_exclusive_group()
     add(
-        goal, "goal", nargs="?", default="{}", complete=complete_values("action_type"),
+        goal,
+        "goal",
+        nargs="?",
+        default="{}",
+        complete=complete_values("action_type"),
         help="Goal request values in YAML format (e.g. '{order: 10}')",
-    )  # fmt: skip
+    )
     stdin_option(goal, "the goal")
     send.add_argument(
         "-f", "--feedback", action="store_true", help="Echo feedback messages for the goal"
@@ -58,9 +66,11 @@ def declare(command: argparse.ArgumentParser) -> None:
 
 def _action_name(parser: argparse.ArgumentParser) -> None:
     add(
-        parser, "action_name", complete=complete_actions,
+        parser,
+        "action_name",
+        complete=complete_actions,
         help="Name of the ROS action (e.g. '/fibonacci')",
-    )  # fmt: skip
+    )
 
 
 def complete_actions(**_: Any) -> list[str]:

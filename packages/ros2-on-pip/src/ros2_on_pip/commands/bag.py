@@ -37,9 +37,11 @@ def declare(command: argparse.ArgumentParser) -> None:
     _bag_path(info)
     info.add_argument("-t", "--topic-name", action="store_true", help="Only display topic names")
     info.add_argument(
-        "-v", "--verbose", action="store_true",
+        "-v",
+        "--verbose",
+        action="store_true",
         help="Display request/response information for services",
-    )  # fmt: skip
+    )
     info.add_argument(
         "--sort", choices=("name", "type", "count"), default="name", help="The order of the topics"
     )
@@ -53,13 +55,16 @@ def _declare_record(record: argparse.ArgumentParser) -> None:
     _declare_topics(record)
     _declare_bag(record)
     record.add_argument(
-        "--qos-profile-overrides-path", type=Path, metavar="FILE",
+        "--qos-profile-overrides-path",
+        type=Path,
+        metavar="FILE",
         help="YAML file with the quality of service to subscribe with, for single topics",
-    )  # fmt: skip
+    )
     record.add_argument(
-        "--use-sim-time", action="store_true",
+        "--use-sim-time",
+        action="store_true",
         help="Take the time of messages from /clock; until it is said, nothing is recorded",
-    )  # fmt: skip
+    )
     record.add_argument(
         "--start-paused", action="store_true", help="Start the recorder in a paused state"
     )
@@ -71,13 +76,22 @@ def _declare_record(record: argparse.ArgumentParser) -> None:
 
 def _declare_topics(record: argparse.ArgumentParser) -> None:
     add(
-        record, "topics", nargs="*", complete=complete_topics,
+        record,
+        "topics",
+        nargs="*",
+        complete=complete_topics,
         help="Topics to record (old way; use --topics)",
-    )  # fmt: skip
+    )
     add(
-        record, "--topics", nargs="+", dest="topics_option", default=[], metavar="TOPIC",
-        complete=complete_topics, help="Space-delimited list of topics to record",
-    )  # fmt: skip
+        record,
+        "--topics",
+        nargs="+",
+        dest="topics_option",
+        default=[],
+        metavar="TOPIC",
+        complete=complete_topics,
+        help="Space-delimited list of topics to record",
+    )
     _list(record, "--topic-types", "TYPE", "Space-delimited list of topic types to record")
     for names in (("-a", "--all"), ("--all-topics",)):
         record.add_argument(*names, action="store_true", help="Record all topics")
@@ -85,15 +99,18 @@ def _declare_topics(record: argparse.ArgumentParser) -> None:
         "-e", "--regex", default="", help="Record topics whose name holds this expression"
     )
     record.add_argument(
-        "--exclude-regex", default="", metavar="REGEX",
+        "--exclude-regex",
+        default="",
+        metavar="REGEX",
         help="Leave out topics whose name holds this expression",
-    )  # fmt: skip
+    )
     _list(record, "--exclude-topics", "TOPIC", "Space-delimited list of topics to leave out")
     _list(record, "--exclude-topic-types", "TYPE", "Space-delimited list of types to leave out")
     record.add_argument(
-        "--include-unpublished-topics", action="store_true",
+        "--include-unpublished-topics",
+        action="store_true",
         help="Record topics which have no publisher too",
-    )  # fmt: skip
+    )
     also_hidden(record, "topics")
     record.set_defaults(include_hidden_topics=False)
     record.add_argument(
@@ -103,36 +120,57 @@ def _declare_topics(record: argparse.ArgumentParser) -> None:
         "--no-discovery", action="store_true", help="Record only topics present at startup"
     )
     record.add_argument(
-        "-p", "--polling-interval", type=positive, default=100, dest="polling_interval_ms",
-        metavar="MS", help="Time in ms between two looks for new topics (%(default)s)",
-    )  # fmt: skip
+        "-p",
+        "--polling-interval",
+        type=positive,
+        default=100,
+        dest="polling_interval_ms",
+        metavar="MS",
+        help="Time in ms between two looks for new topics (%(default)s)",
+    )
 
 
 def _declare_bag(record: argparse.ArgumentParser) -> None:
     record.add_argument("-o", "--output", help="Destination of the bag to create, a folder")
     record.add_argument(
-        "-s", "--storage", choices=("mcap", "sqlite3"), default="mcap",
+        "-s",
+        "--storage",
+        choices=("mcap", "sqlite3"),
+        default="mcap",
         help="Storage format (default: mcap)",
-    )  # fmt: skip
+    )
     record.add_argument(
-        "-b", "--max-bag-size", type=not_negative, default=0, metavar="BYTES",
+        "-b",
+        "--max-bag-size",
+        type=not_negative,
+        default=0,
+        metavar="BYTES",
         help="Begin a new file after so many bytes (default: one file)",
-    )  # fmt: skip
+    )
     record.add_argument(
-        "-d", "--max-bag-duration", type=not_negative, default=0, metavar="S",
+        "-d",
+        "--max-bag-duration",
+        type=not_negative,
+        default=0,
+        metavar="S",
         help="Begin a new file after so many seconds (default: one file)",
-    )  # fmt: skip
+    )
     record.add_argument(
-        "--compression-mode", choices=("none", "file", "message"), default="none",
+        "--compression-mode",
+        choices=("none", "file", "message"),
+        default="none",
         help="Compress whole files, or each message",
-    )  # fmt: skip
+    )
     record.add_argument(
         "--compression-format", choices=("zstd",), default="", help="How it is compressed"
     )
     record.add_argument(
-        "--custom-data", nargs="*", default=[], metavar="KEY=VALUE",
+        "--custom-data",
+        nargs="*",
+        default=[],
+        metavar="KEY=VALUE",
         help="Words of your own that metadata.yaml keeps",
-    )  # fmt: skip
+    )
 
 
 def _declare_play(play: argparse.ArgumentParser) -> None:
@@ -142,17 +180,22 @@ def _declare_play(play: argparse.ArgumentParser) -> None:
     _list(play, "--topics", "TOPIC", "topics to replay")
     play.add_argument("-e", "--regex", default="", help="replay topics whose name holds this")
     play.add_argument(
-        "-x", "--exclude-regex", default="", metavar="REGEX",
+        "-x",
+        "--exclude-regex",
+        default="",
+        metavar="REGEX",
         help="leave out topics whose name holds this",
-    )  # fmt: skip
+    )
     _list(play, "--exclude-topics", "TOPIC", "topics to leave out")
     play.add_argument(
         "-m", "--remap", nargs="+", default=[], metavar="OLD:=NEW", help="other names for topics"
     )
     play.add_argument(
-        "--qos-profile-overrides-path", type=Path, metavar="FILE",
+        "--qos-profile-overrides-path",
+        type=Path,
+        metavar="FILE",
         help="YAML file with the quality of service to publish with, for single topics",
-    )  # fmt: skip
+    )
     _declare_time(play)
     play.add_argument(
         "-p", "--start-paused", action="store_true", help="start paused; the space bar goes on"
@@ -162,24 +205,38 @@ def _declare_play(play: argparse.ArgumentParser) -> None:
 
 def _declare_time(play: argparse.ArgumentParser) -> None:
     play.add_argument(
-        "--clock", type=rate, nargs="?", const=40.0, default=0.0, metavar="HZ",
+        "--clock",
+        type=rate,
+        nargs="?",
+        const=40.0,
+        default=0.0,
+        metavar="HZ",
         help="publish the bag's time on /clock, so many times a second (40)",
-    )  # fmt: skip
+    )
     play.add_argument(
-        "--start-offset", type=seconds, default=0.0, metavar="S",
+        "--start-offset",
+        type=seconds,
+        default=0.0,
+        metavar="S",
         help="start this many seconds into the bag",
-    )  # fmt: skip
+    )
     play.add_argument(
-        "--playback-duration", type=float, default=-1.0, metavar="S",
+        "--playback-duration",
+        type=float,
+        default=-1.0,
+        metavar="S",
         help="play this many seconds of the bag (default: all)",
-    )  # fmt: skip
+    )
     play.add_argument(
         "-d", "--delay", type=seconds, default=0.0, metavar="S", help="sleep before play, in s"
     )
     play.add_argument(
-        "--wait-for-all-acked", type=int, default=-1, metavar="MS",
+        "--wait-for-all-acked",
+        type=int,
+        default=-1,
+        metavar="MS",
         help="at the end, wait so many ms until each message has arrived (0: for ever)",
-    )  # fmt: skip
+    )
 
 
 def _list(parser: argparse.ArgumentParser, name: str, one: str, about: str) -> None:

@@ -17,8 +17,9 @@ def declare(command: argparse.ArgumentParser) -> None:
         "-d", "--debug", action="store_true", help="Tell more (here there is no more)"
     )
     for verb, about in (
-        ("stop", "Stop the daemon if it is running"), ("status", "Output the status of the daemon"),
-    ):  # fmt: skip
+        ("stop", "Stop the daemon if it is running"),
+        ("status", "Output the status of the daemon"),
+    ):
         verbs(verb, about, tell("The daemon is not running"))
 
 

@@ -25,21 +25,29 @@ def parser_for(command: str) -> Parser:
     group = parser.add_argument_group("as the real ros2 doctor")
     one = group.add_mutually_exclusive_group()
     one.add_argument(
-        "-r", "--report", action="store_true",
+        "-r",
+        "--report",
+        action="store_true",
         help="Print all reports, as bug templates ask for them (with --redact: without addresses).",
-    )  # fmt: skip
+    )
     one.add_argument(
-        "-rf", "--report-failed", action="store_true",
+        "-rf",
+        "--report-failed",
+        action="store_true",
         help="Print reports of failed checks only.",
-    )  # fmt: skip
+    )
     group.add_argument(
-        "-ep", "--exclude-packages", action="store_true",
+        "-ep",
+        "--exclude-packages",
+        action="store_true",
         help="Exclude the report on packages.",
-    )  # fmt: skip
+    )
     group.add_argument(
-        "-iw", "--include-warnings", action="store_true",
+        "-iw",
+        "--include-warnings",
+        action="store_true",
         help="Include warnings as failed checks. Warnings are ignored by default.",
-    )  # fmt: skip
+    )
     group.add_argument("-h", "--help", action="store_true", help=argparse.SUPPRESS)
     return parser
 

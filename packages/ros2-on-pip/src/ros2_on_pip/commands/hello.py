@@ -17,13 +17,21 @@ def parser_for(command: str) -> Parser:
         "-t", "--topic", default=TOPIC, help=f"Name of ROS topic to publish to (default: {TOPIC})"
     )
     parser.add_argument(
-        "-ep", "--emit-period", metavar="N", type=rate, default=0.1,
+        "-ep",
+        "--emit-period",
+        metavar="N",
+        type=rate,
+        default=0.1,
         help="Seconds between two messages (default: 0.1)",
-    )  # fmt: skip
+    )
     parser.add_argument(
-        "-pp", "--print-period", metavar="N", type=rate, default=1.0,
+        "-pp",
+        "--print-period",
+        metavar="N",
+        type=rate,
+        default=1.0,
         help="Seconds between two tables (default: 1.0)",
-    )  # fmt: skip
+    )
     parser.add_argument(
         "--ttl", type=positive, metavar="N", help="How many routers a packet may pass, plus one"
     )

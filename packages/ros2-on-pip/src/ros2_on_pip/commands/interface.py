@@ -28,8 +28,9 @@ def declare(command: argparse.ArgumentParser) -> None:
     proto.add_argument(
         "--no-quotes", action="store_true", help="If true output has no outer quotes"
     )
-    package = verbs("package", "Output a list of available interface types within one package",
-                    list_package)  # fmt: skip
+    package = verbs(
+        "package", "Output a list of available interface types within one package", list_package
+    )
     add(package, "package_name", complete=complete_packages, help="Name of the ROS package")
     _only_options(package, "Print out only the {} types")
     packages = verbs("packages", "Output a list of packages that provide interfaces", list_packages)
@@ -40,25 +41,35 @@ def _only_options(parser: argparse.ArgumentParser, about: str) -> None:
     """`--only-msgs` and its kin."""
     for kind, what in KINDS.items():
         parser.add_argument(
-            f"-{kind[0]}", f"--only-{kind}s", dest="only", action="append_const", const=kind,
+            f"-{kind[0]}",
+            f"--only-{kind}s",
+            dest="only",
+            action="append_const",
+            const=kind,
             help=about.format(what),
-        )  # fmt: skip
+        )
 
 
 def _type_name(parser: argparse.ArgumentParser, more: str = "") -> None:
     add(
-        parser, "type", complete=complete_all, action=Piped if more else "store",
+        parser,
+        "type",
+        complete=complete_all,
+        action=Piped if more else "store",
         help=f"Name of the ROS type (e.g. 'std_msgs/msg/String'). {more}".strip(),
-    )  # fmt: skip
+    )
 
 
 class Piped(argparse.Action):
     """A word that may come from another command: `-` is the next line of standard input."""
 
     def __call__(
-        self, parser: argparse.ArgumentParser, namespace: argparse.Namespace, values: Any,
+        self,
+        parser: argparse.ArgumentParser,
+        namespace: argparse.Namespace,
+        values: Any,
         option_string: str | None = None,
-    ) -> None:  # fmt: skip
+    ) -> None:
         """Keep it; a terminal has nothing to read, and nothing may have come."""
         if values == "-":
             if sys.stdin.isatty():

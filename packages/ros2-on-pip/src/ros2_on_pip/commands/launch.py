@@ -57,22 +57,29 @@ class BadArgument(Problem):
 def declare(command: argparse.ArgumentParser) -> None:
     """The file and its arguments."""
     add(
-        command, "package_name", complete=complete_packages,
+        command,
+        "package_name",
+        complete=complete_packages,
         help="Name of the ROS package which contains the launch file, or a path to a launch file",
-    )  # fmt: skip
+    )
     command.add_argument("launch_file_name", nargs="?", help="Name of the launch file")
     command.add_argument(
-        "launch_arguments", nargs="*",
+        "launch_arguments",
+        nargs="*",
         help="Arguments to the launch file; '<name>:=<value>' (for duplicates, last one wins)",
-    )  # fmt: skip
+    )
     command.add_argument(
-        "-n", "--noninteractive", action="store_true",
+        "-n",
+        "--noninteractive",
+        action="store_true",
         help="Run non-interactively (here it always does)",
-    )  # fmt: skip
+    )
     command.add_argument(
-        "-d", "--debug", action="store_true",
+        "-d",
+        "--debug",
+        action="store_true",
         help="Show the traceback of a fault in a launch file, too.",
-    )  # fmt: skip
+    )
     for short, long, about in (
         ("-p", "--print", "Print the launch description to the console without launching it."),
         ("-s", "--show-args", "Show arguments that may be given to the launch file."),
@@ -80,9 +87,11 @@ def declare(command: argparse.ArgumentParser) -> None:
         names = [short, long] + (["--print-description"] if short == "-p" else ["--show-arguments"])
         command.add_argument(*names, action="store_true", help=about)
     command.add_argument(
-        "-a", "--show-all-subprocesses-output", action="store_true",
+        "-a",
+        "--show-all-subprocesses-output",
+        action="store_true",
         help="Show all launched subprocesses' output by overriding their output configuration.",
-    )  # fmt: skip
+    )
     for name, about in (
         ("--launch-prefix", "Prefix command, which should go before all executables."),
         ("--launch-prefix-filter", "Regex pattern for which executables the prefix is for."),
@@ -189,5 +198,8 @@ def _warn(given: dict[str, Any], known: list[str]) -> None:
     """An argument that the file does not have changes nothing: most likely it is misspelt."""
     for name in given:
         if name not in known:
-            print(f"[WARNING] [launch]: the launch file has no argument '{name}'."
-                  f"{did_you_mean(name, known)}", file=sys.stderr)  # fmt: skip
+            print(
+                f"[WARNING] [launch]: the launch file has no argument '{name}'."
+                f"{did_you_mean(name, known)}",
+                file=sys.stderr,
+            )

@@ -162,8 +162,10 @@ def change(options: argparse.Namespace) -> int:
         chosen = _chosen(_transitions(eye, node), options.transition)
         request = ChangeState.Request(transition=chosen)
         done = ask(eye, ChangeState, f"{node}/change_state", request, again=False).success
-    print("Transitioning successful" if done else "Transitioning failed",
-          file=sys.stdout if done else sys.stderr)  # fmt: skip
+    print(
+        "Transitioning successful" if done else "Transitioning failed",
+        file=sys.stdout if done else sys.stderr,
+    )
     return OK if done else FAILED
 
 

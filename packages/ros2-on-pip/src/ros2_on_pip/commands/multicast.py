@@ -19,9 +19,12 @@ def declare(command: argparse.ArgumentParser) -> None:
     send = verbs("send", "Send a single UDP multicast packet", send_one)
     for verb in (receive, send):
         verb.add_argument(
-            "--group", type=group, default=GROUP, metavar="ADDRESS",
+            "--group",
+            type=group,
+            default=GROUP,
+            metavar="ADDRESS",
             help=f"The multicast group (default: {GROUP})",
-        )  # fmt: skip
+        )
         verb.add_argument(
             "--port", type=port, default=PORT, metavar="N", help=f"The port (default: {PORT})"
         )

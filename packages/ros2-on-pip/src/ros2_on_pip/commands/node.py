@@ -39,9 +39,10 @@ def declare(command: argparse.ArgumentParser) -> None:
     info = verbs("info", "Output information about a node", show_info)
     add(info, "node_name", complete=complete_nodes, help="Node name to request information")
     info.add_argument(
-        "--include-hidden", action="store_true",
+        "--include-hidden",
+        action="store_true",
         help="Display hidden topics, services, and actions as well",
-    )  # fmt: skip
+    )
     node_options(info)
 
 
@@ -70,9 +71,11 @@ def show_info(options: argparse.Namespace) -> int:
         if name not in running:
             raise NodeNotFound(options.node_name, running)
         if running.count(name) > 1:
-            print(f"There are {running.count(name)} nodes in the graph with the exact name"
-                  f' "{name}". You are seeing information about only one of them.',
-                  file=sys.stderr)  # fmt: skip
+            print(
+                f"There are {running.count(name)} nodes in the graph with the exact name"
+                f' "{name}". You are seeing information about only one of them.',
+                file=sys.stderr,
+            )
         print("\n".join([name, *info_lines(eye, name, options.include_hidden)]))
     return OK
 

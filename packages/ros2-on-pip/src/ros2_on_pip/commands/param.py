@@ -51,9 +51,10 @@ def declare(command: argparse.ArgumentParser) -> None:
         "--param-type", action="store_true", help="Print parameter types with parameter names"
     )
     listing.add_argument(
-        "--filter", metavar="REGEX",
+        "--filter",
+        metavar="REGEX",
         help="Only list parameters whose names begin with what the regular expression matches",
-    )  # fmt: skip
+    )
     get = verbs("get", "Get parameter", show_value)
     in_node(get)
     _parameter_name(get)
@@ -65,26 +66,33 @@ def declare(command: argparse.ArgumentParser) -> None:
     describe = verbs("describe", "Show descriptive information about declared parameters", tell)
     in_node(describe)
     add(
-        describe, "parameter_names", nargs="+", complete=complete_parameters,
+        describe,
+        "parameter_names",
+        nargs="+",
+        complete=complete_parameters,
         help="Names of the parameters",
-    )  # fmt: skip
+    )
     dump = verbs("dump", "Show all of the parameters of a node in a YAML file format", show_all)
     in_node(dump)
     load = verbs("load", "Load parameter file for a node", load_file)
     in_node(load)
     load.add_argument("parameter_file", type=Path, help="Parameter file")
     load.add_argument(
-        "--no-use-wildcard", action="store_true",
+        "--no-use-wildcard",
+        action="store_true",
         help="Do not load what stands below a pattern such as /**, which is for many nodes",
-    )  # fmt: skip
+    )
     delete = verbs("delete", "Delete parameter", delete_parameter)
     in_node(delete)
     _parameter_name(delete)
     for verb in (get, setting, describe, dump, load, delete):
         verb.add_argument(
-            "--timeout", type=seconds, metavar="N", default=0.0,
+            "--timeout",
+            type=seconds,
+            metavar="N",
+            default=0.0,
             help="Wait for N seconds until node becomes available",
-        )  # fmt: skip
+        )
     for verb in (listing, get, setting, describe, dump, load, delete):
         node_options(verb)
 

@@ -54,29 +54,42 @@ def declare(command: argparse.ArgumentParser) -> None:
 def _declare_create(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("package_name", help="The package name")
     parser.add_argument(
-        "--package-format", "--package_format", type=int, default=3, choices=(2, 3),
+        "--package-format",
+        "--package_format",
+        type=int,
+        default=3,
+        choices=(2, 3),
         help="The package.xml format",
-    )  # fmt: skip
+    )
     parser.add_argument(
-        "--description", default="TODO: Package description",
+        "--description",
+        default="TODO: Package description",
         help="The description given in the package.xml",
-    )  # fmt: skip
+    )
     parser.add_argument(
-        "--license", default="TODO: License declaration",
+        "--license",
+        default="TODO: License declaration",
         help="The license attached to this package, e.g. Apache-2.0",
-    )  # fmt: skip
+    )
     parser.add_argument(
-        "--destination-directory", default=".",
+        "--destination-directory",
+        default=".",
         help="Directory where to create the package directory",
-    )  # fmt: skip
+    )
     parser.add_argument(
-        "--build-type", default="ament_cmake", choices=BUILD_TYPES,
+        "--build-type",
+        default="ament_cmake",
+        choices=BUILD_TYPES,
         help="The build type to process the package with (default: ament_cmake)",
-    )  # fmt: skip
+    )
     add(
-        parser, "--dependencies", nargs="+", default=[], complete=complete_packages,
+        parser,
+        "--dependencies",
+        nargs="+",
+        default=[],
+        complete=complete_packages,
         help="list of dependencies",
-    )  # fmt: skip
+    )
     parser.add_argument("--maintainer-email", help="email address of the maintainer")
     parser.add_argument("--maintainer-name", help="name of the maintainer of this package")
     parser.add_argument("--node-name", help="name of the empty executable")

@@ -33,9 +33,7 @@ def declare(command: argparse.ArgumentParser) -> None:
         " Put it in quotes if it contains spaces (e.g. --prefix 'gdb -ex run --args').",
     )
     add(command, "package_name", complete=complete_packages, help="Name of the ROS package")
-    add(
-        command, "executable_name", complete=complete_executables, help="Name of the executable"
-    )  # fmt: skip
+    add(command, "executable_name", complete=complete_executables, help="Name of the executable")
     command.add_argument(
         "argv", nargs=argparse.REMAINDER, help="Pass arbitrary arguments to the executable"
     )

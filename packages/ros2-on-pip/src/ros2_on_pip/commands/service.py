@@ -54,9 +54,11 @@ def declare(command: argparse.ArgumentParser) -> None:
     _service_name(kind)
     find = verbs("find", "Output a list of services of a given type", find_services)
     add(
-        find, "service_type", complete=complete_interfaces("srv"),
+        find,
+        "service_type",
+        complete=complete_interfaces("srv"),
         help="Name of the ROS service type to filter for (e.g. 'std_srvs/srv/SetBool')",
-    )  # fmt: skip
+    )
     count_only(find, "services")
     info = verbs("info", "Print information about a service", show_info)
     _service_name(info)
@@ -73,14 +75,20 @@ def _declare_call(verbs: Verbs) -> None:
     word = verbs("call", "Call a service", call)
     _service_name(word)
     add(
-        word, "service_type", complete=complete_type_of("service", "srv"),
+        word,
+        "service_type",
+        complete=complete_type_of("service", "srv"),
         help="Type of the ROS service (e.g. 'std_srvs/srv/SetBool')",
-    )  # fmt: skip
+    )
     values = word.add_mutually_exclusive_group()
     add(
-        values, "values", nargs="?", default="{}", complete=complete_values("service_type"),
+        values,
+        "values",
+        nargs="?",
+        default="{}",
+        complete=complete_values("service_type"),
         help="Values to fill the service request with in YAML format (e.g. '{data: true}')",
-    )  # fmt: skip
+    )
     stdin_option(values, "the values")
     word.add_argument(
         "-r", "--rate", metavar="N", type=rate, help="Repeat the call at a specific rate in Hz"
@@ -92,9 +100,12 @@ def _declare_echo(verbs: Verbs) -> None:
     word = verbs("echo", "Echo a service", echo)
     _service_name(word)
     add(
-        word, "service_type", nargs="?", complete=complete_type_of("service", "srv"),
+        word,
+        "service_type",
+        nargs="?",
+        complete=complete_type_of("service", "srv"),
         help="Type of the ROS service (e.g. 'std_srvs/srv/SetBool')",
-    )  # fmt: skip
+    )
     shape_options(word)
     add_qos_options(word, "listen")
     node_options(word, only_here=(*DIRECT, "no_daemon"))
@@ -102,9 +113,11 @@ def _declare_echo(verbs: Verbs) -> None:
 
 def _service_name(parser: argparse.ArgumentParser) -> None:
     add(
-        parser, "service_name", complete=complete_services,
+        parser,
+        "service_name",
+        complete=complete_services,
         help="Name of the ROS service (e.g. '/set_light')",
-    )  # fmt: skip
+    )
 
 
 def list_services(options: argparse.Namespace) -> int:

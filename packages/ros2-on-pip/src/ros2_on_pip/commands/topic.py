@@ -73,16 +73,20 @@ def _declare_looking(verbs: Verbs) -> None:
     info = verbs("info", "Print information about a topic", show_info)
     topic_name(info)
     info.add_argument(
-        "-v", "--verbose", action="store_true",
+        "-v",
+        "--verbose",
+        action="store_true",
         help="Prints the nodes publishing to and subscribing to this topic, with their QoS",
-    )  # fmt: skip
+    )
     kind = verbs("type", "Print a topic's type", show_type)
     topic_name(kind)
     find = verbs("find", "Output a list of available topics of a given type", find_topics)
     add(
-        find, "topic_type", complete=complete_interfaces("msg"),
+        find,
+        "topic_type",
+        complete=complete_interfaces("msg"),
         help="Name of the ROS topic type to filter for (e.g. 'std_msgs/msg/String')",
-    )  # fmt: skip
+    )
     count_only(find, "topics")
     also_hidden(find, "topics", "-a")
     for verb in (listing, info, kind, find):
@@ -94,22 +98,29 @@ def _declare_echo(verbs: Verbs) -> None:
     echo = verbs("echo", "Output messages from a topic", _later(from_home, "echo"))
     topic_name(echo)
     add(
-        echo, "message_type", nargs="?", complete=complete_type_of("topic", "msg"),
+        echo,
+        "message_type",
+        nargs="?",
+        complete=complete_type_of("topic", "msg"),
         help="Type of the ROS message (e.g. 'std_msgs/msg/String')",
-    )  # fmt: skip
+    )
     echo.add_argument("--once", action="store_true", help="Print the first message and exit")
     echo.add_argument("--timeout", metavar="N", type=seconds, help="Exit after N seconds")
     echo.add_argument(
         "--field", action="append", help="Echo a selected field of a message, e.g. linear.x"
     )
     echo.add_argument(
-        "--filter", metavar="EXPR", help="Print only messages for which this Python expression"
+        "--filter",
+        metavar="EXPR",
+        help="Print only messages for which this Python expression"
         " holds; m is the message, or the selected field: 'm.linear.x > 0'",
-    )  # fmt: skip
+    )
     echo.add_argument(
-        "-i", "--include-message-info", action="store_true",
+        "-i",
+        "--include-message-info",
+        action="store_true",
         help="Print before each message when it was sent and received, and its number",
-    )  # fmt: skip
+    )
     echo.add_argument("--raw", action="store_true", help="Print the bytes as they came")
     echo.add_argument(
         "--no-lost-messages", action="store_true", help="Don't report when a message is lost"
@@ -128,59 +139,85 @@ def _declare_measuring(verbs: Verbs) -> None:
     for verb, window in ((hz, HZ_WINDOW), (bw, BW_WINDOW), (delay, DELAY_WINDOW)):
         topic_name(verb)
         verb.add_argument(
-            "-w", "--window", type=positive, default=window, metavar="N",
+            "-w",
+            "--window",
+            type=positive,
+            default=window,
+            metavar="N",
             help=f"window size, in # of messages (default: {window})",
-        )  # fmt: skip
+        )
         add_qos_options(verb, "subscribe", only_here=True)
         node_options(verb, only_here=("no_daemon",))
         also_hidden(verb, "topics", only_here=True)
     hz.add_argument(
-        "--filter", metavar="EXPR",
+        "--filter",
+        metavar="EXPR",
         help="Count only messages for which this Python expression holds; m is the message",
-    )  # fmt: skip
+    )
     hz.add_argument(
-        "--wall-time", action="store_true",
+        "--wall-time",
+        action="store_true",
         help="Take the time of this computer, also with --use-sim-time",
-    )  # fmt: skip
+    )
 
 
 def _declare_pub(verbs: Verbs) -> None:
     pub = verbs("pub", "Publish a message to a topic", _later("ros2_on_pip.publishing", "publish"))
     topic_name(pub)
     add(
-        pub, "message_type", complete=complete_type_of("topic", "msg"),
+        pub,
+        "message_type",
+        complete=complete_type_of("topic", "msg"),
         help="Type of the ROS message (e.g. 'std_msgs/msg/String')",
-    )  # fmt: skip
+    )
     values = pub.add_mutually_exclusive_group()
     add(
-        values, "values", nargs="?", default="{}", complete=complete_values("message_type"),
+        values,
+        "values",
+        nargs="?",
+        default="{}",
+        complete=complete_values("message_type"),
         help="Values to fill the message with in YAML format (e.g. '{data: Hello World}')",
-    )  # fmt: skip
+    )
     stdin_option(values, "the values")
     pub.add_argument(
-        "-r", "--rate", metavar="N", type=rate, default=1.0,
+        "-r",
+        "--rate",
+        metavar="N",
+        type=rate,
+        default=1.0,
         help="Publishing rate in Hz (default: 1)",
-    )  # fmt: skip
+    )
     pub.add_argument(
-        "-p", "--print", metavar="N", type=not_negative, default=1,
+        "-p",
+        "--print",
+        metavar="N",
+        type=not_negative,
+        default=1,
         help="Only print every N-th published message (default: 1)",
-    )  # fmt: skip
+    )
     count = pub.add_mutually_exclusive_group()
     count.add_argument("-1", "--once", action="store_true", help="Publish one message and exit")
     count.add_argument(
         "-t", "--times", type=not_negative, default=0, help="Publish this number of times, exit"
     )
     pub.add_argument(
-        "-w", "--wait-matching-subscriptions", metavar="N", type=not_negative,
+        "-w",
+        "--wait-matching-subscriptions",
+        metavar="N",
+        type=not_negative,
         help="Wait for N subscriptions (default: 1 with --once and --times, else 0)",
-    )  # fmt: skip
+    )
     pub.add_argument(
         "--max-wait-time-secs", metavar="S", type=seconds, help="... but not longer than S seconds"
     )
     pub.add_argument(
-        "--keep-alive", metavar="S", type=positive_seconds, default=0.1,
+        "--keep-alive",
+        metavar="S",
+        type=positive_seconds,
+        default=0.1,
         help="Stay for S seconds after the last message (default: 0.1)",
-    )  # fmt: skip
+    )
     pub.add_argument("-n", "--node-name", help="Name of the created publishing node")
     add_qos_options(pub, "publish")
     node_options(pub, daemon=False)

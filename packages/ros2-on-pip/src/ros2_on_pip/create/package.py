@@ -200,9 +200,14 @@ def _warn(request: PackageRequest) -> None:
             near = did_you_mean(name, there)
             print(f"[WARNING]: no package '{name}' is installed here.{near}", file=sys.stderr)
     if request.package in there:
-        print(f"[WARNING]: a package '{request.package}' is installed already;"
-              " yours will hide it where both are sourced.", file=sys.stderr)  # fmt: skip
+        print(
+            f"[WARNING]: a package '{request.package}' is installed already;"
+            " yours will hide it where both are sourced.",
+            file=sys.stderr,
+        )
     if request.license.startswith("TODO"):
-        print("\n[WARNING]: Unknown license 'TODO: License declaration'. This has been set in"
-              " package.xml.\nBefore you publish the package, choose one there, for example"
-              " Apache-2.0.")  # fmt: skip
+        print(
+            "\n[WARNING]: Unknown license 'TODO: License declaration'. This has been set in"
+            " package.xml.\nBefore you publish the package, choose one there, for example"
+            " Apache-2.0."
+        )

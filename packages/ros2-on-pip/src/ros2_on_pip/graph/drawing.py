@@ -75,8 +75,14 @@ def graph_pictures(graph: Graph) -> Markup:
 
 def _picture(plan: Plan, labels: Mapping[str, Label], words: str, screen: str | None) -> Markup:
     drawing = _drawing(plan, labels, words)
-    return tag("div", drawing, class_=" ".join(filter(None, ("scroll", screen))), tabindex="0",
-               role="group", aria_label="the graph, to scroll")  # fmt: skip
+    return tag(
+        "div",
+        drawing,
+        class_=" ".join(filter(None, ("scroll", screen))),
+        tabindex="0",
+        role="group",
+        aria_label="the graph, to scroll",
+    )
 
 
 def _drawing(plan: Plan, labels: Mapping[str, Label], words: str) -> Markup:
@@ -115,9 +121,14 @@ def _arrow(arrow: Arrow) -> Iterator[Markup]:
 def _box(box: Box, label: Label) -> Iterator[Markup]:
     if not label.round:
         yield tag(
-            "rect", x=box.x - box.width / 2, y=box.y - box.height / 2, width=box.width,
-            height=box.height, rx=2.0, class_="topic",
-        )  # fmt: skip
+            "rect",
+            x=box.x - box.width / 2,
+            y=box.y - box.height / 2,
+            width=box.width,
+            height=box.height,
+            rx=2.0,
+            class_="topic",
+        )
         return
     if label.doubled:
         yield _ellipse(box, SHADOW, "node doubled")
@@ -126,18 +137,27 @@ def _box(box: Box, label: Label) -> Iterator[Markup]:
 
 def _ellipse(box: Box, shift: float, kind: str) -> Markup:
     return tag(
-        "ellipse", cx=box.x + shift, cy=box.y + shift, rx=box.width / 2, ry=box.height / 2,
+        "ellipse",
+        cx=box.x + shift,
+        cy=box.y + shift,
+        rx=box.width / 2,
+        ry=box.height / 2,
         class_=kind,
-    )  # fmt: skip
+    )
 
 
 def _lines(box: Box, label: Label) -> Iterator[Markup]:
     top = box.y - label.height / 2
     for line in label.lines:
         yield tag(
-            "text", line.text, x=box.x, y=top + line.size, text_anchor="middle",
-            font_size=line.size, class_=_kind(line),
-        )  # fmt: skip
+            "text",
+            line.text,
+            x=box.x,
+            y=top + line.size,
+            text_anchor="middle",
+            font_size=line.size,
+            class_=_kind(line),
+        )
         top += line.height
 
 

@@ -50,9 +50,14 @@ class DeclareLaunchArgument(Action):
     """An argument of the launch file."""
 
     def __init__(
-        self, name: str, *, default_value: SomeSubstitutionsType | None = None,
-        description: str | None = None, choices: Iterable[str] | None = None, **others: Any,
-    ) -> None:  # fmt: skip
+        self,
+        name: str,
+        *,
+        default_value: SomeSubstitutionsType | None = None,
+        description: str | None = None,
+        choices: Iterable[str] | None = None,
+        **others: Any,
+    ) -> None:
         super().__init__(**others)
         self.name = name
         self.default_value = parts_or_none(default_value, f"default_value of '{name}'")
@@ -108,10 +113,13 @@ class AppendEnvironmentVariable(SetLaunchConfiguration):
     """Put something behind, or before, the value of a variable of the environment."""
 
     def __init__(
-        self, name: SomeSubstitutionsType, value: SomeSubstitutionsType,
+        self,
+        name: SomeSubstitutionsType,
+        value: SomeSubstitutionsType,
         prepend: bool | SomeSubstitutionsType = False,
-        separator: SomeSubstitutionsType = ":", **others: Any,
-    ) -> None:  # fmt: skip
+        separator: SomeSubstitutionsType = ":",
+        **others: Any,
+    ) -> None:
         super().__init__(name, value, **others)
         self.prepend = parts_of(str(prepend) if isinstance(prepend, bool) else prepend, "prepend")
         self.separator = parts_of(separator, "separator")
@@ -158,9 +166,14 @@ class GroupAction(Action):
     """Several actions with one condition; what they set stays inside."""
 
     def __init__(
-        self, actions: Iterable[Entity], *, scoped: bool = True, forwarding: bool = True,
-        launch_configurations: Mapping[Any, Any] | None = None, **others: Any,
-    ) -> None:  # fmt: skip
+        self,
+        actions: Iterable[Entity],
+        *,
+        scoped: bool = True,
+        forwarding: bool = True,
+        launch_configurations: Mapping[Any, Any] | None = None,
+        **others: Any,
+    ) -> None:
         super().__init__(**others)
         self.actions = checked(actions, "GroupAction")
         self.scoped, self.forwarding = scoped, forwarding
@@ -208,9 +221,13 @@ class TimerAction(Action):
     """Actions that are carried out later."""
 
     def __init__(
-        self, *, period: float | SomeSubstitutionsType, actions: Iterable[Entity],
-        cancel_on_shutdown: bool = True, **others: Any,
-    ) -> None:  # fmt: skip
+        self,
+        *,
+        period: float | SomeSubstitutionsType,
+        actions: Iterable[Entity],
+        cancel_on_shutdown: bool = True,
+        **others: Any,
+    ) -> None:
         super().__init__(**others)
         is_number = isinstance(period, int | float)
         self.period = parts_of(str(period) if is_number else period, "period of TimerAction")
@@ -329,9 +346,13 @@ class OpaqueFunction(Action):
     """A function that makes actions when the values of all arguments are known."""
 
     def __init__(
-        self, *, function: Callable[..., Iterable[Entity] | None],
-        args: Iterable[Any] | None = None, kwargs: Mapping[str, Any] | None = None, **others: Any,
-    ) -> None:  # fmt: skip
+        self,
+        *,
+        function: Callable[..., Iterable[Entity] | None],
+        args: Iterable[Any] | None = None,
+        kwargs: Mapping[str, Any] | None = None,
+        **others: Any,
+    ) -> None:
         super().__init__(**others)
         if not callable(function):
             raise TypeError(f"function of OpaqueFunction must be a function, not {function!r}")

@@ -32,10 +32,16 @@ class Child:
         self.planned = planned
         self.alarms: list[Alarm] = []
         self.process = subprocess.Popen(
-            _command(planned), shell=planned.shell, env=planned.environment, cwd=planned.folder,
-            start_new_session=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE, preexec_fn=_become_child,
-        )  # fmt: skip
+            _command(planned),
+            shell=planned.shell,
+            env=planned.environment,
+            cwd=planned.folder,
+            start_new_session=True,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            preexec_fn=_become_child,
+        )
         assert self.process.stdout and self.process.stderr
         self.streams = {
             "stdout": self.process.stdout.fileno(),
@@ -59,9 +65,14 @@ class Child:
         """An event about it."""
         planned = self.planned
         return kind(
-            action=planned.action, process_name=planned.name, pid=self.pid, cmd=planned.command,
-            cwd=planned.folder, env=planned.environment, **more,
-        )  # fmt: skip
+            action=planned.action,
+            process_name=planned.name,
+            pid=self.pid,
+            cmd=planned.command,
+            cwd=planned.folder,
+            env=planned.environment,
+            **more,
+        )
 
     def lines(self, stream: str) -> tuple[list[bytes], bool]:
         """The lines that have come, and whether more can come."""

@@ -15,11 +15,21 @@ if TYPE_CHECKING:
     from ros2_on_pip.launching.context import LaunchContext
 
 NAMES_ELSEWHERE = {
-    "pkg": "package", "exec": "executable", "node_executable": "executable", "node_name": "name",
-    "ns": "namespace", "node_namespace": "namespace", "args": "arguments", "ros_args":
-    "ros_arguments", "params": "parameters", "param": "parameters", "remap": "remappings",
-    "remaps": "remappings", "default": "default_value", "if": "condition",
-}  # fmt: skip
+    "pkg": "package",
+    "exec": "executable",
+    "node_executable": "executable",
+    "node_name": "name",
+    "ns": "namespace",
+    "node_namespace": "namespace",
+    "args": "arguments",
+    "ros_args": "ros_arguments",
+    "params": "parameters",
+    "param": "parameters",
+    "remap": "remappings",
+    "remaps": "remappings",
+    "default": "default_value",
+    "if": "condition",
+}
 """What XML, YAML and older Pythons call a keyword of today's Python files."""
 
 
@@ -38,10 +48,11 @@ def keywords_of(cls: type) -> list[str]:
     """Every keyword that the constructor of `cls` takes, those of its bases too."""
     names = [
         parameter.name
-        for base in cls.__mro__ if "__init__" in vars(base) and base is not object
+        for base in cls.__mro__
+        if "__init__" in vars(base) and base is not object
         for parameter in inspect.signature(base).parameters.values()
         if parameter.kind in (parameter.KEYWORD_ONLY, parameter.POSITIONAL_OR_KEYWORD)
-    ]  # fmt: skip
+    ]
     return list(dict.fromkeys(names))
 
 
@@ -98,9 +109,11 @@ class LaunchDescription(Entity):
     """What a launch file asks for, in order."""
 
     def __init__(
-        self, initial_entities: Iterable[Entity] | None = None, *,
+        self,
+        initial_entities: Iterable[Entity] | None = None,
+        *,
         deprecated_reason: str | None = None,
-    ) -> None:  # fmt: skip
+    ) -> None:
         super().__init__()
         self.entities = checked(initial_entities or (), "LaunchDescription")
         self.deprecated_reason = deprecated_reason

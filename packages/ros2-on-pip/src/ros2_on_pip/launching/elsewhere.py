@@ -87,7 +87,7 @@ ELEMENTS = {
     "reset": "group",
     "ros_timer": "timer",
     "set_ros_log_dir": "set_env with the name ROS_LOG_DIR",
-}  # fmt: skip
+}
 """A tag that Jazzy has, to what to use here."""
 
 SUBSTITUTIONS = {

@@ -28,9 +28,12 @@ class EventHandler:
     """Answers the events that it matches."""
 
     def __init__(
-        self, *, matcher: Callable[[Event], bool], entities: Answer = None,
+        self,
+        *,
+        matcher: Callable[[Event], bool],
+        entities: Answer = None,
         handle_once: bool = False,
-    ) -> None:  # fmt: skip
+    ) -> None:
         self.matcher, self.handle_once = matcher, handle_once
         self.place = calling_place()
         self.answer = answer_of(entities or (), type(self).__name__)
@@ -132,9 +135,14 @@ class OnProcessIO(OnAction):
     event = ProcessIO
 
     def __init__(
-        self, *, target_action: Any = None, on_stdin: Answer = None, on_stdout: Answer = None,
-        on_stderr: Answer = None, handle_once: bool = False,
-    ) -> None:  # fmt: skip
+        self,
+        *,
+        target_action: Any = None,
+        on_stdin: Answer = None,
+        on_stdout: Answer = None,
+        on_stderr: Answer = None,
+        handle_once: bool = False,
+    ) -> None:
         super().__init__(target_action, (), handle_once)
         self.on_stdout = answer_of(on_stdout or (), "on_stdout")
         self.on_stderr = answer_of(on_stderr or (), "on_stderr")
@@ -161,6 +169,7 @@ class OnShutdown(EventHandler):
 
     def __init__(self, *, on_shutdown: Answer, handle_once: bool = True) -> None:
         super().__init__(
-            matcher=lambda event: isinstance(event, Shutdown), entities=on_shutdown,
+            matcher=lambda event: isinstance(event, Shutdown),
+            entities=on_shutdown,
             handle_once=handle_once,
-        )  # fmt: skip
+        )

@@ -34,14 +34,19 @@ class Node(ExecuteProcess):
     """Start a node of a package."""
 
     def __init__(
-        self, *, executable: SomeSubstitutionsType | None = None,
+        self,
+        *,
+        executable: SomeSubstitutionsType | None = None,
         package: SomeSubstitutionsType | None = None,
-        name: SomeSubstitutionsType | None = None, namespace: SomeSubstitutionsType | None = None,
-        exec_name: SomeSubstitutionsType | None = None, parameters: Iterable[Any] | None = None,
+        name: SomeSubstitutionsType | None = None,
+        namespace: SomeSubstitutionsType | None = None,
+        exec_name: SomeSubstitutionsType | None = None,
+        parameters: Iterable[Any] | None = None,
         remappings: Iterable[tuple[Any, Any]] | None = None,
         arguments: Iterable[SomeSubstitutionsType] | None = None,
-        ros_arguments: Iterable[SomeSubstitutionsType] | None = None, **others: Any,
-    ) -> None:  # fmt: skip
+        ros_arguments: Iterable[SomeSubstitutionsType] | None = None,
+        **others: Any,
+    ) -> None:
         super().__init__(cmd=(), name=exec_name, **others)
         if executable is None:  # asked for here, so that a misspelt keyword is told first
             raise TypeError("Node needs more: executable")
@@ -112,8 +117,12 @@ class Node(ExecuteProcess):
 
     def details(self) -> str:
         """Package, executable, and what else is said."""
-        said = {"package": self.package, "executable": self.executable,
-                "name": self.node_name_parts, "namespace": self.namespace}  # fmt: skip
+        said = {
+            "package": self.package,
+            "executable": self.executable,
+            "name": self.node_name_parts,
+            "namespace": self.namespace,
+        }
         return ", ".join(f"{key}={described(one)}" for key, one in said.items() if one is not None)
 
 

@@ -68,17 +68,24 @@ def _list_of(kind: type[Any], value: Any) -> list[Any]:
 
 
 _CALLED = {
-    bool: "true or false", int: "a whole number", float: "a number with a point", str: "a text",
-}  # fmt: skip
+    bool: "true or false",
+    int: "a whole number",
+    float: "a number with a point",
+    str: "a text",
+}
 
 
 class Parameter:
     """One parameter with its name."""
 
     def __init__(
-        self, name: SomeSubstitutionsType, value: Any, *, value_type: Any = None,
+        self,
+        name: SomeSubstitutionsType,
+        value: Any,
+        *,
+        value_type: Any = None,
         description: SomeSubstitutionsType = "",
-    ) -> None:  # fmt: skip
+    ) -> None:
         self.name = parts_of(name, "the name of a Parameter")
         self.value = ParameterValue(value, value_type=value_type)
 
@@ -87,9 +94,11 @@ class ParameterFile:
     """A parameter file, in which `$(...)` is filled in where that is wanted."""
 
     def __init__(
-        self, param_file: SomeSubstitutionsType, *,
+        self,
+        param_file: SomeSubstitutionsType,
+        *,
         allow_substs: bool | SomeSubstitutionsType = False,
-    ) -> None:  # fmt: skip
+    ) -> None:
         self.param_file = parts_of(param_file, "param_file of ParameterFile")
         switch = str(allow_substs) if isinstance(allow_substs, bool) else allow_substs
         self.allow_substs = parts_of(switch, "allow_substs of ParameterFile")

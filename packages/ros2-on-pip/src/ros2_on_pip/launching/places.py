@@ -40,9 +40,10 @@ class NotReadHere(BadLaunchFile):
         self.exit_code = NOT_READ_HERE
         use = f" Use instead: {instead}" if instead else ""
         super().__init__(
-            place, f"{what} is right in Jazzy, and not in this launch: it needs the full ros2 on"
+            place,
+            f"{what} is right in Jazzy, and not in this launch: it needs the full ros2 on"
             f" Ubuntu 24.04 (sudo apt install ros-jazzy-ros-base).{use}",
-        )  # fmt: skip
+        )
 
 
 _standing: list[Place] = []

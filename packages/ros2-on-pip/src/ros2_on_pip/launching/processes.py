@@ -58,16 +58,28 @@ class ExecuteProcess(ProcessAction):
     """Start any program."""
 
     def __init__(
-        self, *, cmd: Iterable[SomeSubstitutionsType],
-        name: SomeSubstitutionsType | None = None, prefix: SomeSubstitutionsType | None = None,
-        cwd: SomeSubstitutionsType | None = None, env: Mapping[Any, Any] | None = None,
-        additional_env: Mapping[Any, Any] | None = None, shell: bool = False,
-        output: Any = "log", emulate_tty: bool = False, log_cmd: bool = False,
-        cached_output: bool = False, output_format: str | None = None,
-        on_exit: Answer = None, respawn: bool | SomeSubstitutionsType = False,
-        respawn_delay: float | None = None, respawn_max_retries: int = -1,
-        sigterm_timeout: Any = None, sigkill_timeout: Any = None, **others: Any,
-    ) -> None:  # fmt: skip
+        self,
+        *,
+        cmd: Iterable[SomeSubstitutionsType],
+        name: SomeSubstitutionsType | None = None,
+        prefix: SomeSubstitutionsType | None = None,
+        cwd: SomeSubstitutionsType | None = None,
+        env: Mapping[Any, Any] | None = None,
+        additional_env: Mapping[Any, Any] | None = None,
+        shell: bool = False,
+        output: Any = "log",
+        emulate_tty: bool = False,
+        log_cmd: bool = False,
+        cached_output: bool = False,
+        output_format: str | None = None,
+        on_exit: Answer = None,
+        respawn: bool | SomeSubstitutionsType = False,
+        respawn_delay: float | None = None,
+        respawn_max_retries: int = -1,
+        sigterm_timeout: Any = None,
+        sigkill_timeout: Any = None,
+        **others: Any,
+    ) -> None:
         super().__init__(**others)
         if isinstance(cmd, str) and not shell:
             raise TypeError(f"cmd must be a list of words: cmd={shlex.split(cmd)!r}")

@@ -47,26 +47,61 @@ LAUNCH: Names = {
     "Substitution": substitution.Substitution,
 }
 ACTIONS = (
-    "AppendEnvironmentVariable", "DeclareLaunchArgument", "EmitEvent", "GroupAction", "LogInfo",
-    "OpaqueFunction", "RegisterEventHandler", "SetEnvironmentVariable", "SetLaunchConfiguration",
-    "Shutdown", "TimerAction", "UnregisterEventHandler", "UnsetEnvironmentVariable",
+    "AppendEnvironmentVariable",
+    "DeclareLaunchArgument",
+    "EmitEvent",
+    "GroupAction",
+    "LogInfo",
+    "OpaqueFunction",
+    "RegisterEventHandler",
+    "SetEnvironmentVariable",
+    "SetLaunchConfiguration",
+    "Shutdown",
+    "TimerAction",
+    "UnregisterEventHandler",
+    "UnsetEnvironmentVariable",
     "UnsetLaunchConfiguration",
-)  # fmt: skip
+)
 ROS_ACTIONS = (
-    "PushRosNamespace", "SetParameter", "SetParametersFromFile", "SetRemap", "SetUseSimTime",
-)  # fmt: skip
+    "PushRosNamespace",
+    "SetParameter",
+    "SetParametersFromFile",
+    "SetRemap",
+    "SetUseSimTime",
+)
 SUBSTITUTIONS = (
-    "AndSubstitution", "AnonName", "Command", "EnvironmentVariable", "EqualsSubstitution",
-    "FileContent", "FindExecutable", "IfElseSubstitution", "LaunchConfiguration", "LaunchLogDir",
-    "LocalSubstitution", "NotEqualsSubstitution", "NotSubstitution", "OrSubstitution",
-    "PathJoinSubstitution", "PythonExpression", "ThisLaunchFile", "ThisLaunchFileDir",
-)  # fmt: skip
+    "AndSubstitution",
+    "AnonName",
+    "Command",
+    "EnvironmentVariable",
+    "EqualsSubstitution",
+    "FileContent",
+    "FindExecutable",
+    "IfElseSubstitution",
+    "LaunchConfiguration",
+    "LaunchLogDir",
+    "LocalSubstitution",
+    "NotEqualsSubstitution",
+    "NotSubstitution",
+    "OrSubstitution",
+    "PathJoinSubstitution",
+    "PythonExpression",
+    "ThisLaunchFile",
+    "ThisLaunchFileDir",
+)
 CONDITIONS = (
-    "IfCondition", "LaunchConfigurationEquals", "LaunchConfigurationNotEquals", "UnlessCondition",
-)  # fmt: skip
+    "IfCondition",
+    "LaunchConfigurationEquals",
+    "LaunchConfigurationNotEquals",
+    "UnlessCondition",
+)
 HANDLERS = (
-    "OnExecutionComplete", "OnProcessExit", "OnProcessIO", "OnProcessStart", "OnShutdown",
-)  # fmt: skip
+    "OnExecutionComplete",
+    "OnProcessExit",
+    "OnProcessIO",
+    "OnProcessStart",
+    "OnShutdown",
+)
 
 
 def _from(module: ModuleType, names: Sequence[str]) -> dict[str, Any]:

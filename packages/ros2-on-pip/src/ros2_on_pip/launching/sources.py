@@ -72,10 +72,12 @@ class IncludeLaunchDescription(Action):
     """Carry out another launch file; its arguments stay set afterwards, as in Jazzy."""
 
     def __init__(
-        self, launch_description_source: Any, *,
+        self,
+        launch_description_source: Any,
+        *,
         launch_arguments: Iterable[tuple[Any, Any]] | Mapping[Any, Any] | None = None,
         **others: Any,
-    ) -> None:  # fmt: skip
+    ) -> None:
         super().__init__(**others)
         source = launch_description_source
         if isinstance(source, AnyLaunchDescriptionSource):

@@ -157,9 +157,13 @@ class Command(_Listed):
         text, on_stderr = self.performed_texts(context)
         try:
             done = subprocess.run(
-                shlex.split(text), capture_output=True, text=True, check=False,
-                stdin=subprocess.DEVNULL, env=dict(context.environment),
-            )  # fmt: skip
+                shlex.split(text),
+                capture_output=True,
+                text=True,
+                check=False,
+                stdin=subprocess.DEVNULL,
+                env=dict(context.environment),
+            )
         except (OSError, ValueError) as fault:
             raise SubstitutionFailure(f"the command `{text}` cannot be run: {fault}") from None
         if done.returncode or (done.stderr and on_stderr == "fail"):
@@ -368,9 +372,11 @@ class IfElseSubstitution(_Listed):
     """One of two texts."""
 
     def __init__(
-        self, condition: SomeSubstitutionsType,
-        if_value: SomeSubstitutionsType = "", else_value: SomeSubstitutionsType = "",
-    ) -> None:  # fmt: skip
+        self,
+        condition: SomeSubstitutionsType,
+        if_value: SomeSubstitutionsType = "",
+        else_value: SomeSubstitutionsType = "",
+    ) -> None:
         super().__init__([condition, if_value, else_value])
 
     def perform(self, context: LaunchContext) -> str:

@@ -10,9 +10,11 @@ from ros2_on_pip.rosbag2.errors import BagError, reason_of
 
 DURATIONS = ("deadline", "lifespan", "liveliness_lease_duration")
 POLICIES = {
-    "history": "HistoryPolicy", "reliability": "ReliabilityPolicy",
-    "durability": "DurabilityPolicy", "liveliness": "LivelinessPolicy",
-}  # fmt: skip
+    "history": "HistoryPolicy",
+    "reliability": "ReliabilityPolicy",
+    "durability": "DurabilityPolicy",
+    "liveliness": "LivelinessPolicy",
+}
 NUMBERS = ("depth", "avoid_ros_namespace_conventions")
 
 MOST_DEPTH = 10_000
@@ -139,9 +141,11 @@ def overrides(file: Path | None) -> dict[str, Any]:
 
 
 def _said(fault: Exception) -> str:
-    return "a name is unknown or missing: " + reason_of(fault) if isinstance(
-        fault, KeyError
-    ) else reason_of(fault)  # fmt: skip
+    return (
+        "a name is unknown or missing: " + reason_of(fault)
+        if isinstance(fault, KeyError)
+        else reason_of(fault)
+    )
 
 
 def _profile(policies: Mapping[str, Any]) -> Any:

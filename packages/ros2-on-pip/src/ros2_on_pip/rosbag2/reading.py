@@ -102,9 +102,18 @@ def _faults() -> tuple[type[Exception], ...]:
     from rosbags.rosbag2 import ReaderError
 
     return (
-        ReaderError, OSError, ValueError, KeyError, TypeError, IndexError, AssertionError, EOFError,
-        struct.error, apsw.Error, BROKEN,
-    )  # fmt: skip
+        ReaderError,
+        OSError,
+        ValueError,
+        KeyError,
+        TypeError,
+        IndexError,
+        AssertionError,
+        EOFError,
+        struct.error,
+        apsw.Error,
+        BROKEN,
+    )
 
 
 def _metadata(path: Path, reader: Any) -> Metadata:
@@ -112,9 +121,12 @@ def _metadata(path: Path, reader: Any) -> Metadata:
         return read_metadata(path)
     file = File(path.name, span_of(reader))
     found = Metadata(
-        storage=storage_of(path), topics=topics_of(reader), files=(file,), span=file.span,
+        storage=storage_of(path),
+        topics=topics_of(reader),
+        files=(file,),
+        span=file.span,
         distro="",
-    )  # fmt: skip
+    )
     return found.measured(path.parent)
 
 

@@ -156,11 +156,15 @@ def topics_of(reader: Any) -> tuple[Topic, ...]:
     """The topics of an open reader."""
     return tuple(
         Topic(
-            each.topic, each.msgtype, each.ext.serialization_format,
-            tuple(each.ext.offered_qos_profiles), each.digest, each.msgcount,
+            each.topic,
+            each.msgtype,
+            each.ext.serialization_format,
+            tuple(each.ext.offered_qos_profiles),
+            each.digest,
+            each.msgcount,
         )
         for each in reader.connections
-    )  # fmt: skip
+    )
 
 
 def _is_packed(reader: Any) -> bool:

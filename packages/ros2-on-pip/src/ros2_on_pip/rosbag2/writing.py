@@ -187,10 +187,15 @@ class BagWriter:
         )
 
         self._connections[topic.name] = Connection(
-            self._next_id(), topic.name, topic.type,
-            MessageDefinition(MessageDefinitionFormat.MSG, text), topic.hash, 0,
-            ConnectionExtRosbag2(topic.format, list(topic.qos)), self,
-        )  # fmt: skip
+            self._next_id(),
+            topic.name,
+            topic.type,
+            MessageDefinition(MessageDefinitionFormat.MSG, text),
+            topic.hash,
+            0,
+            ConnectionExtRosbag2(topic.format, list(topic.qos)),
+            self,
+        )
         self._introduce(self._connections[topic.name])
 
     def _next_id(self) -> int:

@@ -37,9 +37,10 @@ class Parser(argparse.ArgumentParser):
 def parser() -> Parser:
     """The words of the real program."""
     made = Parser(
-        prog=NAME, description="A command line utility for manually sending a static transform. "
+        prog=NAME,
+        description="A command line utility for manually sending a static transform. "
         "If no translation or orientation is provided, the identity transform will be published.",
-    )  # fmt: skip
+    )
     made.add_argument("--frame-id", default="", help="parent frame")
     made.add_argument("--child-frame-id", default="", help="child frame id")
     for name in SHIFT:
@@ -48,8 +49,11 @@ def parser() -> Parser:
         made.add_argument(f"--{name}", type=float, help=f"{name[1]} component of the quaternion")
     for name in ANGLES:
         made.add_argument(f"--{name}", type=float, help=f"{name} of the rotation, in rad")
-    made.add_argument("old", nargs="*", help="in the old order: x y z yaw pitch roll, or x y z qx"
-                      " qy qz qw, then both frames")  # fmt: skip
+    made.add_argument(
+        "old",
+        nargs="*",
+        help="in the old order: x y z yaw pitch roll, or x y z qx qy qz qw, then both frames",
+    )
     return made
 
 

@@ -31,9 +31,12 @@ def parser() -> argparse.ArgumentParser:
         prog="view_frames", description="Create a diagram of the TF frames being broadcast over ROS"
     )
     made.add_argument(
-        "--wait-time", "-t", type=float, default=LISTENED_S,
+        "--wait-time",
+        "-t",
+        type=float,
+        default=LISTENED_S,
         help="Listen to the /tf topic for this many seconds before rendering the frame tree",
-    )  # fmt: skip
+    )
     made.add_argument("-o", "--output", help="Output filename")
     return made
 

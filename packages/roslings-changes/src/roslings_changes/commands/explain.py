@@ -44,9 +44,10 @@ def add_options(word: argparse.ArgumentParser) -> None:
         "--answers", action="store_true", help="print the questions with their answers"
     )
     word.add_argument(
-        "--as-stranger", action="store_true",
+        "--as-stranger",
+        action="store_true",
         help="hold somebody else's package as grade does, or refuse it where nothing can",
-    )  # fmt: skip
+    )
 
 
 def run(options: argparse.Namespace) -> int:

@@ -24,14 +24,19 @@ def add_options(word: argparse.ArgumentParser) -> None:
     """What it takes."""
     lab_options(word)
     word.add_argument(
-        "submissions", metavar="SUBMISSIONS", type=Path,
+        "submissions",
+        metavar="SUBMISSIONS",
+        type=Path,
         help="Moodle's or Canvas's zip of the class; or a folder of folders, .zip and .tar.gz"
         " files, or a CSV file with their paths",
-    )  # fmt: skip
+    )
     word.add_argument(
-        "--out", metavar="DIR", type=Path, required=True,
+        "--out",
+        metavar="DIR",
+        type=Path,
+        required=True,
         help="where the gradebook goes; the same command goes on where it was ended",
-    )  # fmt: skip
+    )
     word.add_argument(
         "--jobs", metavar="N", type=whole_number, help="how many at once (default: measured)"
     )
@@ -39,9 +44,12 @@ def add_options(word: argparse.ArgumentParser) -> None:
     trust_option(word)
     word.add_argument("--clock", choices=("auto", "sim", "wall"), default="auto")
     word.add_argument(
-        "--limit", metavar="SECONDS", type=whole_number, default=900,
+        "--limit",
+        metavar="SECONDS",
+        type=whole_number,
+        default=900,
         help="the most that one grading may take (default: 900)",
-    )  # fmt: skip
+    )
     soak_option(word, "half a minute, or what the card says")
     word.add_argument(
         "--dask", metavar="ADDRESS", help="grade on a Dask cluster, for example tcp://10.0.0.5:8786"
@@ -50,27 +58,32 @@ def add_options(word: argparse.ArgumentParser) -> None:
         "--evidence", action="store_true", help="with --dask: bring the evidence back as well"
     )
     word.add_argument(
-        "--variants", action="store_true",
+        "--variants",
+        action="store_true",
         help="each student has a card of their own (start LAB --for NAME); needs --roster",
-    )  # fmt: skip
+    )
     word.add_argument(
-        "--explain", action="store_true",
+        "--explain",
+        action="store_true",
         help="make three questions, with answers, about each hand-in that passes",
-    )  # fmt: skip
+    )
     roster_options(word)
 
 
 def roster_options(word: argparse.ArgumentParser) -> None:
     """Who is in the class, and what being late costs."""
     word.add_argument(
-        "--roster", metavar="FILE", type=Path,
+        "--roster",
+        metavar="FILE",
+        type=Path,
         help="the class list, a CSV file with name, id, email; tells who is missing",
-    )  # fmt: skip
+    )
     word.add_argument(
-        "--deadline", metavar="TIME",
+        "--deadline",
+        metavar="TIME",
         help="for example 2026-11-30T23:59, or '2026-11-30 23:59 Europe/Berlin'; late days are"
         " counted, and times without a zone are read in this one",
-    )  # fmt: skip
+    )
     word.add_argument(
         "--late-points", metavar="P", type=float, default=0.0, help="what each day late costs"
     )
@@ -78,22 +91,32 @@ def roster_options(word: argparse.ArgumentParser) -> None:
         "--late-free", metavar="N", type=int, default=0, help="late days that cost nothing"
     )
     word.add_argument(
-        "--points", metavar="N", type=_points,
+        "--points",
+        metavar="N",
+        type=_points,
         help="what the whole is worth on your platform (default: what its class list says, or 100)",
-    )  # fmt: skip
+    )
     word.add_argument(
-        "--extensions", metavar="FILE", type=Path,
+        "--extensions",
+        metavar="FILE",
+        type=Path,
         help="who has more time, a CSV file with name or id, and until",
-    )  # fmt: skip
+    )
     word.add_argument(
-        "--times", metavar="FILE", type=Path, action="append", default=[],
+        "--times",
+        metavar="FILE",
+        type=Path,
+        action="append",
+        default=[],
         help="when each was handed in: a CSV file with name or id, and submitted; GitHub"
         " Classroom's grades; or Canvas's list of submissions (.json); may be given again",
-    )  # fmt: skip
+    )
     word.add_argument(
-        "--canvas-assignment", metavar="NAME", default="",
+        "--canvas-assignment",
+        metavar="NAME",
+        default="",
         help='the head of the column in canvas.csv, for example "Lab 3 (48151)"',
-    )  # fmt: skip
+    )
 
 
 def _points(text: str) -> float:
@@ -109,14 +132,26 @@ def run(options: argparse.Namespace) -> int:
     from roslings_class.command import Choices, grade
 
     choices = Choices(
-        options.lab, options.submissions, options.out, jobs=options.jobs, hidden=options.hidden,
-        trust=options.trust, clock=options.clock, limit_s=options.limit,
-        roster=options.roster, rule=_late_rule(options), dask=options.dask,
-        keeps_evidence=not options.dask or options.evidence, soak_s=options.soak,
-        assignment=options.canvas_assignment, points=options.points,
-        variants=options.variants, extensions=options.extensions, times=tuple(options.times),
+        options.lab,
+        options.submissions,
+        options.out,
+        jobs=options.jobs,
+        hidden=options.hidden,
+        trust=options.trust,
+        clock=options.clock,
+        limit_s=options.limit,
+        roster=options.roster,
+        rule=_late_rule(options),
+        dask=options.dask,
+        keeps_evidence=not options.dask or options.evidence,
+        soak_s=options.soak,
+        assignment=options.canvas_assignment,
+        points=options.points,
+        variants=options.variants,
+        extensions=options.extensions,
+        times=tuple(options.times),
         explain=options.explain,
-    )  # fmt: skip
+    )
     try:
         report = grade(choices)
     except KeyboardInterrupt:

@@ -11,17 +11,25 @@ from ros2_on_pip.errors import OK
 def add_options(word: argparse.ArgumentParser) -> None:
     """What it takes."""
     word.add_argument(
-        "folders", metavar="DIR", type=Path, nargs="+",
+        "folders",
+        metavar="DIR",
+        type=Path,
+        nargs="+",
         help="the --out of ./roslings grade, one for each lab",
-    )  # fmt: skip
+    )
     word.add_argument(
-        "--out", metavar="DIR", type=Path, required=True,
+        "--out",
+        metavar="DIR",
+        type=Path,
+        required=True,
         help="where overview.html and overview.csv go",
-    )  # fmt: skip
+    )
     word.add_argument(
-        "--roster", metavar="FILE", type=Path,
+        "--roster",
+        metavar="FILE",
+        type=Path,
         help="the class list (default: all who are in the lists of the labs)",
-    )  # fmt: skip
+    )
 
 
 def run(options: argparse.Namespace) -> int:

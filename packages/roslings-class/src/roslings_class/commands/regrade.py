@@ -16,9 +16,11 @@ def add_options(word: argparse.ArgumentParser) -> None:
     """What it takes."""
     lab_options(word)
     word.add_argument(
-        "evidence", metavar="EVIDENCE", type=Path,
+        "evidence",
+        metavar="EVIDENCE",
+        type=Path,
         help="the folder that check --evidence made, or the --out of ./roslings grade",
-    )  # fmt: skip
+    )
     hidden_option(word)
     verdict_options(word)
     word.set_defaults(hint=None)
@@ -27,7 +29,7 @@ def add_options(word: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Judge saved evidence again, of one check or of a whole class; nothing is run."""
     from roslings.judge import judge
-    from roslings.report import read_evidence
+    from roslings.report.evidence_file import read_evidence
     from roslings.saving import Graded
     from roslings_class.gradebook import lab_of
     from roslings_class.regrade import regrade_all

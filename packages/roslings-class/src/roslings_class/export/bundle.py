@@ -14,6 +14,9 @@ from roslings_class.course_files import CourseFiles, course_files
 from roslings_class.export.errors import CannotExport
 from roslings_class.export.systems import OF_SYSTEM, SYSTEMS, System
 from roslings_class.release import is_for_students, leaks
+from roslings_launcher.built_interfaces import fitting
+from roslings_launcher.interface_sources import packages_in
+from roslings_launcher.interfaces import GROUP as INTERFACES
 
 PARTS = ("packages", "labs", "graders", "days")
 """Folders of the course that a check reads."""
@@ -45,10 +48,13 @@ def export(system_name: str, lab: Lab, to: Path) -> list[str]:
         _copy(lab.hidden, course_at / HIDDEN).chmod(0o600)
     write_own_files(system, lab, to)
     _insist_on_no_answers(to, lab)
-    return [f"What {system.about} needs for {lab.name!r} is in {from_here(to)}.",
-            f"Upload: {system.upload}.", f"The wall: {system.wall}.",
-            f"Read {from_here(to / 'README.md')}: it tells each step.",
-            *found.remarks(names)]  # fmt: skip
+    return [
+        f"What {system.about} needs for {lab.name!r} is in {from_here(to)}.",
+        f"Upload: {system.upload}.",
+        f"The wall: {system.wall}.",
+        f"Read {from_here(to / 'README.md')}: it tells each step.",
+        *found.remarks(names),
+    ]
 
 
 def _system(name: str) -> System:
@@ -81,7 +87,8 @@ def _grades(name: str, lab: Lab) -> bool:
     if parts[0] == "labs":
         return parts[1] == lab.name
     if parts[0] == "graders":
-        return name == lab.grader.relative_to(course.root()).as_posix()
+        path = course.root() / name
+        return path == lab.grader or path.is_relative_to(lab.beside)
     if parts[0] == "days":
         return parts[1:] == DAYS
     if parts[0] == "packages":
@@ -124,19 +131,30 @@ def _fill_in(template: Path, target: Path, lab: Lab, system: System) -> None:
 
 def system_packages(lab: Lab, system: System) -> list[str]:
     """What apt brings for the groups of the lab's card, beyond what the platform has."""
-    wanted = (package for group in lab.card.groups for package in OF_SYSTEM.get(group, ()))
+    groups = (group for group in lab.card.groups if group != INTERFACES or not _come_built(lab))
+    wanted = (package for group in groups for package in OF_SYSTEM.get(group, ()))
     return [package for package in wanted if package not in system.has]
+
+
+def _come_built(lab: Lab) -> bool:
+    """The message types of the lab's own are compiled already."""
+    sources = packages_in(lab.folder / "interfaces")
+    return all(fitting(course.root(), source) for source in sources)
 
 
 def filled(text: str, lab: Lab, packages: Sequence[str] = ()) -> str:
     """A template's text with this lab's words in it, and what apt is to bring for it."""
     hidden = f"--hidden course/{HIDDEN}" if lab.hidden else ""
     words = {
-        "LAB": lab.name, "TITLE": lab.card.title, "PACKAGE": lab.card.package, "HIDDEN": hidden,
-        "SYSTEM": " ".join(packages), "ALSO": "".join(f" {each}" for each in packages),
+        "LAB": lab.name,
+        "TITLE": lab.card.title,
+        "PACKAGE": lab.card.package,
+        "HIDDEN": hidden,
+        "SYSTEM": " ".join(packages),
+        "ALSO": "".join(f" {each}" for each in packages),
         "QUOTED": "".join(f', "{each}"' for each in packages),
         "UUID": str(uuid5(NAMESPACE_URL, f"roslings/{lab.name}")),
-    }  # fmt: skip
+    }
     for word, value in words.items():
         text = text.replace(f"@{word}@", value)
     return text

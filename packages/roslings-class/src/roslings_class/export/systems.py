@@ -13,7 +13,8 @@ from pathlib import Path
 TEMPLATES = Path(__file__).parent / "templates"
 COMPILER, HEADERS = "g++", "python3-dev"
 OF_SYSTEM = {"interfaces": (COMPILER, HEADERS)}
-"""Group of a lab's card to the packages of Debian and Ubuntu that its Python packages need."""
+"""Group of a lab's card to the packages of Debian and Ubuntu that its Python packages need; message
+types that come built with the course need none."""
 
 
 @dataclass(frozen=True)
@@ -46,51 +47,67 @@ PYTHON_IMAGE = frozenset({HEADERS})
 """The image `python:3.12` has a Python of its own, with its headers."""
 _ALL = (
     System(
-        "gradescope", "Gradescope, a programming assignment",
+        "gradescope",
+        "Gradescope, a programming assignment",
         "all that is in the folder, as one zip file: Configure Autograder",
         f"{NAMESPACES_OR_USER}. A user of its own does not stop the network",
-        "course", keeps_hidden=True,
+        "course",
+        keeps_hidden=True,
     ),
     System(
-        "github", "GitHub Classroom, with its autograding reporter",
+        "github",
+        "GitHub Classroom, with its autograding reporter",
         "template/ as the assignment's template repository, grader/ as a repository of yours",
         "the sandbox of namespaces. It does not keep students from editing the workflow:"
         " protect .github/, and grade their clones once more with ./roslings grade",
-        "grader/course", keeps_hidden=False,
+        "grader/course",
+        keeps_hidden=False,
     ),
     System(
-        "classroom50", "Classroom 50",
+        "classroom50",
+        "Classroom 50",
         "autograders/ into your classroom's folder of the classroom50 repository",
         "the sandbox of namespaces. The grader comes from your repository, but runs in the"
         " student's: grade their clones once more with ./roslings grade",
-        "autograders/@LAB@/course", keeps_hidden=False,
+        "autograders/@LAB@/course",
+        keeps_hidden=False,
     ),
     System(
-        "prairielearn", "PrairieLearn, an external grader",
+        "prairielearn",
+        "PrairieLearn, an external grader",
         "the image that Containerfile makes, and question/ into your course",
         f"{NAMESPACES_OR_USER}. PrairieLearn itself stops the network",
-        "course", keeps_hidden=True, has=PYTHON_IMAGE,
+        "course",
+        keeps_hidden=True,
+        has=PYTHON_IMAGE,
     ),
     System(
-        "moodle-vpl", "Moodle, Virtual Programming Lab",
+        "moodle-vpl",
+        "Moodle, Virtual Programming Lab",
         "vpl_run.sh and vpl_evaluate.sh as execution files; course/ onto the execution server",
         "the sandbox of namespaces alone: VPL runs everything as one user without rights. Where"
         " its jail allows no namespaces, nothing is run, and there is no grade",
-        "course", keeps_hidden=False,
+        "course",
+        keeps_hidden=False,
     ),
     System(
-        "gitlab", "GitLab CI, with a badge",
+        "gitlab",
+        "GitLab CI, with a badge",
         "the folder as a project of yours; students' projects take its .gitlab-ci.yml",
         f"{NAMESPACES_OR_USER}. It does not keep students from editing their own CI file:"
         " name yours in the settings of their projects",
-        "course", keeps_hidden=False, has=PYTHON_IMAGE,
+        "course",
+        keeps_hidden=False,
+        has=PYTHON_IMAGE,
     ),
     System(
-        "github-ci", "GitHub Actions, with a badge",
+        "github-ci",
+        "GitHub Actions, with a badge",
         "the folder into a student's repository",
         "the sandbox of namespaces. Students own the repository: the badge is for themselves,"
         " it is no grade",
-        ".roslings", keeps_hidden=False,
+        ".roslings",
+        keeps_hidden=False,
     ),
-)  # fmt: skip
+)
 SYSTEMS = {system.name: system for system in _ALL}

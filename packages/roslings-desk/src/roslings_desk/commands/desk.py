@@ -10,8 +10,13 @@ from ros2_on_pip.errors import OK
 
 def add_options(word: argparse.ArgumentParser) -> None:
     """What it takes."""
-    word.add_argument("tab", metavar="TAB", nargs="?", default="rover",
-                      help="the tab that opens: rover, topics, ... (default: rover)")  # fmt: skip
+    word.add_argument(
+        "tab",
+        metavar="TAB",
+        nargs="?",
+        default="rover",
+        help="the tab that opens: rover, topics, ... (default: rover)",
+    )
     word.add_argument(
         "shown",
         metavar="WORD",
@@ -19,8 +24,12 @@ def add_options(word: argparse.ArgumentParser) -> None:
         default=[],
         help="what it shows at once: plot /odom/twist/twist/linear/x, image /image",
     )
-    word.add_argument("--bag", metavar="BAG", type=Path,
-                      help="show what a bag holds, with Pause and any place in it")  # fmt: skip
+    word.add_argument(
+        "--bag",
+        metavar="BAG",
+        type=Path,
+        help="show what a bag holds, with Pause and any place in it",
+    )
     word.add_argument("--port", metavar="N", type=int, default=0, help="default: any free one")
     word.add_argument("--no-browser", action="store_true", help="open no browser by itself")
     word.add_argument(
@@ -35,9 +44,17 @@ def add_options(word: argparse.ArgumentParser) -> None:
         help="with --phone: the address of this computer, where it has several",
     )
     word.add_argument(
-        "--allow-host", metavar="HOST:PORT", action="append", default=[],
+        "--hidden-node",
+        action="store_true",
+        help="its node stands in no list and no graph, as that of a notebook",
+    )
+    word.add_argument(
+        "--allow-host",
+        metavar="HOST:PORT",
+        action="append",
+        default=[],
         help="a proxy or a container leads to it by this host; the key is asked for all the same",
-    )  # fmt: skip
+    )
 
 
 def run(options: argparse.Namespace) -> int:
@@ -46,9 +63,17 @@ def run(options: argparse.Namespace) -> int:
     from roslings_desk.server import Wish, run
 
     prepare()
-    run(Wish(
-        tab=options.tab, port=options.port, browser=not options.no_browser,
-        allowed=tuple(options.allow_host), shown=options.shown, phone=options.phone,
-        phone_address=options.phone_address, bag=options.bag,
-    ))  # fmt: skip
+    run(
+        Wish(
+            tab=options.tab,
+            port=options.port,
+            browser=not options.no_browser,
+            allowed=tuple(options.allow_host),
+            shown=options.shown,
+            phone=options.phone,
+            phone_address=options.phone_address,
+            bag=options.bag,
+            hidden=options.hidden_node,
+        )
+    )
     return OK

@@ -109,9 +109,10 @@ def around(shape: GraphShape, wanted: str) -> GraphShape:
         return shape
     named = {node.name for node in shape.nodes if wanted in node.name.lower()}
     topics = tuple(
-        topic for topic in shape.topics
+        topic
+        for topic in shape.topics
         if wanted in topic.name.lower() or named & {*topic.publishers, *topic.subscribers}
-    )  # fmt: skip
+    )
     beside = {name for topic in topics for name in (*topic.publishers, *topic.subscribers)}
     nodes = tuple(node for node in shape.nodes if node.name in named | beside)
     return replace(shape, nodes=nodes, topics=topics)

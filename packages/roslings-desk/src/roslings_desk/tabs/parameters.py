@@ -148,13 +148,19 @@ class ParametersTab:
     async def _read(self, node: str) -> None:
         from rcl_interfaces.srv import DescribeParameters, GetParameters, ListParameters
 
-        listed = await ask(self._hub, f"{node}/list_parameters", ListParameters,
-                           ListParameters.Request())  # fmt: skip
+        listed = await ask(
+            self._hub, f"{node}/list_parameters", ListParameters, ListParameters.Request()
+        )
         names = sorted(listed.result.names)
-        values = await ask(self._hub, f"{node}/get_parameters", GetParameters,
-                           GetParameters.Request(names=names))  # fmt: skip
-        told_of = await ask(self._hub, f"{node}/describe_parameters", DescribeParameters,
-                            DescribeParameters.Request(names=names))  # fmt: skip
+        values = await ask(
+            self._hub, f"{node}/get_parameters", GetParameters, GetParameters.Request(names=names)
+        )
+        told_of = await ask(
+            self._hub,
+            f"{node}/describe_parameters",
+            DescribeParameters,
+            DescribeParameters.Request(names=names),
+        )
         if node == self._choice.value:  # nobody has chosen another one meanwhile
             self._node = node
             self._said.say(f"{node} has {len(names)} parameters.")

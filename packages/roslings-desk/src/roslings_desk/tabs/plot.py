@@ -40,9 +40,10 @@ DASHES: tuple[Any, ...] = ("solid", "dashed", "dotted", [12, 4, 2, 4], [2, 2], [
 GREY = {"color": "#7d8791"}
 """It is read on a light page and on a dark one."""
 AXIS = {
-    "axisLabel": GREY, "axisLine": {"onZero": False, "lineStyle": GREY},
+    "axisLabel": GREY,
+    "axisLine": {"onZero": False, "lineStyle": GREY},
     "splitLine": {"lineStyle": {"color": "rgba(125, 135, 145, 0.3)"}},
-}  # fmt: skip
+}
 COLUMNS = ("Curve", "Newest", "Least", "Most", "Messages/s", "Not drawn")
 
 
@@ -268,22 +269,32 @@ def _options(curves: list[Curve], now_s: float = 0.0) -> dict[str, Any]:
         "grid": {"left": 60, "right": 20, "top": 40, "bottom": 70},
         "legend": {"top": 0, "type": "scroll", "textStyle": GREY},
         "xAxis": {
-            "type": "value", "min": -SHOWN_S, "max": 0, "name": "seconds before now",
-            "nameLocation": "middle", "nameGap": 24, "nameTextStyle": GREY, **AXIS,
+            "type": "value",
+            "min": -SHOWN_S,
+            "max": 0,
+            "name": "seconds before now",
+            "nameLocation": "middle",
+            "nameGap": 24,
+            "nameTextStyle": GREY,
+            **AXIS,
         },
         "yAxis": {"type": "value", "scale": True, **AXIS},
         "dataZoom": [{"type": "inside"}, {"type": "slider", "height": 20, "bottom": 10}],
         "color": list(COLOURS),
         "series": [
             {
-                "name": curve.name, "type": "line", "showSymbol": False,
+                "name": curve.name,
+                "type": "line",
+                "showSymbol": False,
                 "lineStyle": {"type": dash, "width": 2},
-                "data": [[round(at_s - now_s, 3), None if math.isnan(value) else value]
-                         for at_s, value in curve.points],
+                "data": [
+                    [round(at_s - now_s, 3), None if math.isnan(value) else value]
+                    for at_s, value in curve.points
+                ],
             }
             for curve, dash in zip(curves, DASHES, strict=False)
         ],
-    }  # fmt: skip
+    }
 
 
 # --- fields ------------------------------------------------------------------------------------

@@ -5,6 +5,8 @@ from __future__ import annotations
 import base64
 import math
 import time
+from collections.abc import Mapping
+from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -24,23 +26,25 @@ from roslings_desk.controls import (
     told,
 )
 from roslings_desk.driver import Driver
-from roslings_desk.hub import Heard
+from roslings_desk.hub import Heard, TopicSeen
 from roslings_desk.odometry import ODOM, ODOMETRY, pose_in
 from roslings_desk.publisher import Publisher
+from roslings_desk.room_heard import RoomHeard
 from roslings_desk.tab import OpenTab
 from roslings_rover.models.differential_drive import Body, Pose
-from roslings_rover.models.world import default_world
 from roslings_rover.rover.moving_map import moving_map, place_under
 from roslings_rover.rover.rover import PATH_STEP_M, TURN_STEP_RAD, Moment
 
 CMD_VEL, GOAL_POSE = "/cmd_vel", "/goal_pose"
 """The last one is where rviz2 publishes a goal that was clicked."""
 POSE_STAMPED = "geometry_msgs/msg/PoseStamped"
-CLICKED = (
-    "(event) => emit([event.offsetX / event.target.clientWidth,"
-    " event.offsetY / event.target.clientHeight])"
-)
-"""Parts of the map's width and height."""
+CLICKED = """(event) => {
+  const map = event.target;
+  const scale = Math.min(map.clientWidth / map.naturalWidth, map.clientHeight / map.naturalHeight);
+  emit([0.5 + (event.offsetX - map.clientWidth / 2) / (scale * map.naturalWidth),
+        0.5 + (event.offsetY - map.clientHeight / 2) / (scale * map.naturalHeight)]);
+}"""
+"""Parts of the map's width and height; a map of another shape stands in the middle of its place."""
 KEYS = Path(__file__).with_name("drive.js")
 SPEEDS_M_S, TURNS_RAD_S = ("0.1", "0.3", "0.5"), ("0.5", "1.0", "1.5")
 A_PRESS_S = 0.5
@@ -59,7 +63,11 @@ class NoPlace(Problem):
 
 
 class RoverTab:
-    """Shows where /odom says that the robot is, in the course's room; drives it by /cmd_vel."""
+    """Shows where /odom says that the robot is, in its room; drives it by /cmd_vel.
+
+    It listens and publishes only where somebody is at the other side: a page that is open makes no
+    topic appear in anybody's list.
+    """
 
     title, every_s = "Rover", 0.05
 
@@ -67,17 +75,21 @@ class RoverTab:
         self._trail: list[Moment] = []
         self._drawn = 0
         self._spoken_s = 0.0
+        self._goal = self._goal_told = ""
+        """The goal that was sent, in words, until something else is spoken."""
 
     def show(self, open_tab: OpenTab) -> None:
         """The map, and beside it what drives."""
         self._hub = open_tab.hub
-        self._odom: Heard = open_tab.hear(ODOM, ODOMETRY)
-        self._driver = open_tab.ends.enter_context(Driver(self._hub, CMD_VEL))
+        self._open = open_tab
+        self._odom: Heard | None = None
+        self._room = RoomHeard(open_tab)
+        self._driver: Driver | None = None
+        self._drivers = open_tab.ends.enter_context(ExitStack())
         self._goals = open_tab.ends.enter_context(Publisher(self._hub, GOAL_POSE, POSE_STAMPED))
-        self._goals.announce()
         with part("div", "sides"):
             self._map = part(
-                "img", "map drawing", alt="Map: nothing is known yet", src=_picture([])
+                "img", "map drawing", alt="Map: nothing is known yet", src=self._picture()
             )
             self._map.on("click", lambda event: self._click(*event.args), js_handler=CLICKED)
             with part("div", "column"):
@@ -90,8 +102,14 @@ class RoverTab:
 
     def _controls(self) -> None:
         button("Stop", self._stop, "stop")
-        with part("div", "pad", id="drive-pad", tabindex=0, role="application",
-                  aria_label="Drive by arrow keys"):  # fmt: skip
+        with part(
+            "div",
+            "pad",
+            id="drive-pad",
+            tabindex=0,
+            role="application",
+            aria_label="Drive by arrow keys",
+        ):
             Text("p", "Drive: click here, then hold an arrow key. Space stops.")
             Text("p", "A gamepad drives while this field has the focus: its left stick.", "hint")
         Text("p", "Escape stops it, too, wherever you are on this page.", "hint")
@@ -119,7 +137,7 @@ class RoverTab:
     # --- goals -----------------------------------------------------------------------------
 
     def _click(self, right: float, down: float) -> None:
-        x_m, y_m = place_under(default_world(), right, down)
+        x_m, y_m = place_under(self._room.world, right, down)
         self._goal_x.put(f"{x_m:.2f}")
         self._goal_y.put(f"{y_m:.2f}")
         self._send_goal(x_m, y_m)
@@ -131,16 +149,22 @@ class RoverTab:
     def _send_goal(self, x_m: float, y_m: float) -> None:
         from geometry_msgs.msg import PoseStamped
 
-        newest = self._odom.newest()
+        newest = self._odom.newest() if self._odom else None
         goal = PoseStamped()
         goal.header.frame_id = newest.header.frame_id if newest else "odom"
         goal.pose.position.x, goal.pose.position.y = x_m, y_m
         goal.pose.orientation.w = 1.0
         self._goals.publish(goal, [partial(setattr, goal.header, "stamp")])
-        there = {seen.name: seen.subscriptions for seen in self._hub.topics()}
-        listening = there.get(GOAL_POSE, 0)
-        who = _who_hears(listening)
-        self._spoken.say(f"Goal x {x_m:.2f} m, y {y_m:.2f} m is published on {GOAL_POSE}; {who}.")
+        self._goal_told = ""
+        self._goal = f"Goal x {x_m:.2f} m, y {y_m:.2f} m is published on {GOAL_POSE}"
+        self._tell_goal()
+
+    def _tell_goal(self) -> None:
+        """A publisher that is new meets who listens a moment later: then it is told anew."""
+        words = f"{self._goal}; {_who_hears(self._goals.listeners)}."
+        if words != self._goal_told:
+            self._goal_told = words
+            self._spoken.say(words)
 
     # --- driving ---------------------------------------------------------------------------
 
@@ -151,33 +175,74 @@ class RoverTab:
     def _drive(self, ahead: float, left: float, for_s: float | None = None) -> None:
         forward_m_s = ahead * float(self._speed.value)
         turn_rad_s = left * float(self._turn.value)
+        if self._driver is None:
+            return  # nobody listens, and the page says so
         if for_s is None:
             self._driver.drive(forward_m_s, turn_rad_s)
         else:
             self._driver.drive(forward_m_s, turn_rad_s, for_s)
 
     def _stop(self) -> None:
-        self._driver.stop()
+        if self._driver is not None:
+            self._driver.stop()
 
     # --- showing ---------------------------------------------------------------------------
 
     def refresh(self) -> None:
         """Move the rover on its map, where something new has come."""
-        self._state.say(self._said_of_topics())
-        if self._odom.count == self._drawn:
-            return
-        self._drawn = self._odom.count
-        pose = pose_in(self._odom.newest())
+        there = {seen.name: seen for seen in self._hub.topics()}
+        self._join(there)
+        self._state.say(self._said_of(there))
+        if self._goal:
+            self._tell_goal()
+        is_another = self._room.look()
+        if self._odom and self._odom.count != self._drawn:
+            self._drawn = self._odom.count
+            is_another = self._follow(self._odom) or is_another
+        if is_another:
+            self._draw()
+
+    def _follow(self, odom: Heard) -> bool:
+        """Go where /odom says; whether the map is another one now."""
+        pose = pose_in(odom.newest())
         if pose is None:
             self._place.say("The numbers of /odom are not finite.")
-            return
+            return False
         self._place.say(position(pose))
-        if self._goes_to(pose):
-            self._map.props["src"] = _picture(self._trail)
-            self._map.props["alt"] = f"Map of the room. The rover is at {position(pose)}."
-            self._map.update()
+        has_gone = self._goes_to(pose)
         if self._says.value and time.monotonic() - self._spoken_s >= SPOKEN_EVERY_S:
             self._say()
+        return has_gone
+
+    def _draw(self) -> None:
+        self._map.props["src"] = self._picture()
+        if self._trail:
+            where = position(self._trail[-1].pose)
+            self._map.props["alt"] = f"Map of the room. The rover is at {where}."
+        self._map.update()
+
+    def _picture(self) -> str:
+        """The map as the address of an image; before the first news the rover is at the start."""
+        trail = self._trail or [Moment(0.0, Pose())]
+        drawn = moving_map(self._room.world, trail, Body().radius_m, moves=False)
+        return f"data:image/svg+xml;base64,{base64.b64encode(drawn.encode()).decode()}"
+
+    def _join(self, there: Mapping[str, TopicSeen]) -> None:
+        """Be there for those who are there now."""
+        says = ODOM in there and there[ODOM].publishers > 0
+        hears = CMD_VEL in there and there[CMD_VEL].subscriptions > 0
+        if says and self._odom is None:
+            self._odom, self._drawn = self._open.hear(ODOM, ODOMETRY), 0
+        elif self._odom and not says:
+            self._open.leave(self._odom)
+            self._odom = None
+        if hears and self._driver is None:
+            self._driver = self._drivers.enter_context(Driver(self._hub, CMD_VEL))
+        elif self._driver and not hears:
+            self._drivers.close()
+            self._driver = None
+        if GOAL_POSE in there and there[GOAL_POSE].subscriptions:
+            self._goals.announce()
 
     def _goes_to(self, pose: Pose) -> bool:
         """Whether the map is another one now."""
@@ -192,16 +257,17 @@ class RoverTab:
             self._trail[-1] = new
         return moved
 
-    def _said_of_topics(self) -> str:
-        there = {seen.name: seen for seen in self._hub.topics()}
+    def _said_of(self, there: Mapping[str, TopicSeen]) -> str:
         if ODOM not in there or not there[ODOM].publishers:
             return "No node publishes /odom. Start the rover, in a terminal: ./roslings rover"
-        if not self._driver.listeners:
+        if not (self._driver and self._driver.listeners):
             return "No node listens on /cmd_vel, so nothing drives."
-        return "" if self._odom.per_second()[0] else "Nothing comes on /odom at the moment."
+        comes = self._odom and self._odom.per_second()[0]
+        return "" if comes else "Nothing comes on /odom at the moment."
 
     def _say(self) -> None:
         self._spoken_s = time.monotonic()
+        self._goal = self._goal_told = ""
         pose = self._trail[-1].pose if self._trail else None
         self._spoken.say(position(pose) if pose else "Nothing is known yet.")
 
@@ -227,14 +293,6 @@ def _is_far(one: Pose, other: Pose) -> bool:
     turned_rad = abs(math.remainder(other.heading_rad - one.heading_rad, math.tau))
     far_m = math.hypot(other.x_m - one.x_m, other.y_m - one.y_m)
     return far_m >= PATH_STEP_M or turned_rad >= TURN_STEP_RAD
-
-
-def _picture(trail: list[Moment]) -> str:
-    """The map as the address of an image; before the first news the rover stands at the start."""
-    drawn = moving_map(
-        default_world(), trail or [Moment(0.0, Pose())], Body().radius_m, moves=False
-    )
-    return f"data:image/svg+xml;base64,{base64.b64encode(drawn.encode()).decode()}"
 
 
 def _who_hears(count: int) -> str:

@@ -17,9 +17,14 @@ MOST_ROWS = 100
 COLUMNS = ("Service", "Type")
 SHAPE = Shape(longest=64)
 OF_EVERY_NODE = (
-    "/describe_parameters", "/get_parameter_types", "/get_parameters", "/get_type_description",
-    "/list_parameters", "/set_parameters", "/set_parameters_atomically",
-)  # fmt: skip
+    "/describe_parameters",
+    "/get_parameter_types",
+    "/get_parameters",
+    "/get_type_description",
+    "/list_parameters",
+    "/set_parameters",
+    "/set_parameters_atomically",
+)
 """Each node offers these by itself."""
 
 

@@ -26,11 +26,41 @@ LEARNERS, TEACHERS = "learners", "teachers"
 TABLE = "command_names"
 GROUP = "roslings.command"
 ORDER = (
-    "doctor", "lab", "site", "drill", "quiz", "start", "check", "watch", "explain", "status",
-    "diff", "pack", "my-rover", "rover", "desk", "board", "camera", "graph", "break", "ros2",
-    "ready", "grade", "regrade", "override", "forget", "overview", "export", "cluster", "new-lab",
-    "prove", "release", "serve", "test", "wheels",
-)  # fmt: skip
+    "doctor",
+    "lab",
+    "site",
+    "drill",
+    "quiz",
+    "start",
+    "check",
+    "watch",
+    "explain",
+    "status",
+    "diff",
+    "pack",
+    "my-rover",
+    "rover",
+    "desk",
+    "board",
+    "camera",
+    "graph",
+    "break",
+    "ros2",
+    "ready",
+    "grade",
+    "regrade",
+    "override",
+    "forget",
+    "overview",
+    "export",
+    "cluster",
+    "new-lab",
+    "prove",
+    "release",
+    "serve",
+    "test",
+    "wheels",
+)
 """As `--help` lists them; what stands in no place here comes last."""
 FIRST_WORD = ""
 """The name of what runs without a word."""

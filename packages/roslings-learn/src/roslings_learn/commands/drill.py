@@ -11,15 +11,22 @@ from roslings.typed import program
 def add_options(word: argparse.ArgumentParser) -> None:
     """What it takes."""
     word.add_argument(
-        "drill", metavar="NAME", nargs="?",
+        "drill",
+        metavar="NAME",
+        nargs="?",
         help="the drill to check (default: show the next one, and put its file in place)",
-    )  # fmt: skip
+    )
     word.add_argument("--day", metavar="DAY", help="the next one of this day, for example 3")
     word.add_argument("--list", action="store_true", help="all drills, and which are done")
     word.add_argument(
-        "--hint", metavar="STEP", type=int, choices=(1, 2, 3), nargs="?", const=1,
+        "--hint",
+        metavar="STEP",
+        type=int,
+        choices=(1, 2, 3),
+        nargs="?",
+        const=1,
         help="a hint for it: 1 where, 2 which idea, 3 other code",
-    )  # fmt: skip
+    )
     word.add_argument(
         "--solution", action="store_true", help="check the course's own solution instead"
     )

@@ -1,4 +1,4 @@
-"""`./roslings lab`: open the day's lesson in JupyterLab."""
+"""`./roslings lab`: open the day in one window of JupyterLab."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import argparse
 from dataclasses import replace
 
 from roslings import course
+from roslings.workspace.errors import writing
 from roslings.workspace.student import workspace_root
 
 
@@ -27,10 +28,11 @@ def add_options(word: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Open the day's lesson in JupyterLab, until Ctrl-C."""
+    """Open the day's window in JupyterLab, until Ctrl-C: lesson, terminals, editor, rover."""
     from roslings_learn.jupyter.choosing import place_for
     from roslings_learn.jupyter.copies import Copies
-    from roslings_learn.jupyter.server import open_lab
+    from roslings_learn.jupyter.server import open_lab, workspaces
+    from roslings_learn.jupyter.window.layout import day_window, lay_out
     from roslings_learn.lessons import read_lessons
 
     lessons = read_lessons(course.root())
@@ -40,4 +42,7 @@ def run(options: argparse.Namespace) -> int:
     place = replace(place, ip=options.ip, hub=options.hub)
     for told in copies.copy_all(days):
         print(told)
+    for day in (day for day in days if day.id == place.day):
+        with writing(copies.folder):
+            lay_out(day_window(day, copies), workspaces(copies.workspace))
     return open_lab(place)

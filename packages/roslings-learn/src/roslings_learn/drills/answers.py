@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import ast
-import math
 from typing import Any
 
 from roslings.capabilities.actions.record import ActionsSeen
+from roslings.course.contract import NUMBERS_WITHIN
 from roslings.evidence import ExperimentSeen
 from roslings.judge import ExperimentView, NothingToJudge
+from roslings.judge.values import same
 from roslings_learn.drills.card import PROGRAM, Answer, DrillCard
-from roslings_learn.drills.faults import NoAnswerYet, ProgramChanged, WrongAnswer
+from roslings_learn.drills.faults import NoAnswerYet, ProgramChanged, WrongPrediction
 
 NAME = "ANSWER"
 
@@ -52,20 +53,24 @@ def _require_the_same(source: str, starter: str) -> None:
 
 
 def compare(said: Any, card: DrillCard, view: ExperimentView) -> None:
-    """Hold what was said against what was seen. Raises WrongAnswer."""
+    """Hold what was said against what was seen. Raises WrongPrediction."""
     assert card.answer
     shown = seen_of(card.answer, card, view)
-    if not _same(said, shown, card.answer.within):
-        raise WrongAnswer(said, shown, card.answer.because)
+    if not _is_right(said, shown, card.answer.within):
+        raise WrongPrediction(said, shown, card.answer.because)
 
 
-def _same(said: Any, shown: Any, within: float) -> bool:
-    numbers = isinstance(said, (int, float)) and isinstance(shown, (int, float))
-    if numbers and not isinstance(said, bool) and not isinstance(shown, bool):
-        return math.isclose(said, shown, rel_tol=max(within, 1e-6))
-    if isinstance(said, str) and isinstance(shown, str):
-        return said.strip() == shown.strip()
-    return type(said) is type(shown) and bool(said == shown)
+def _is_right(said: Any, shown: Any, within: float) -> bool:
+    """Of one kind, and the same; a text may have spaces around it, and 4.0 is 4."""
+    if _kind(said) is not _kind(shown):
+        return False
+    if isinstance(said, str):
+        return said.strip() == str(shown).strip()
+    return same(said, shown, max(within, NUMBERS_WITHIN))
+
+
+def _kind(value: Any) -> type:
+    return float if isinstance(value, int) and not isinstance(value, bool) else type(value)
 
 
 def seen_of(answer: Answer, card: DrillCard, view: ExperimentView) -> Any:

@@ -6,7 +6,8 @@ from typing import Any, Literal
 
 from pydantic import Field, field_validator, model_validator
 
-from roslings.course.card import GroupName, NodeContract
+from roslings.capabilities.actions.contract import ActionContract
+from roslings.course.card import GroupName, NodeContract, TopicContract
 from roslings.course.contract import Contract, Plain
 
 PROGRAM = "your program"
@@ -21,14 +22,6 @@ KINDS = {
 Shows = Literal["line", "lines", "node", "topic", "type", "rate_hz", "value", "messages", "state"]
 
 
-class Heard(Contract):
-    """One message that must come on a topic after the program was told something."""
-
-    topic: str
-    type: str
-    fields: dict[str, Plain] = Field(min_length=1)
-
-
 class Tell(Contract):
     """One message that is said to the program, and what it must make of it."""
 
@@ -36,7 +29,20 @@ class Tell(Contract):
     message: dict[str, Plain] = Field(description="The fields; a dot leads into a field")
     type: str
     log: str | None = Field(default=None, description="A line that it writes then")
-    publishes: Heard | None = None
+    publishes: TopicContract | None = Field(
+        default=None, description="What comes then, by its `fields`"
+    )
+
+    @property
+    def heard(self) -> TopicContract:
+        """Where it is said."""
+        return TopicContract(topic=self.topic, type=self.type)
+
+    @model_validator(mode="after")
+    def _shows(self) -> Tell:
+        if self.log is None and not (self.publishes and self.publishes.fields):
+            raise ValueError("nothing comes of it: give a log, or publishes with fields")
+        return self
 
 
 class Give(Contract):
@@ -61,9 +67,13 @@ class Take(Contract):
     type: str
     goal: dict[str, float]
     accepts: bool = True
-    feedback: tuple[dict[str, float], ...] = ()
     ends: Literal["succeed", "abort"] = "succeed"
     result: dict[str, Plain] = Field(default_factory=dict)
+
+    @property
+    def contract(self) -> ActionContract:
+        """The action that it is a client of."""
+        return ActionContract(action=self.action, type=self.type)
 
 
 class Answer(Contract):
@@ -137,6 +147,8 @@ class DrillCard(Contract):
             raise ValueError("a drill of the kind predict has an answer, and no other has")
         if not self.nodes and not self.prints and self.answer is None:
             raise ValueError("nothing is judged: give nodes, prints or an answer")
+        if not self.nodes and (self.says or self.tells or self.gives or self.takes):
+            raise ValueError("only a node is told, asked or given something: name it under nodes")
         if self.exits is not None and self.ends_well:
             raise ValueError("it ends by itself (exits), so nobody presses Ctrl-C (ends_well)")
         return self

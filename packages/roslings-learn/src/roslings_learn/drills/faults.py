@@ -5,8 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from roslings.capabilities.services.faults import ClientStays, WrongExitCode
 from roslings.judge.faults import Fault
 from roslings.judge.faults.processes import READ_THE_LINES, DidNotComeUp
+
+AT_ITS_END = "when its task is done"
 
 
 @dataclass(eq=False)
@@ -21,7 +24,7 @@ class NoAnswerYet(Fault):
 
 
 @dataclass(eq=False)
-class WrongAnswer(Fault):
+class WrongPrediction(Fault):
     """The run showed something else."""
 
     said: Any
@@ -104,54 +107,20 @@ class PrintedAnyway(NotPrinted):
 
 
 @dataclass(eq=False)
-class RunsOn(Fault):
+class RunsOn(ClientStays):
     """A program that has one task did not end."""
 
-    after_s: float
-    expected = "the program does its task and ends"
     why = "Who starts it waits until it ends."
     hint = "What does it wait for, after its task is done?"
     mend = "What does it wait for? Does it spin for ever, where it should spin until it is done?"
-    measured = "it was still running after {after_s:.1f} s"
 
 
 @dataclass(eq=False)
-class WrongExitCode(Fault):
-    """It ended with another exit code."""
+class OtherExitCode(WrongExitCode):
+    """A program that makes no node ended with another exit code."""
 
-    wanted: int
-    how: str
-    why = "The exit code tells the next program whether all went well: 0 means yes."
     hint = READ_THE_LINES
     was_seen = True
-    expected = "it ends with exit code {wanted}"
-
-    @property
-    def measured(self) -> str:
-        """How it ended."""
-        return self.how
-
-
-@dataclass(eq=False)
-class NoReaction(Fault):
-    """The program was told something, and nothing came of it."""
-
-    told: str
-    wanted: str
-    why = "A callback only helps when something comes of it."
-    hint = "Follow the message through your callback: is it called, and does it reach publish()?"
-    expected = "after {told}, {wanted}"
-    measured = "after {told}, nothing came"
-
-
-@dataclass(eq=False)
-class WrongReaction(NoReaction):
-    """Something else came of it."""
-
-    found: str
-    was_seen = True
-    hint = "Follow the number through your callback, with pen and paper: where does it change?"
-    measured = "after {told}, {found}"
 
 
 @dataclass(eq=False)
@@ -177,18 +146,3 @@ class WrongGoal(Fault):
     was_seen = True
     expected = "{action} gets the goal {wanted}"
     measured = "{action} got the goal {found}"
-
-
-@dataclass(eq=False)
-class WrongField(Fault):
-    """A message holds something else in a field."""
-
-    topic: str
-    field_name: str
-    wanted: str
-    found: str
-    why = "Who reads these messages takes each field at its word."
-    hint = "Look where your code fills the message: which field gets which value?"
-    was_seen = True
-    expected = "{field_name} is {wanted} in each message on {topic}"
-    measured = "{field_name} is {found}"

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 from roslings.judge import ExperimentView
-from roslings.judge.faults import NothingToJudge
+from roslings.judge.faults import Fault, NothingToJudge
 from roslings.judge.floods import flood_in
 from roslings.judge.outcome import words_for
 from roslings.verdict import CheckResult
@@ -114,6 +114,8 @@ def result_of(step: Step, error: Exception) -> CheckResult:
     Where there was nothing to look at though all before it is right, nobody can tell.
     """
     words = words_for(error, step.title)
+    if isinstance(error, Fault):
+        words["measured"] = error.headline  # a drill's verdict begins with it
     if isinstance(error, NothingToJudge):
         words = {"outcome": "inconclusive", "why": f"{error}; check again"}
     return CheckResult(id=step.name, title=step.title, points=0.0, max_points=0.0, **words)

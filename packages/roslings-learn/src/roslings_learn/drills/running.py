@@ -13,7 +13,7 @@ import sys
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from multiprocessing import get_context
 from multiprocessing.connection import Connection, wait
@@ -24,6 +24,7 @@ from ros2_on_pip.errors import INCONCLUSIVE, RoslingsError
 from roslings.arena import Installed, Isolation, choose_isolation, kernel, ros_environment
 from roslings.arena.environment import base_environment
 from roslings.evidence import ExperimentSeen
+from roslings.exits import must_end_again
 from roslings.experiment.assignment import Assignment
 from roslings.experiment.measuring import Stage
 from roslings.experiment.preload import TYPES
@@ -37,15 +38,15 @@ from roslings_learn.drills.answers import require_answer
 from roslings_learn.drills.card import PROGRAM
 from roslings_learn.drills.course import Drill
 from roslings_learn.drills.judging import DrillVerdict, failed, judged
-from roslings_learn.drills.steps import BY_GRAPH, Step, steps_of
+from roslings_learn.drills.steps import BY_END, BY_GRAPH, ENDS_WITHIN_S, Step, steps_of
 from roslings_learn.drills.student import program_in
 from roslings_learn.drills.watching import BESIDE, ROS2, watch
 
-ENDS_WITHIN_S = 2.0
 LONGEST_S = 120.0
 """A run that takes longer is broken off: the machine's fault, or ours."""
 START = '#!/bin/sh\nexec "{program}" "{file}" "$@"\n'
-MOST_RUNS = 3
+MORE_RUNS = 2
+"""A busy computer is given two more chances, and a bad end."""
 
 
 class RunBrokeOff(RoslingsError):
@@ -101,9 +102,12 @@ def begun(drill: Drill, file: Path, began_s: float | None = None) -> Iterator[Be
     source = program_in(file, drill)
     with run_folder() as folder:
         assignment = Assignment(
-            lab=drill.name, seed=int.from_bytes(os.urandom(4), "big"), wall=walls.wall,
-            sandbox=walls.sandbox, folder=folder,
-        )  # fmt: skip
+            lab=drill.name,
+            seed=int.from_bytes(os.urandom(4), "big"),
+            wall=walls.wall,
+            sandbox=walls.sandbox,
+            folder=folder,
+        )
         assignment.make_folders()
         ours, theirs = get_context("fork").Pipe(duplex=False)
         words = (drill, file.name, source, walls, assignment, theirs, ours, os.getpid())
@@ -189,9 +193,15 @@ def readable(drill: Drill, name: str, program: bytes) -> Any:
 
 
 def _live(
-    drill: Drill, name: str, source: bytes, walls: Isolation, assignment: Assignment,
-    answer: Connection, ours: Connection, begun_by: int,
-) -> None:  # fmt: skip
+    drill: Drill,
+    name: str,
+    source: bytes,
+    walls: Isolation,
+    assignment: Assignment,
+    answer: Connection,
+    ours: Connection,
+    begun_by: int,
+) -> None:
     """To its end: go behind the wall, run the program, judge, answer."""
     os.setsid()
     ours.close()
@@ -249,19 +259,27 @@ def _executable(path: Path, program: str, file: Path) -> None:
 
 
 def _verdict(drill: Drill, said: Any, stage: Stage) -> DrillVerdict:
-    """Run, and judge; again in real time where the clock's own run does not tell."""
-    card, steps = drill.card, _steps(drill, said)
-    experiment = Experiment(drill.name, lambda scene: _watch(drill, scene))
-    runs: list[ExperimentSeen] = []
-    clocks = ["sim"] * card.follows_the_clock + ["wall"] * MOST_RUNS
-    for clock in clocks:
-        seen = stage.run(experiment, "sim" if clock == "sim" else "wall", 0, ())
-        verdict = _judged(drill, steps, seen, runs)
-        runs.append(seen)
-        if not _doubtful(seen, verdict, runs):
+    """Run and judge, and no longer than until a verdict stands: the student waits for it."""
+    steps, before = _steps(drill, said), list[ExperimentSeen]()
+    for seen in _runs(drill, stage):
+        verdict = _judged(drill, steps, seen, before)
+        if _stands(seen, verdict, before):
             break
-    because = card.answer.because if card.answer and verdict.outcome == "pass" else ""
-    return DrillVerdict(drill.name, verdict.outcome, verdict.passed, verdict.first, 0.0, because)
+        before.append(seen)
+    answer = drill.card.answer if verdict.outcome == "pass" else None
+    return replace(verdict, because=answer.because if answer else "")
+
+
+def _runs(drill: Drill, stage: Stage) -> Iterator[ExperimentSeen]:
+    """As of a lab's experiment; what is in doubt after those is run again, in real time."""
+    experiment = Experiment(
+        drill.name,
+        lambda scene: _watch(drill, scene),
+        clock="auto" if drill.card.follows_the_clock else "wall",
+    )
+    yield from stage.runs(experiment, 0, ())
+    for _ in range(MORE_RUNS):
+        yield from stage.runs(replace(experiment, clock="wall"), 0, ())
 
 
 def _judged(
@@ -274,18 +292,15 @@ def _judged(
     return by_graph if by_graph.outcome == "fail" else judged(drill.name, steps, view)
 
 
-def _doubtful(seen: ExperimentSeen, verdict: DrillVerdict, runs: Sequence[ExperimentSeen]) -> bool:
-    """Whether it is to be run once more: a clock not believed, a busy machine, a bad end seen once.
-
-    In the middle of a callback Python can hear Ctrl-C before rclpy does, one time in fifty.
-    """
+def _stands(seen: ExperimentSeen, verdict: DrillVerdict, before: Sequence[ExperimentSeen]) -> bool:
+    """Whether no other run could tell more: this one is believed, or no clock can bend it."""
     if verdict.outcome == "pass" or seen.prints_without_end:
+        return True
+    if verdict.outcome == "inconclusive":
         return False
-    if verdict.first and verdict.first.id in ("ends", "clean_exit"):
-        return len(runs) == 1
-    if verdict.first and verdict.first.id in BY_GRAPH:
-        return verdict.outcome == "inconclusive"
-    return verdict.outcome == "inconclusive" or seen.doubt is not None
+    if verdict.first and verdict.first.id in BY_END:
+        return not must_end_again(seen, before, ENDS_WITHIN_S)
+    return seen.doubt is None or bool(verdict.first and verdict.first.id in BY_GRAPH)
 
 
 def _watch(drill: Drill, scene: Scene) -> None:

@@ -1,29 +1,38 @@
 """What is demanded of a drill's program, in the order in which it is mended: all from the card.
 
-The demands are those of the labs. The first one that is not met is the verdict.
+The demands are those of the labs; where a program makes no node, those of `terminal`. The first one
+that is not met is the verdict.
 """
 
 from __future__ import annotations
 
-import difflib
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import starmap
 from typing import Any
 
+from roslings.capabilities.actions.record import ActionsSeen
 from roslings.capabilities.parameters.demands import declare_its_parameters
 from roslings.capabilities.services.demands import (
     answer_each,
     ask,
+    end_by_itself,
+    require_no_crash,
     serve,
     serve_their_types,
     tell_the_answer,
 )
 from roslings.capabilities.services.record import ServicesSeen
 from roslings.capabilities.topics.act import nested
-from roslings.capabilities.topics.demands import count_up, have_rate, say_its_text
-from roslings.capabilities.topics.faults.messages import NoMessages
+from roslings.capabilities.topics.demands import (
+    count_up,
+    have_rate,
+    say_its_text,
+    say_something,
+)
+from roslings.capabilities.topics.relay import Shown, hold_its_fields, show
 from roslings.course import NodeContract, TopicContract
-from roslings.evidence import Spoken
+from roslings.evidence import ExperimentSeen
 from roslings.judge import (
     ExperimentView,
     NothingToJudge,
@@ -40,19 +49,27 @@ from roslings.judge import (
     stay_up,
 )
 from roslings.judge.demands import most_similar, require_its_time, require_steady
-from roslings.judge.faults import DidNotComeUp, NotLogged
-from roslings.judge.views import Demand, ProcessView
-from roslings.judge.words import describe_end
+from roslings.judge.faults import NotLogged
+from roslings.judge.values import shown
+from roslings.judge.views import Demand, EndpointView, NodeView, ProcessView, TopicView
 from roslings.matching import nearest_endpoint
 from roslings_learn.drills import faults
 from roslings_learn.drills.answers import compare
-from roslings_learn.drills.card import PROGRAM, DrillCard, Heard, Tell
+from roslings_learn.drills.card import PROGRAM, DrillCard, Tell
+from roslings_learn.drills.faults import AT_ITS_END
 from roslings_learn.drills.goals import demands_of
-from roslings_learn.drills.same import same
+from roslings_learn.drills.terminal import (
+    Look,
+    ends_by_itself,
+    script_comes_up,
+    steps_of_output,
+)
 
 ENDS_WITHIN_S = 2.0
 BY_GRAPH = ("runs", "stays", "spins", "name", "topic", "qos")
 """Steps that look at what is there, not at what is said: no clock can bend them."""
+BY_END = ("ends", "clean_exit")
+"""Steps that look at how it ends after Ctrl-C."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +78,7 @@ class Step:
 
     name: str
     title: str
-    demand: Callable[[ExperimentView], None]
+    demand: Look
 
     @property
     def by_graph(self) -> bool:
@@ -72,60 +89,80 @@ class Step:
 def steps_of(card: DrillCard, said: Any = None) -> Iterator[Step]:
     """All that is demanded, in order; `said` is what the student has foretold."""
     yield from _of_processes(card) if card.nodes else ()
-    yield from _of_output(card)
+    yield from starmap(Step, steps_of_output(card))
     for node in card.nodes:
         yield from _of_topics(node)
     for node in card.nodes:
         yield from _of_what_it_hears(node, card)
         yield from _of_services(node)
-    for tell in card.tells:
-        yield Step("answers", f"It makes the right thing of {tell.topic}.", _reacts(tell))
-    for name, title, demand in demands_of(card):
-        yield Step(name, title, demand)
+    yield from _of_what_it_is_told(card)
+    yield from starmap(Step, demands_of(card))
     if card.answer:
         title = "What you foretold is what the run shows."
         yield Step("foretold", title, lambda view: compare(said, card, view))
     yield from _of_ends(card)
 
 
-def _of_output(card: DrillCard) -> Iterator[Step]:
-    for text in card.prints:
-        yield Step("prints", f"It prints {text!r}.", _prints(text))
-    for text in card.never_prints:
-        yield Step("silent", f"It does not print {text!r}.", _never_prints(text))
+# --- what a demand is made of ------------------------------------------------------------------
+
+
+def _of_all(*demands: Demand[ExperimentView]) -> Look:
+    return lambda view: view.must(*demands)
+
+
+def _of_process(node: NodeContract, *demands: Demand[ProcessView]) -> Look:
+    return lambda view: view.process(node).must(*demands)
+
+
+def _of_node(node: NodeContract, *demands: Demand[NodeView]) -> Look:
+    return lambda view: view.node(node).must(*demands)
+
+
+def _of_topic(topic: TopicContract, *demands: Demand[TopicView]) -> Look:
+    return lambda view: view.topic(topic).must(*demands)
+
+
+def _of_publisher(node: NodeContract, topic: TopicContract, *demands: Demand[EndpointView]) -> Look:
+    return lambda view: view.publisher(node, topic).must(*demands)
+
+
+def _of_subscription(
+    node: NodeContract, topic: TopicContract, *demands: Demand[EndpointView]
+) -> Look:
+    return lambda view: view.subscription(node, topic).must(*demands)
+
+
+# --- processes, the graph ----------------------------------------------------------------------
 
 
 def _of_processes(card: DrillCard) -> Iterator[Step]:
-    first = card.nodes[0]
     if card.exits is None:
-        look = _script_comes_up if card.program == "bash" else come_up
-        yield Step("runs", "The program starts and makes a node.", _unless_asked(first, look))
-        yield Step("stays", "It runs until Ctrl-C.", _unless_asked(first, stay_up))
+        yield from _of_what_stays(card)
     else:
-        yield Step("runs", "The program does its task without an error.", _no_traceback(card))
-    if card.exits is None:
-        yield Step("spins", "It runs its callbacks.", _spins)
-    for node in card.nodes if card.exits is None else ():
-        yield Step("name", f"The node is called {node.node}.",
-                   lambda view, node=node: view.node(node).must(be_named))  # type: ignore[misc]  # fmt: skip
+        title = "The program does its task without an error."
+        yield Step("runs", title, _of_process(card.nodes[0], _does_its_task))
     for node in card.nodes:
         yield from _of_endpoints(node)
         if node.parameters:
-            yield Step("parameter", "It has the parameters that the card names.",
-                       lambda view, node=node: view.must(declare_its_parameters(node)))  # type: ignore[misc]  # fmt: skip
+            title = "It has the parameters that the card names."
+            yield Step("parameter", title, _of_all(declare_its_parameters(node)))
 
 
-def _script_comes_up(process: ProcessView) -> None:
-    """As `come_up`, in words for a script."""
-    try:
-        come_up(process)
-    except DidNotComeUp as fault:
-        raise faults.ScriptMakesNoNode(fault.executable, fault.how, log=fault.log) from None
+def _of_what_stays(card: DrillCard) -> Iterator[Step]:
+    first = card.nodes[0]
+    look = script_comes_up if card.program == "bash" else come_up
+    yield Step("runs", "The program starts and makes a node.", _unless_asked(first, look))
+    yield Step("stays", "It runs until Ctrl-C.", _unless_asked(first, stay_up))
+    yield Step("spins", "It runs its callbacks.", _spins)
+    for node in card.nodes:
+        yield Step("name", f"The node is called {node.node}.", _of_node(node, be_named))
 
 
-def _unless_asked(
-    node: NodeContract, look: Demand[ProcessView]
-) -> Callable[[ExperimentView], None]:
+def _does_its_task(process: ProcessView) -> None:
+    require_no_crash(process, "does its task")
+
+
+def _unless_asked(node: NodeContract, look: Demand[ProcessView]) -> Look:
     """Who ended when a service of it was called came up before: that is told by the answers."""
 
     def demand(view: ExperimentView) -> None:
@@ -145,67 +182,46 @@ def _spins(view: ExperimentView) -> None:
 def _of_endpoints(node: NodeContract) -> Iterator[Step]:
     for topic in node.publishes:
         title = f"It publishes {topic.type} on {topic.topic}."
-        yield Step("topic", title, _published(node, topic))
+        there = _of_publisher(node, topic, be_there, carry_its_type, be_the_only_one)
+        yield Step("topic", title, there)
         title = f"Who subscribes to {topic.topic} can hear it (QoS)."
-        yield Step("qos", title, _qos_of_publisher(node, topic))
+        yield Step("qos", title, _of_publisher(node, topic, match_qos))
     for topic in node.subscribes:
         title = f"It subscribes to {topic.topic}, type {topic.type}."
-        yield Step("topic", title, _subscribed(node, topic))
+        yield Step("topic", title, _of_subscription(node, topic, be_there, carry_its_type))
         title = f"It can hear who publishes on {topic.topic} (QoS)."
-        yield Step("qos", title, _qos_of_subscription(node, topic))
+        yield Step("qos", title, _of_subscription(node, topic, match_qos))
 
 
-def _published(node: NodeContract, topic: TopicContract) -> Callable[[ExperimentView], None]:
-    return lambda view: view.publisher(node, topic).must(be_there, carry_its_type, be_the_only_one)
-
-
-def _subscribed(node: NodeContract, topic: TopicContract) -> Callable[[ExperimentView], None]:
-    return lambda view: view.subscription(node, topic).must(be_there, carry_its_type)
-
-
-def _qos_of_publisher(node: NodeContract, topic: TopicContract) -> Callable[[ExperimentView], None]:
-    return lambda view: view.publisher(node, topic).must(match_qos)
-
-
-def _qos_of_subscription(
-    node: NodeContract, topic: TopicContract
-) -> Callable[[ExperimentView], None]:
-    return lambda view: view.subscription(node, topic).must(match_qos)
+# --- what it says and answers ------------------------------------------------------------------
 
 
 def _of_topics(node: NodeContract) -> Iterator[Step]:
     """What the messages of the node say, and how often they come."""
     for topic in node.publishes:
         if topic.rate:
-            yield Step("rate", f"{topic.topic} carries {topic.rate.hz:g} messages a second.",
-                       lambda view, t=topic: view.topic(t).must(have_rate(t)))  # type: ignore[misc]  # fmt: skip
+            title = f"{topic.topic} carries {topic.rate.hz:g} messages a second."
+            yield Step("rate", title, _of_topic(topic, have_rate(topic)))
         if topic.text or topic.fields:
-            yield Step("message", f"The messages on {topic.topic} say what the card says.",
-                       lambda view, t=topic: _says(view, t))  # type: ignore[misc]  # fmt: skip
+            title = f"The messages on {topic.topic} say what the card says."
+            yield Step("message", title, _of_topic(topic, *_sayings(topic)))
         if topic.text and "{n}" in topic.text:
-            yield Step("counting", "The number goes up by one from message to message.",
-                       lambda view, t=topic: view.topic(t).must(count_up))  # type: ignore[misc]  # fmt: skip
+            title = "The number goes up by one from message to message."
+            yield Step("counting", title, _of_topic(topic, count_up))
         if topic.text and node.log and not node.subscribes:
-            yield Step(
-                "logs", "It writes each message that it publishes, once.", _logs(node, topic)
-            )
+            title = "It writes each message that it publishes, once."
+            yield Step("logs", title, _logs(node, topic))
 
 
-def _says(view: ExperimentView, topic: TopicContract) -> None:
-    seen = view.topic(topic)
-    if not seen.messages:
-        require_steady(view.seen.stall_s)
-        raise NoMessages(seen.name, 0, view.seen.watching_s)
+def _sayings(topic: TopicContract) -> Iterator[Demand[TopicView]]:
+    yield say_something
     if topic.text:
-        seen.must(say_its_text)
-    for message in seen.messages:
-        for name, wanted in topic.fields.items():
-            found = _field(message.content, name)
-            if not same(found, wanted):
-                raise faults.WrongField(seen.name, name, f"{wanted!r}", f"{found!r}")
+        yield say_its_text
+    if topic.fields:
+        yield hold_its_fields
 
 
-def _logs(node: NodeContract, topic: TopicContract) -> Callable[[ExperimentView], None]:
+def _logs(node: NodeContract, topic: TopicContract) -> Look:
     return lambda view: view.process(node).must(log_each(node, view.topic(topic).texts))
 
 
@@ -225,130 +241,73 @@ def _hears(view: ExperimentView, node: NodeContract) -> None:
 
 def _of_services(node: NodeContract) -> Iterator[Step]:
     for service in node.serves:
-        yield Step("service", f"It serves {service.service}, type {service.type}.",
-                   lambda view, s=service: view.must(serve(s), serve_their_types(s)))  # type: ignore[misc]  # fmt: skip
-        yield Step("answers", f"{service.service} gives the answers of the card.",
-                   lambda view, s=service: view.must(answer_each(node, s)))  # type: ignore[misc]  # fmt: skip
+        title = f"It serves {service.service}, type {service.type}."
+        yield Step("service", title, _of_all(serve(service), serve_their_types(service)))
+        title = f"{service.service} gives the answers of the card."
+        yield Step("answers", title, _of_all(answer_each(node, service)))
     for service in node.calls:
-        yield Step("asks", f"It calls {service.service} with the card's request.",
-                   lambda view, s=service: view.must(ask(node, s)))  # type: ignore[misc]  # fmt: skip
+        title = f"It calls {service.service} with the card's request."
+        yield Step("asks", title, _of_all(ask(node, service)))
         if node.log:
-            yield Step("tells", "It writes what the answer says.",
-                       lambda view: view.must(tell_the_answer(node)))  # fmt: skip
+            yield Step("tells", "It writes what the answer says.", _of_all(tell_the_answer(node)))
 
 
 def _of_ends(card: DrillCard) -> Iterator[Step]:
     if card.exits is not None:
         title = f"It ends by itself, with exit code {card.exits}."
-        yield Step("exits", title, lambda view: _require_exit(card, view))
+        yield Step("exits", title, _ends_by_itself(card, card.exits))
     if card.ends_well:
-        node = card.nodes[0]
-        yield Step("ends", "Ctrl-C ends it at once.",
-                   lambda view: view.process(node).must(end_within(ENDS_WITHIN_S)))  # fmt: skip
-        yield Step("clean_exit", "After Ctrl-C it ends without an error.",
-                   lambda view: view.process(node).must(exit_cleanly))  # fmt: skip
+        ends, node = end_within(ENDS_WITHIN_S), card.nodes[0]
+        yield Step("ends", "Ctrl-C ends it at once.", _of_process(node, ends))
+        title = "After Ctrl-C it ends without an error."
+        yield Step("clean_exit", title, _of_process(node, exit_cleanly))
 
 
-# --- what the program prints, and how it ends --------------------------------------------------
+def _ends_by_itself(card: DrillCard, exit_code: int) -> Look:
+    if not card.nodes:
+        return ends_by_itself(exit_code)
+    return _of_all(end_by_itself(card.nodes[0], exit_code, AT_ITS_END, _was_answered))
 
 
-def _lines(view: ExperimentView) -> list[str]:
-    return view.labelled(PROGRAM).texts
-
-
-def _prints(text: str) -> Callable[[ExperimentView], None]:
-    def demand(view: ExperimentView) -> None:
-        lines = _lines(view)
-        if not any(text in line for line in lines):
-            require_steady(view.seen.stall_s)
-            near = difflib.get_close_matches(text, lines, n=1, cutoff=0.5) or lines[:1]
-            raise faults.NotPrinted(text, near[0] if near else None, log=tuple(lines[-40:]))
-
-    return demand
-
-
-def _never_prints(text: str) -> Callable[[ExperimentView], None]:
-    def demand(view: ExperimentView) -> None:
-        for line in _lines(view):
-            if text in line:
-                raise faults.PrintedAnyway(text, line)
-
-    return demand
-
-
-def _no_traceback(card: DrillCard) -> Callable[[ExperimentView], None]:
-    """Of a program that ends: that it does not, or ends with an error, is told before all else.
-
-    One that waits for an answer runs on since it did not ask: what it did not ask is told.
-    """
-
-    def demand(view: ExperimentView) -> None:
-        broke = any(line.startswith("Traceback") for line in _lines(view))
-        runs_on = not view.seen.processes[PROGRAM].ended_by_itself
-        if broke or (runs_on and not card.waits_for_answers):
-            _require_exit(card, view)
-
-    return demand
-
-
-def _require_exit(card: DrillCard, view: ExperimentView) -> None:
-    seen = view.seen.processes[PROGRAM]
-    if not seen.ended_by_itself:
-        require_steady(view.seen.stall_s)
-        raise faults.RunsOn(view.seen.watching_s)
-    if seen.status != card.exits:
-        log = view.labelled(PROGRAM).last_lines()
-        raise faults.WrongExitCode(card.exits or 0, describe_end(seen), log=log)
+def _was_answered(seen: ExperimentSeen) -> bool:
+    return bool(seen.part(ServicesSeen).served or seen.part(ActionsSeen).orders)
 
 
 # --- what comes of what it is told -------------------------------------------------------------
 
 
-def _reacts(tell: Tell) -> Callable[[ExperimentView], None]:
-    def demand(view: ExperimentView) -> None:
-        spoken = _spoken(tell, view)
-        told = f"{spoken.topic} ({', '.join(f'{k}: {v}' for k, v in tell.message.items())})"
+def _of_what_it_is_told(card: DrillCard) -> Iterator[Step]:
+    for number, tell in enumerate(card.tells):
+        title = f"It makes the right thing of {tell.topic}."
         if tell.log is not None:
-            _require_line(tell.log, told, view)
-        if tell.publishes:
-            _require_message(tell.publishes, told, spoken, view)
+            yield Step("answers", title, _writes(tell, tell.log))
+        for field in tell.publishes.fields if tell.publishes else ():
+            yield Step("answers", title, _shows(card, number, field))
+
+
+def _shows(card: DrillCard, number: int, field: str) -> Look:
+    """After the n-th message, a field of the topic holds what the card says."""
+    tell = card.tells[number]
+    assert tell.publishes
+    wanted, told = tell.publishes.fields[field], nested(tell.message)
+    place = Shown(card.nodes[0], next(iter(tell.message)), tell.publishes, field)
+
+    def asked(turn: int, said: dict[str, Any]) -> Any:
+        return wanted if (turn, said) == (number, told) else None
+
+    return _of_all(show(place, asked))
+
+
+def _writes(tell: Tell, line: str) -> Look:
+    def demand(view: ExperimentView) -> None:
+        spoken = [each for each in view.seen.spoken if each.content == nested(tell.message)]
+        if not spoken:
+            raise NothingToJudge(f"nothing could be said on {tell.topic}")
+        texts = view.labelled(PROGRAM).texts
+        if not any(line in text for text in texts):
+            require_its_time(view.seen, None, 0.0, "its line")
+            told = ", ".join(f"{name} {shown(value)}" for name, value in tell.message.items())
+            when = f"after {told} on {spoken[0].topic}"
+            raise NotLogged(PROGRAM, line, most_similar(line, texts), when=when)
 
     return demand
-
-
-def _spoken(tell: Tell, view: ExperimentView) -> Spoken:
-    content = nested(tell.message)
-    for each in view.seen.spoken:
-        if each.content == content:
-            return each
-    raise NothingToJudge(f"nothing could be said on {tell.topic}")
-
-
-def _require_line(wanted: str, told: str, view: ExperimentView) -> None:
-    texts = view.labelled(PROGRAM).texts
-    if not any(wanted in text for text in texts):
-        require_its_time(view.seen, None, 0.0, "its line")
-        raise NotLogged(PROGRAM, wanted, most_similar(wanted, texts), when=f"after {told}")
-
-
-def _require_message(wanted: Heard, told: str, spoken: Spoken, view: ExperimentView) -> None:
-    topic = view.topic(TopicContract(topic=wanted.topic, type=wanted.type))
-    after = [m for m in topic.messages if m.arrival_ns > spoken.sent_ns]
-    hope = f"{wanted.topic} carries {_fields(wanted.fields)}"
-    if not after:
-        require_steady(view.seen.stall_s)
-        raise faults.NoReaction(told, hope)
-    found = {name: _field(after[0].content, name) for name in wanted.fields}
-    if not all(same(found[name], value) for name, value in wanted.fields.items()):
-        raise faults.WrongReaction(told, hope, f"{topic.name} carries {_fields(found)}")
-
-
-def _fields(fields: dict[str, Any]) -> str:
-    return ", ".join(f"{name}: {value}" for name, value in fields.items())
-
-
-def _field(content: Any, name: str) -> Any:
-    """A field of a message, by its name with dots; None where it has none."""
-    for part in name.split("."):
-        content = content.get(part) if isinstance(content, dict) else None
-    return content

@@ -1,34 +1,37 @@
-"""The one experiment of a drill: run its program, say and ask what the card has, and watch."""
+"""The one experiment of a drill: run its program, say and ask what the card has, and watch.
+
+It is made of what the experiments of labs are made of.
+"""
 
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
+from typing import Any
 
 import ros2_on_pip
-from roslings.arena import LONGEST_WAIT_S, Process
-from roslings.capabilities.actions.record import ActionsSeen
+from roslings.arena import Process
 from roslings.capabilities.parameters.act import list_parameters
-from roslings.capabilities.services.act import Asker, answering
+from roslings.capabilities.services.act import Asker, answering, await_end
 from roslings.capabilities.services.graph import read_services
 from roslings.capabilities.services.record import ServicesSeen
-from roslings.capabilities.topics.act import nested
+from roslings.capabilities.topics.act import Teller, nested
 from roslings.course import NodeContract, TopicContract
 from roslings.evidence import Endpoint, ExperimentSeen, GraphSeen
-from roslings.experiment import Run, Scene
+from roslings.experiment import Scene
+from roslings.experiment.missed import hears, publishes
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
-from roslings.experiment.own_time import OwnTime
-from roslings.experiment.scene import hears, publishes
 from roslings.experiment.start import Start
 from roslings.matching import nearest_endpoint
-from roslings_learn.drills.card import PROGRAM, DrillCard, Tell
+from roslings_learn.drills.card import PROGRAM, DrillCard
 from roslings_learn.drills.goals import give_goals, take_goal
+from roslings_learn.drills.script_time import LONGEST_S, ScriptTime
 
 TRIES = 2
 """We see that we are joined with a node a little before the node does: what is said in between is
-lost, and is said once more."""
+lost."""
 SHOWS_WITHIN_S = 0.4
 """After a node's callbacks have run, what they wrote is on its way."""
 TURNS_WITHIN_S = 0.8
@@ -37,8 +40,6 @@ ASKS_WITHIN_S = 0.8
 COMES_UP_WITHIN_S, SHOWN_WITHIN_S = 5.0, 0.6
 """A node is in the graph some tenths of a second after its program has begun to speak."""
 PRINTS_WITHIN_S, ENDS_WITHIN_S = 2.5, 8.0
-LOADS_WITHIN_S = 8.0
-"""Of work; who works on for longer is not loading any more."""
 BESIDE = "beside"
 ROS2 = Path(ros2_on_pip.__path__[0])
 """The course's own `ros2`: a script may call it."""
@@ -64,17 +65,16 @@ def watch(card: DrillCard, scene: Scene) -> None:
 @contextmanager
 def running(card: DrillCard, scene: Scene) -> Iterator[Process]:
     """The program, started as the card says; with `ends_well`, Ctrl-C is pressed at the end."""
-    node = card.nodes[0] if card.nodes else NodeContract(node="/program", executable=PROGRAM)
     start = Start(parameters=card.given)
     remaps = [*card.remaps, *_renaming(card.named)]
-    if card.exits is not None or not card.nodes or card.program == "bash":
+    if card.nodes and card.program == "python":
+        with scene.run(card.nodes[0], remaps, start) as process:
+            yield process
+    else:
         shown = [ROS2] if card.program == "bash" else []
         with scene.arena.run(PROGRAM, start.arguments(remaps), shown) as process:
             scene.seen.processes[PROGRAM] = process.seen
             _await_nodes(card, scene, process)
-            yield process
-    else:
-        with scene.run_all(Run(node, remaps, start)) as (process,):
             yield process
 
 
@@ -90,19 +90,9 @@ def _await_nodes(card: DrillCard, scene: Scene, process: Process) -> None:
 def _until_idle(
     scene: Scene, process: Process, condition: Callable[[], bool], within_s: float
 ) -> None:
-    """As `Scene.until_own`; what the program's own processes work comes on top, to a bound.
-
-    A script of two `ros2` commands loads for a second on a fast computer, for four on a slow one.
-    """
-    own, before_s = OwnTime(scene.arena), process.worked_s()
-
-    def is_over() -> bool:
-        return own.is_past(within_s) and own.is_past(
-            within_s + min(process.worked_s() - before_s, LOADS_WITHIN_S)
-        )
-
-    most_s = within_s + LOADS_WITHIN_S + LONGEST_WAIT_S
-    scene.until(lambda: condition() or is_over(), most_s)
+    """As `Scene.until_own`; what the program's own processes work comes on top, to a bound."""
+    own = ScriptTime(scene.arena, process)
+    scene.until(lambda: condition() or own.is_past(within_s), within_s + LONGEST_S)
 
 
 def _are_there(scene: Scene, count: int) -> bool:
@@ -141,7 +131,7 @@ def _forget(card: DrillCard, seen: ExperimentSeen) -> None:
 def _watch_all(card: DrillCard, scene: Scene, process: Process) -> None:
     if len(card.nodes) > 1:
         scene.appears(lambda: len(scene.seen.graph.nodes) >= len(card.nodes), "all nodes")
-    _let_spin(scene, process)
+    _let_spin(card, scene, process)
     if not scene.seen.stuck and not _stays_hidden(card, scene, process):
         _watch_what_comes(card, scene, process)
 
@@ -155,13 +145,12 @@ def _watch_what_comes(card: DrillCard, scene: Scene, process: Process) -> None:
         _watch_first(published[0], card, scene)
     for node in card.nodes:
         _talk_with(node, card, scene, process)
-    for tell in card.tells:
-        _tell(tell, scene, process)
+    _tell_each(card, scene, process)
     if not (published or _is_asked(card)):
-        _let_spin(scene, process)  # once more: its first timer may have come after that
+        _let_spin(card, scene, process)  # once more: its first timer may have come after that
     give_goals(card, scene, process)
     for take in card.takes:
-        take_goal(take, scene, process)
+        take_goal(take, card.nodes[0], scene, process)
     _await_output(card, scene, process)
 
 
@@ -189,114 +178,118 @@ def _mouth(scene: Scene, topic: TopicContract) -> Endpoint | None:
     return nearest_endpoint(scene.seen.graph, "publisher", topic.topic, topic.type)
 
 
-def _let_spin(scene: Scene, process: Process) -> None:
-    """Wait until its nodes have run a callback; those that never do are written down."""
-    for name in list(scene.seen.graph.nodes):
+def _let_spin(card: DrillCard, scene: Scene, process: Process) -> None:
+    """Wait until its nodes have run a callback; those that never do are written down.
+
+    A program with one task may do that in main(), and spin only then.
+    """
+    for name in list(scene.seen.graph.nodes) if card.exits is None else ():
         if process.alive and not scene.turned(name, TURNS_WITHIN_S) and process.alive:
             scene.seen.stuck.append(name)
 
 
+# --- what is said, asked and answered ----------------------------------------------------------
+
+
 def _talk_with(node: NodeContract, card: DrillCard, scene: Scene, process: Process) -> None:
     for topic in node.subscribes if not card.tells else ():
-        ear = _ear(scene, topic)
-        for _ in range(card.says if ear else 0):
-            assert ear
-            _say(scene, process, ear, scene.sentence())
+        _say_sentences(topic, card.says, scene, process)
     if node.serves:
         asker = Asker(scene, process, node)
         for service in node.serves:
             asker.ask_in_a_row(service, service.answers, len(service.answers), service.service)
     for service in node.calls:
-        scene.until(lambda: _has_clients(scene), FIRST_MESSAGE_WITHIN_S)
         with answering(scene, service, service.answers[0].response):  # a little late, as real ones
-            _await_request(node, scene, process)
+            _await_request(node, card, scene, process)
 
 
-def _has_clients(scene: Scene) -> bool:
-    """Whether the program is a client of something; a slip in a name is told."""
-    ends = read_services(scene.probe.eye, scene.seen.graph.nodes)
-    scene.seen.recording(ServicesSeen).ends = ends or scene.seen.part(ServicesSeen).ends
-    return any(end.kind == "client" for end in ends)
+def _say_sentences(topic: TopicContract, count: int, scene: Scene, process: Process) -> None:
+    """The first one is said once before it counts, as `Teller` does with values."""
+    ear = _hears(topic, scene)
+    if ear and count:
+        said, first = len(scene.seen.spoken), scene.sentence()
+        _tell(ear, {"data": first}, first, scene, process)
+        del scene.seen.spoken[said:]
+        scene.say_sentences(process, topic, count)
 
 
-def _await_request(node: NodeContract, scene: Scene, process: Process) -> None:
-    """Wait for a request, and then for the line about its answer."""
+def _hears(topic: TopicContract, scene: Scene) -> Endpoint | None:
+    """The subscription to a topic, or to the one nearest to it; None for one of another type."""
 
-    if not scene.until_own(lambda: len(scene.seen.part(ServicesSeen).served) > 0, ASKS_WITHIN_S):
-        return
-    line = (node.log or "").format(
-        text=scene.seen.part(ServicesSeen).served[0].response.get("message", "")
-    )
-    if not scene.is_written(process, line):
-        _let_spin(scene, process)
-    if not scene.seen.stuck:
-        scene.until_own(lambda: scene.is_written(process, line), SHOWS_WITHIN_S)
-
-
-def _ear(scene: Scene, topic: TopicContract) -> Endpoint | None:
     def find() -> Endpoint | None:
         return nearest_endpoint(scene.seen.graph, "subscription", topic.topic, topic.type)
 
     scene.appears(lambda: find() is not None, hears(topic))
-    return find()
+    ear = find()
+    return ear if ear and ear.type == topic.type else None
 
 
-def _say(scene: Scene, process: Process, ear: Endpoint, text: str) -> None:
-    """Say a sentence, once more where nothing came of it, and wait for the line about it."""
-    if ear.type != "std_msgs/msg/String":
-        return
+def _tell_each(card: DrillCard, scene: Scene, process: Process) -> None:
+    """Each value, and wait for what must come of it."""
+    tellers: dict[tuple[str, str], Teller] = {}
+    for tell in card.tells:
+        ear = _hears(tell.heard, scene)
+        if ear and tell.publishes:
+            way = tell.topic, tell.publishes.topic
+            if way not in tellers:
+                tellers[way] = Teller(scene, process, tell.heard, tell.publishes)
+            tellers[way].tell(tell.message)
+        elif ear and tell.log:
+            _tell(ear, tell.message, tell.log, scene, process)
+
+
+def _tell(
+    ear: Endpoint, fields: Mapping[str, Any], line: str, scene: Scene, process: Process
+) -> None:
+    """Say one message, and wait for its line; once more where the node may not have heard it.
+
+    Where no line comes, wait no longer than until the callbacks have run.
+    """
     said = len(scene.seen.spoken)
-    for _ in range(TRIES):
-        del scene.seen.spoken[said:]  # one sentence, however often it had to be said
-        scene.probe.say(ear, {"data": text}, FIRST_MESSAGE_WITHIN_S)
-        if _comes(scene, process, ear, lambda: scene.is_written(process, text)):
-            return
-
-
-def _comes(scene: Scene, process: Process, ear: Endpoint, shown: Callable[[], bool]) -> bool:
-    """Wait for what must come of a message, and no longer than until the callbacks have run."""
-    if scene.until_own(shown, SHOWS_WITHIN_S) or not process.alive:
-        return True
-    scene.turned(ear.node, TURNS_WITHIN_S)
-    return scene.until_own(shown, SHOWS_WITHIN_S)
-
-
-def _tell(tell: Tell, scene: Scene, process: Process) -> None:
-    topic = TopicContract(topic=tell.topic, type=tell.type)
-    ear = _ear(scene, topic)
-    if ear is None:
-        return
-    said = len(scene.seen.spoken)
+    written = functools.partial(scene.is_written, process, line)
     for _ in range(TRIES):
         del scene.seen.spoken[said:]
-        before = _heard(scene, tell)
-        scene.probe.say(ear, nested(tell.message), FIRST_MESSAGE_WITHIN_S)
-
-        def shown(before: int = before) -> bool:
-            written = tell.log is None or scene.is_written(process, tell.log)
-            return written and (tell.publishes is None or _heard(scene, tell) > before)
-
-        if _comes(scene, process, ear, shown):
+        scene.probe.say(ear, nested(fields), FIRST_MESSAGE_WITHIN_S)
+        if not scene.until_own(written, SHOWS_WITHIN_S) and process.alive:
+            scene.turned(ear.node, TURNS_WITHIN_S)
+            scene.until_own(written, SHOWS_WITHIN_S)
+        if written() or not process.alive:
             return
 
 
-def _heard(scene: Scene, tell: Tell) -> int:
-    if tell.publishes is None:
-        return 0
-    there = _mouth(scene, TopicContract(topic=tell.publishes.topic, type=tell.publishes.type))
-    return scene.probe.count(there.topic) if there else 0
+def _await_request(node: NodeContract, card: DrillCard, scene: Scene, process: Process) -> None:
+    """Wait for a request, and then for what must come of the answer: the end, or a line."""
+    if not scene.until_own(lambda: _has_asked(scene), ASKS_WITHIN_S):
+        return
+    if card.exits is not None:
+        await_end(scene, process, node)
+        return
+    text = scene.seen.part(ServicesSeen).served[0].response.get("message", "")
+    written = functools.partial(scene.is_written, process, (node.log or "").format(text=text))
+    if not written():
+        _let_spin(card, scene, process)
+    if not scene.seen.stuck:
+        scene.until_own(written, SHOWS_WITHIN_S)
+
+
+def _has_asked(scene: Scene) -> bool:
+    """Whether a request came. Whom the program may call is noted: it may soon be gone."""
+    ends = read_services(scene.probe.eye, scene.seen.graph.nodes)
+    seen = scene.seen.recording(ServicesSeen)
+    seen.ends = ends or seen.ends
+    return bool(seen.served)
 
 
 def _await_output(card: DrillCard, scene: Scene, process: Process) -> None:
     """Wait for what must be printed, and for the end of a program that ends by itself."""
-    answered = scene.seen.part(ServicesSeen).served or scene.seen.part(ActionsSeen).orders
-    if card.exits is not None and (answered or not card.waits_for_answers):
-        scene.until_own(lambda: not process.alive, ENDS_WITHIN_S)
+    if card.exits is not None:
+        if not card.waits_for_answers:
+            scene.until_own(lambda: not process.alive, ENDS_WITHIN_S)
         process.wait_ended(0.0 if process.alive else ENDS_WITHIN_S)
     elif card.prints:
-        texts = [line for line in card.prints]
         _until_idle(
-            scene, process,
-            lambda: all(any(t in line.text for line in process.lines()) for t in texts),
+            scene,
+            process,
+            lambda: all(any(t in line.text for line in process.lines()) for t in card.prints),
             PRINTS_WITHIN_S,
-        )  # fmt: skip
+        )

@@ -11,6 +11,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import shutil
 from collections.abc import Iterator
@@ -44,6 +45,19 @@ class Copies:
     def folder(self) -> Path:
         """Where the student's notebooks lie."""
         return self.workspace / "notebooks"
+
+    @property
+    def root(self) -> Path:
+        """What JupyterLab shows lies below: what lessons name by `~`, and the workspace."""
+        try:
+            return Path(os.path.commonpath((Path.home(), self.workspace)))
+        except RuntimeError:  # a user without a home
+            return self.workspace
+
+    def path_of(self, file: Path) -> str:
+        """A file or folder as JupyterLab names it; empty where it does not lie below its root."""
+        inside = file.is_relative_to(self.root)
+        return file.relative_to(self.root).as_posix() if inside else ""
 
     def lesson_of(self, day: Day) -> Path:
         """The course's file."""

@@ -13,7 +13,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from pydantic_core import ErrorDetails
 
 from ros2_on_pip.errors import RoslingsError
-from roslings.course.files import loader
+from roslings.course.files import child_of, loader
 
 Location = tuple[int | str, ...]
 
@@ -179,17 +179,8 @@ def line_of(tree: yaml.Node, location: Location) -> int:
     """
     node = tree
     for step in location:
-        node = _child(node, step) or node
+        node = child_of(node, step) or node
     return node.start_mark.line + 1
-
-
-def _child(node: yaml.Node, step: int | str) -> yaml.Node | None:
-    if isinstance(node, yaml.MappingNode):
-        return next((value for key, value in node.value if key.value == str(step)), None)
-    if isinstance(node, yaml.SequenceNode) and isinstance(step, int) and step < len(node.value):
-        child: yaml.Node = node.value[step]
-        return child
-    return None
 
 
 def nearest(wanted: str, known: list[str], kind: str) -> str:

@@ -46,32 +46,37 @@ class Rule:
 
 RULES = (
     Rule(
-        "reliability", "reliability",
+        "reliability",
+        "reliability",
         (Choice("best effort", "BEST_EFFORT"), Choice("reliable", "RELIABLE")),
         "The subscription wants lost messages again, and the publisher sends none again.",
     ),
     Rule(
-        "durability", "durability",
+        "durability",
+        "durability",
         (Choice("volatile", "VOLATILE"), Choice("transient local", "TRANSIENT_LOCAL")),
         "The subscription asks for earlier messages, and the publisher keeps none.",
     ),
     Rule(
-        "deadline", "deadline",
+        "deadline",
+        "deadline",
         (Choice("none", None), Choice("1 s", 1.0), Choice("0.2 s", 0.2)),
         "The subscription wants messages more often than the publisher promises.",
     ),
     Rule(
-        "liveliness", "liveliness",
+        "liveliness",
+        "liveliness",
         (Choice("automatic", "AUTOMATIC"), Choice("manual by topic", "MANUAL_BY_TOPIC")),
         "The subscription wants signs of life from the publisher itself, and only its program"
         " gives them.",
     ),
     Rule(
-        "liveliness_lease_duration", "lease duration",
+        "liveliness_lease_duration",
+        "lease duration",
         (Choice("none", None), Choice("2 s", 2.0), Choice("0.5 s", 0.5)),
         "The subscription wants signs of life more often than the publisher promises.",
     ),
-)  # fmt: skip
+)
 """All that is compared. History, depth and lifespan are not: each side has its own."""
 
 

@@ -14,6 +14,7 @@ from roslings_learn.notebook.tracebacks import install
 install()
 require_ros()  # before all that needs more than plain Python: a wrong kernel may have no more
 
+from roslings_learn.notebook.desk import desk  # noqa: E402
 from roslings_learn.notebook.graph import show_graph  # noqa: E402
 from roslings_learn.notebook.image import show_image  # noqa: E402
 from roslings_learn.notebook.intervals import plot_intervals  # noqa: E402
@@ -28,6 +29,7 @@ from roslings_learn.notebook.watching import watch_topic  # noqa: E402
 __all__ = [
     "Session",
     "check",
+    "desk",
     "plot_intervals",
     "qos_table",
     "quiz",

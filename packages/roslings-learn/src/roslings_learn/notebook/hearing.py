@@ -162,7 +162,10 @@ def quiet_node(name: str, context: Any) -> Any:
     from rclpy.parameter import Parameter
 
     return Node(
-        name, context=context, enable_rosout=False, start_parameter_services=False,
+        name,
+        context=context,
+        enable_rosout=False,
+        start_parameter_services=False,
         use_global_arguments=False,
         parameter_overrides=[Parameter("start_type_description_service", value=False)],
-    )  # fmt: skip
+    )

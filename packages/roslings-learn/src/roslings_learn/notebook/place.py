@@ -12,8 +12,8 @@ import socket
 import sys
 from pathlib import Path
 
-from ros2_on_pip.domain_lease import SAFE_DOMAINS, NoFreeDomain, domains_in_use, lease
 from ros2_on_pip.surroundings import domain_id, prepare
+from roslings_learn.of_window import wanted_or_next
 
 LOGS_ON_STDOUT = "RCUTILS_LOGGING_USE_STDOUT"
 LOGS = {LOGS_ON_STDOUT: "1", "RCUTILS_LOGGING_BUFFERED_STREAM": "0"}
@@ -57,17 +57,12 @@ def _fill_in() -> None:
 
 
 def _lease(wanted: int) -> tuple[int, socket.socket]:
-    held = lease(wanted)
-    if held is not None:
+    domain, held = wanted_or_next(wanted)
+    if domain == wanted:
         _tell_who_came_by_a_hub(wanted)
-        return wanted, held
-    busy = domains_in_use()
-    for domain in (each for each in SAFE_DOMAINS if each not in busy):
-        held = lease(domain)
-        if held is not None:
-            _tell(wanted, domain)
-            return domain, held
-    raise NoFreeDomain
+    else:
+        _tell(wanted, domain)
+    return domain, held
 
 
 def _tell_who_came_by_a_hub(domain: int) -> None:

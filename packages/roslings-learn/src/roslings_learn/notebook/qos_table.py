@@ -168,8 +168,9 @@ def _choose(rule: Rule, does: str) -> Any:
     return Dropdown(
         options=[choice.words for choice in rule.choices],
         description=f"{rule.title}: {'publisher' if does == 'offers' else 'subscription'} {does}",
-        style={"description_width": "20em"}, layout={"width": "32em", "max_width": "100%"},
-    )  # fmt: skip
+        style={"description_width": "20em"},
+        layout={"width": "32em", "max_width": "100%"},
+    )
 
 
 def _as_html(meeting: Meeting, broken: list[Rule]) -> str:

@@ -56,7 +56,7 @@ def show_my_rover(
 ) -> None:
     """Build the rover of your own parts, let it drive for some seconds, and show its map.
 
-    It is told the same speeds all the time, on /cmd_vel. Raises NoPart, CannotBorrow.
+    It is told the same speeds all the time, on /cmd_vel. Raises NoPart, CannotBorrow, RoverThere.
     """
     from geometry_msgs.msg import Twist
 
@@ -80,6 +80,8 @@ def _map_in_words(rover: LiveRover | LiveMyRover) -> str:
     pose, parts = rover.pose, _about_parts(rover)
     degrees = math.degrees(pose.heading_rad)
     where = f"It is at x {pose.x_m:.2f} m, y {pose.y_m:.2f} m, heading {degrees:.0f} degrees."
+    if count := len(getattr(rover, "bumps", [])):
+        where += f" It has bumped {count} times." if count > 1 else " It has bumped once."
     if not parts:
         return f"The rover's map. {where}"
     return f"Your rover's map. {where} {' '.join(' '.join(parts).split())}"

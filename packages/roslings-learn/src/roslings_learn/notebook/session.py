@@ -83,9 +83,11 @@ class Session:
         self.context = rclpy.Context()
         things.callback(self.context.try_shutdown)
         rclpy.init(
-            args=QUIET, context=self.context, domain_id=domain,
+            args=QUIET,
+            context=self.context,
+            domain_id=domain,
             signal_handler_options=SignalHandlerOptions.NO,
-        )  # fmt: skip
+        )
         things.enter_context(as_default(self.context))
         self._spinning = SpinThreads(self.context)
         things.callback(self._end_nodes)
@@ -167,12 +169,16 @@ class Session:
         with Eye() as eye:
             return eye.settle().nodes()
 
-    def rover(self, seed: int = 0) -> LiveRover:
-        """The course's simulated rover (/cmd_vel, /odom, /scan); it ends with the session."""
+    def rover(self, seed: int = 0, room: int | None = None) -> LiveRover:
+        """The course's simulated rover (/cmd_vel, /odom, /scan); it ends with the session.
+
+        `room` is the seed of another room, as of `./roslings rover --room`. Raises NoSeed
+        and RoverThere.
+        """
         from roslings_rover.rover.notebook import start
 
         self._spinning.check()
-        return self._things.enter_context(start(seed))
+        return self._things.enter_context(start(seed, room=room))
 
     def my_rover(
         self,
@@ -184,7 +190,7 @@ class Session:
     ) -> LiveMyRover:
         """The rover of your own parts, those up to a `day`; it ends with the session.
 
-        The options are those of `./roslings my-rover`. Raises NoPart, CannotBorrow.
+        The options are those of `./roslings my-rover`. Raises NoPart, CannotBorrow, RoverThere.
         """
         from roslings_my_rover.notebook import start
 

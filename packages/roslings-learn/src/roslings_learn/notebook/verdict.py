@@ -5,12 +5,10 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from pathlib import Path
 
-import roslings_launcher
 from roslings_learn.notebook.programs import end, read_lines
+from roslings_learn.start import START
 
-START = Path(roslings_launcher.__file__).with_name("start.py")
 WIDTH = "80"
 
 
@@ -26,9 +24,13 @@ def check(lab: str) -> None:
     process = subprocess.Popen(
         [sys.executable, str(START), "check", lab],
         env={**os.environ, "FORCE_COLOR": "1", "COLUMNS": WIDTH, "TERM": "xterm-256color"},
-        stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-        text=True, errors="replace", start_new_session=True,
-    )  # fmt: skip
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        errors="replace",
+        start_new_session=True,
+    )
     try:
         for line in read_lines(process):
             print(line, flush=True)

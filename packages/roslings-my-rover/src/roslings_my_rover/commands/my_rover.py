@@ -17,38 +17,49 @@ def add_options(word: argparse.ArgumentParser) -> None:
         "--parts", action="store_true", help="say which parts there are, and start nothing"
     )
     word.add_argument(
-        "--borrow", metavar="DAY", type=int, action="append", default=[],
+        "--borrow",
+        metavar="DAY",
+        type=int,
+        action="append",
+        default=[],
         help="for a day that you skipped: the course's part; may be given again",
-    )  # fmt: skip
+    )
     word.add_argument(
-        "--src", action="store_true",
+        "--src",
+        action="store_true",
         help="your packages as they lie in the workspace today, not those of your best check",
-    )  # fmt: skip
+    )
     word.add_argument(
-        "--keys", action="store_true",
+        "--keys",
+        action="store_true",
         help="drive it by the keys of this terminal; Space is the stop of day 10, p pulls the"
         " cable of day 6",
-    )  # fmt: skip
+    )
     word.add_argument(
         "--follow", action="store_true", help="follow the ball, by what day 7 says on /ball"
     )
     word.add_argument(
-        "--race", action="store_true",
+        "--race",
+        action="store_true",
         help="a race of two rovers in one room, /red and /blue, started by your launch file of"
         " day 8",
-    )  # fmt: skip
+    )
     word.add_argument(
-        "--bag", action="store_true",
+        "--bag",
+        action="store_true",
         help="keep a bag of this drive, for your program of day 9: ~/roslings_ws/my_rover_bag",
-    )  # fmt: skip
+    )
     word.add_argument(
-        "--launch", action="store_true",
+        "--launch",
+        action="store_true",
         help="print the launch file that starts these parts, wired as in the rover",
-    )  # fmt: skip
+    )
     word.add_argument(
-        "--view", choices=("auto", "window", "terminal", "lines"), default="auto",
+        "--view",
+        choices=("auto", "window", "terminal", "lines"),
+        default="auto",
         help="where the map is shown (default: a window where there is a screen)",
-    )  # fmt: skip
+    )
     word.add_argument("--seed", metavar="N", type=int, default=0, help="for the sensors' noise")
 
 
@@ -57,8 +68,10 @@ def run(options: argparse.Namespace) -> int:
     from roslings_my_rover.chosen import NoPart, chosen, told
 
     if options.race and (options.keys or options.follow or options.bag or options.launch):
-        print("roslings: --race goes with DAY, --borrow, --src, --view and --seed alone.",
-              file=sys.stderr)  # fmt: skip
+        print(
+            "roslings: --race goes with DAY, --borrow, --src, --view and --seed alone.",
+            file=sys.stderr,
+        )
         return WRONG_USE
     last_day = None if options.race else options.day
     choice = chosen(last_day, options.borrow, options.src)

@@ -66,9 +66,13 @@ class Fault:
         module = package / package.name
         shutil.copyfile(layer.__file__, module / f"{LAYER}.py")
         words = {
-            "executable": self.executable, "kind": self.kind, "operator": self.operator,
-            "at": self.at, "field": self.field, "other": self.other,
-        }  # fmt: skip
+            "executable": self.executable,
+            "kind": self.kind,
+            "operator": self.operator,
+            "at": self.at,
+            "field": self.field,
+            "other": self.other,
+        }
         init = module / "__init__.py"
         own = init.read_text("utf-8") if init.is_file() else ""
         init.write_text(f"{own}\nfrom .{LAYER} import install\n\ninstall({words!r})\n", "utf-8")
@@ -126,10 +130,13 @@ def _of_parameters(lab: Lab, node: NodeContract) -> Iterator[Fault]:
         refuses = bounded or parameter.read_only or parameter.not_above
         floating = bounded and parameter.type == "double"
         may = {
-            "other_default": True, "bound_ignored": refuses, "nan_let_in": floating,
-            "infinity_let_in": floating, "second_change_only": parameter.live,
+            "other_default": True,
+            "bound_ignored": refuses,
+            "nan_let_in": floating,
+            "infinity_let_in": floating,
+            "second_change_only": parameter.live,
             "not_described": bounded,
-        }  # fmt: skip
+        }
         for operator in filter(may.get, may):
             yield Fault(lab, node.executable, "parameter", operator, parameter.name)
 

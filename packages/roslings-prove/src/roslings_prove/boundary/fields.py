@@ -15,10 +15,13 @@ from roslings.course import Lab
 
 Kind = Literal["float", "int", "unsigned", "bool", "string"]
 KINDS: dict[str, Kind] = {
-    "float32": "float", "float64": "float", "bool": "bool", "string": "string",
+    "float32": "float",
+    "float64": "float",
+    "bool": "bool",
+    "string": "string",
     **{f"int{bits}": "int" for bits in (8, 16, 32, 64)},
     **{f"uint{bits}": "unsigned" for bits in (8, 16, 32, 64)},
-}  # fmt: skip
+}
 FIELD = re.compile(
     r"^\s*(?P<type>[\w/]+)(?P<many>\[[^\]]*\])?(<=\d+)?\s+(?P<name>[a-z]\w*)\b(?!\s*=)"
 )

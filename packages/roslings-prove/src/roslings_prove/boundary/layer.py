@@ -460,9 +460,14 @@ def around_actions(fault: Fault) -> None:
 
     @over(actions.ActionServer, "__init__")
     def server(
-        old: Any, self: Any, node: Any, action_type: Any, action_name: str, execute_callback: Any,
+        old: Any,
+        self: Any,
+        node: Any,
+        action_type: Any,
+        action_name: str,
+        execute_callback: Any,
         **rest: Any,
-    ) -> None:  # fmt: skip
+    ) -> None:
         full = node.resolve_service_name(action_name)
         performing = Performing(fault, full)
         if "cancel_callback" in rest and fault.is_at("cancel", full):
@@ -630,6 +635,12 @@ def install(words: Mapping[str, str]) -> None:
     fault = Fault(words)
     if fault.operator == "neutral":
         fault.acts()
-    for around in (around_topics, around_services, around_actions, around_parameters,
-                   around_nodes, around_bags):  # fmt: skip
+    for around in (
+        around_topics,
+        around_services,
+        around_actions,
+        around_parameters,
+        around_nodes,
+        around_bags,
+    ):
         around(fault)

@@ -51,19 +51,56 @@ WORDS = {
 }
 """Operator to what is wrong, for people; `layer.py` does it."""
 
-AIMED = frozenset({
-    "zero", "negated", "absolute", "nan", "of_before", "of_first", "turned_when_repeated",
-    "drop_nth", "drop_zeros", "drop_negatives", "drop_nan", "drop_repeats", "stops_after",
-    "no_second", "second_cancel_refused", "nan_let_in", "infinity_let_in", "second_change_only",
-})  # fmt: skip
+AIMED = frozenset(
+    {
+        "zero",
+        "negated",
+        "absolute",
+        "nan",
+        "of_before",
+        "of_first",
+        "turned_when_repeated",
+        "drop_nth",
+        "drop_zeros",
+        "drop_negatives",
+        "drop_nan",
+        "drop_repeats",
+        "stops_after",
+        "no_second",
+        "second_cancel_refused",
+        "nan_let_in",
+        "infinity_let_in",
+        "second_change_only",
+    }
+)
 """Kinds that have found holes: fields that nothing fills, another sign, zero, NaN, repeats, the
 n-th time, and what was said before. Half of a lab's packages are of these."""
 
 FLOW: dict[str, tuple[str, ...]] = {
-    "sent": ("drop_nth", "drop_zeros", "drop_repeats", "twice", "extra_at_start", "late",
-             "stops_after", "drop_first", "drop_second", "gap"),
-    "heard": ("drop_zeros", "drop_negatives", "drop_nan", "drop_repeats", "drop_first",
-              "drop_nth", "stops_after", "twice", "drop_second", "gap"),
+    "sent": (
+        "drop_nth",
+        "drop_zeros",
+        "drop_repeats",
+        "twice",
+        "extra_at_start",
+        "late",
+        "stops_after",
+        "drop_first",
+        "drop_second",
+        "gap",
+    ),
+    "heard": (
+        "drop_zeros",
+        "drop_negatives",
+        "drop_nan",
+        "drop_repeats",
+        "drop_first",
+        "drop_nth",
+        "stops_after",
+        "twice",
+        "drop_second",
+        "gap",
+    ),
     "request": (),
     "response": ("no_second", "stops_after"),
     "asked": ("twice",),
@@ -72,34 +109,62 @@ FLOW: dict[str, tuple[str, ...]] = {
     "feedback": ("once", "drop_nth", "twice", "stops_after"),
     "result": (),
     "read": ("drop_first", "drop_nth", "stops_after", "drop_second", "gap"),
-}  # fmt: skip
+}
 """Kind of place to what may happen to whole messages there."""
 
 FIELD: dict[str, dict[str, tuple[str, ...]]] = {
     "sent": {
-        "number": ("zero", "negated", "absolute", "doubled", "nan", "plus_one", "of_before",
-                   "swapped"),
+        "number": (
+            "zero",
+            "negated",
+            "absolute",
+            "doubled",
+            "nan",
+            "plus_one",
+            "of_before",
+            "swapped",
+        ),
         "bool": ("negated", "of_before"),
         "string": ("zero", "of_before", "upper", "longer", "shorter"),
     },
-    "heard": {"number": ("zero", "absolute", "negated", "of_before", "swapped"),
-              "bool": ("negated", "of_before"),
-              "string": ("zero", "of_before", "upper", "longer", "shorter")},
-    "request": {"number": ("zero", "of_before"), "bool": ("zero", "of_before"),
-                "string": ("zero", "of_before")},
-    "response": {"number": ("zero", "negated"), "bool": ("negated", "turned_when_repeated"),
-                 "string": ("zero", "of_first", "of_before", "upper", "longer", "shorter")},
+    "heard": {
+        "number": ("zero", "absolute", "negated", "of_before", "swapped"),
+        "bool": ("negated", "of_before"),
+        "string": ("zero", "of_before", "upper", "longer", "shorter"),
+    },
+    "request": {
+        "number": ("zero", "of_before"),
+        "bool": ("zero", "of_before"),
+        "string": ("zero", "of_before"),
+    },
+    "response": {
+        "number": ("zero", "negated"),
+        "bool": ("negated", "turned_when_repeated"),
+        "string": ("zero", "of_first", "of_before", "upper", "longer", "shorter"),
+    },
     "asked": {"number": ("zero", "negated"), "bool": ("negated",), "string": ("zero",)},
-    "goal": {"number": ("zero", "negated", "of_before"), "bool": ("negated", "of_before"),
-             "string": ("zero", "of_before")},
+    "goal": {
+        "number": ("zero", "negated", "of_before"),
+        "bool": ("negated", "of_before"),
+        "string": ("zero", "of_before"),
+    },
     "ordered": {"number": ("zero", "negated"), "bool": ("negated",), "string": ("zero",)},
-    "feedback": {"number": ("zero", "negated", "doubled", "plus_one", "of_before", "swapped"),
-                 "bool": ("negated",), "string": ("zero",)},
-    "result": {"number": ("zero", "negated", "doubled", "nan", "of_before"),
-               "bool": ("negated", "of_before"), "string": ("zero", "of_before")},
-    "read": {"number": ("zero", "negated", "absolute", "of_before", "swapped"), "bool": (),
-             "string": ()},
-}  # fmt: skip
+    "feedback": {
+        "number": ("zero", "negated", "doubled", "plus_one", "of_before", "swapped"),
+        "bool": ("negated",),
+        "string": ("zero",),
+    },
+    "result": {
+        "number": ("zero", "negated", "doubled", "nan", "of_before"),
+        "bool": ("negated", "of_before"),
+        "string": ("zero", "of_before"),
+    },
+    "read": {
+        "number": ("zero", "negated", "absolute", "of_before", "swapped"),
+        "bool": (),
+        "string": (),
+    },
+}
 """Kind of place, and of value, to what may happen to one field there."""
 
 
@@ -107,8 +172,9 @@ def of_field(kind: str, field: Field) -> Iterator[str]:
     """The operators for a field at a place of this kind."""
     for operator in FIELD[kind]["number" if field.is_number else field.kind]:
         fits_unsigned = operator not in ("negated", "absolute")
-        if field.kind == "float" or (operator != "nan" and
-                                     (field.kind != "unsigned" or fits_unsigned)):  # fmt: skip
+        if field.kind == "float" or (
+            operator != "nan" and (field.kind != "unsigned" or fits_unsigned)
+        ):
             yield operator
 
 
@@ -116,7 +182,10 @@ def of_flow(kind: str, fields: list[Field]) -> Iterator[str]:
     """The operators for whole messages at a place of this kind."""
     kinds = {field.kind for field in fields}
     for operator in FLOW[kind]:
-        needs = {"drop_nan": {"float"}, "drop_negatives": {"float", "int"},
-                 "drop_zeros": {"float", "int", "unsigned", "bool"}}  # fmt: skip
+        needs = {
+            "drop_nan": {"float"},
+            "drop_negatives": {"float", "int"},
+            "drop_zeros": {"float", "int", "unsigned", "bool"},
+        }
         if operator not in needs or needs[operator] & kinds:
             yield operator

@@ -32,56 +32,70 @@ def add_options(word: argparse.ArgumentParser) -> None:
         "--drills", metavar="DAY|NAME", nargs="*", help="drills, of a day or by name (default: all)"
     )
     word.add_argument(
-        "--packages", action="store_true",
+        "--packages",
+        action="store_true",
         help="only: solution, starter and mutants get the verdicts that they must get",
-    )  # fmt: skip
+    )
     word.add_argument(
-        "--contract", action="store_true",
+        "--contract",
+        action="store_true",
         help="only: each word of the card, and each sentence of the task, is judged",
-    )  # fmt: skip
+    )
     word.add_argument(
-        "--generated", action="store_true",
+        "--generated",
+        action="store_true",
         help="make 100 wrong packages of the solution; 95 of 100 must be caught",
-    )  # fmt: skip
+    )
     word.add_argument(
-        "--boundary", action="store_true",
+        "--boundary",
+        action="store_true",
         help="let 60 things go wrong between its nodes and ROS; 98 of 100 must be caught",
-    )  # fmt: skip
+    )
     word.add_argument(
-        "--keep", metavar="DIR", type=Path,
+        "--keep",
+        metavar="DIR",
+        type=Path,
         help="with --generated, --boundary: where results stay, so that an interrupted run goes on",
-    )  # fmt: skip
+    )
     word.add_argument(
-        "--so-far", action="store_true",
+        "--so-far",
+        action="store_true",
         help="with --generated, --boundary: grade nothing, and tell what is known",
-    )  # fmt: skip
+    )
     word.add_argument(
-        "--keep-kills", action="store_true",
+        "--keep-kills",
+        action="store_true",
         help="with --generated: name a few that were caught, for prove --record",
-    )  # fmt: skip
+    )
     word.add_argument(
-        "--rewritten", action="store_true",
+        "--rewritten",
+        action="store_true",
         help="write the solution in other ways; each must get 100",
-    )  # fmt: skip
+    )
     word.add_argument(
-        "--variants", action="store_true",
+        "--variants",
+        action="store_true",
         help="each value of variants.yaml: the solution in these words gets 100",
-    )  # fmt: skip
+    )
     word.add_argument(
-        "--kept", action="store_true",
+        "--kept",
+        action="store_true",
         help="judge all proofs that are kept, and say which are stale; runs no node",
-    )  # fmt: skip
+    )
     word.add_argument(
-        "--record", action="store_true",
+        "--record",
+        action="store_true",
         help="measure what is stale, and keep the proofs of it; with --due: all that is due",
-    )  # fmt: skip
+    )
     word.add_argument(
         "--due", action="store_true", help="measure what must be measured before a landing"
     )
     word.add_argument(
-        "--told", metavar="FILE", type=Path,
+        "--told",
+        metavar="FILE",
+        type=Path,
         help="with --due: what came of each package, a line of JSON each",
-    )  # fmt: skip
+    )
     word.add_argument(
         "--jobs", metavar="N", type=whole_number, help="how many at once (default: measured)"
     )
@@ -100,7 +114,7 @@ def _prove_labs(options: argparse.Namespace) -> int:
     if not options.labs:
         print("roslings: name a lab, or --drills. For example: topics", file=sys.stderr)
         return WRONG_USE
-    from roslings.report import Progress
+    from roslings.report.progress import Progress
     from roslings_class.command import Teller
     from roslings_prove.prove import Proof
     from roslings_prove.telling import told
@@ -178,7 +192,7 @@ def _prove_drills(options: argparse.Namespace) -> int:
 
 def _prove_kept(options: argparse.Namespace) -> int:
     """Judge kept proofs; measure what is stale or due."""
-    from roslings.report import Progress
+    from roslings.report.progress import Progress
     from roslings_class.command import Teller
     from roslings_prove.proofs.command import due, kept, labs_or_all, recorded
     from roslings_prove.prove import Proof

@@ -101,15 +101,38 @@ def _one_letter_more(text: str) -> str:
     return f"{text[:end]}x{text[end:]}"
 
 
+SIDES = tuple(
+    (side * (1 + beside), must_fail)
+    for side in (-1, 1)
+    for beside, must_fail in ((BESIDE, True), (-2 * BESIDE, False))
+)
+"""So many tolerances off, on both sides: just outside fails, just inside does not."""
+
+
 def _tolerance(word: Word) -> Iterator[Change]:
-    """The asked rate moves; the solution's own is then just outside, or just inside, of it."""
+    """What is asked for moves; what the solution does is then just outside, or just inside."""
+    return _of_a_rate(word) if "hz" in word.around else _of_numbers(word)
+
+
+def _of_a_rate(word: Word) -> Iterator[Change]:
     hz, within = word.around["hz"], word.value
     rate = (*word.path[:-1], "hz")
-    for side in (-within, within):
-        for beside, must_fail in ((1 + BESIDE, True), (1 - 2 * BESIDE, False)):
-            moved = round(hz / (1 + side * beside), 6)
-            about = f"hz: {moved} and within: {within}, with {hz} Hz measured"
-            yield Change(word, about, ((rate, moved),), must_fail)
+    for off, must_fail in SIDES:
+        moved = round(hz / (1 + off * within), 6)
+        about = f"hz: {moved} and within: {within}, with {hz} Hz measured"
+        yield Change(word, about, ((rate, moved),), must_fail)
+
+
+def _of_numbers(word: Word) -> Iterator[Change]:
+    """By a number that each message holds; none where the card names none."""
+    fields = word.around.get("fields", {})
+    numbers = [(name, value) for name, value in fields.items() if isinstance(value, float)]
+    for name, value in numbers[:1]:
+        place = (*word.path[:-1], "fields", name)
+        for off, must_fail in SIDES:
+            moved = round(value + off * word.value * max(1.0, abs(value)), 9)
+            about = f"{name}: {moved} and {word.key}: {word.value}, with {value} measured"
+            yield Change(word, about, ((place, moved),), must_fail)
 
 
 def _most(word: Word) -> Iterator[Change]:

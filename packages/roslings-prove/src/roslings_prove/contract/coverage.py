@@ -109,9 +109,11 @@ def prove_contract(
         seen = _evidence_of([Solution(lab) for lab in labs], scratch, watcher, jobs)
         unseen = [lab for lab in labs if lab.name not in seen]
         changed = [
-            each for lab in labs if lab.name in seen
+            each
+            for lab in labs
+            if lab.name in seen
             for each in _changed(lab, seen[lab.name], scratch / "courses" / lab.name)
-        ]  # fmt: skip
+        ]
         results = graded(changed, scratch, watcher, jobs, book="reworded", life=LIFE)
     for lab in unseen:
         problem = "it must get 100 of 100 before its card can be proven"
@@ -146,6 +148,8 @@ def _changed(lab: Lab, seen: Path, folder: Path) -> Iterator[Reworded]:
         (course / "graders").mkdir()
         grader = change.grader(lab.grader.read_text("utf-8"))
         (course / "graders" / lab.grader.name).write_text(grader, "utf-8")
+        if lab.beside.is_dir():
+            (course / "graders" / lab.beside.name).symlink_to(lab.beside)
         card = yaml.safe_dump(change.apply(tree), allow_unicode=True, sort_keys=False)
         (course / "labs" / lab.name / "card.yaml").write_text(card, "utf-8")
         wanted = Wanted(seen=seen, must_fail=change.must_fail)

@@ -53,6 +53,9 @@ def judged(order: Order, wanted: Wanted) -> Result:
     except GraderBroke as mistake:
         return broken(order, mistake.in_short, by_the_grader=True)
     return Result(
-        submission=order.submission, digest=order.digest, attempt=order.attempt, state="graded",
+        submission=order.submission,
+        digest=order.digest,
+        attempt=order.attempt,
+        state="graded",
         verdict=verdict,
-    )  # fmt: skip
+    )

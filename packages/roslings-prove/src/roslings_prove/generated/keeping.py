@@ -28,15 +28,23 @@ class AlreadyProving(BatchError):
 
 
 def graded_in(
-    packages: Collection[Wrong[W]], watcher: Watcher, jobs: int | None, kept: Path,
+    packages: Collection[Wrong[W]],
+    watcher: Watcher,
+    jobs: int | None,
+    kept: Path,
     life: str = LIFE,
-) -> Mapping[str, Result]:  # fmt: skip
+) -> Mapping[str, Result]:
     """Package's name to what came of it; results stay in a folder. Raises AlreadyProving."""
     with alone_in(kept, AlreadyProving), run_folder() as scratch:
         return graded(
-            mixed(packages), scratch, watcher, jobs, book=str(kept.absolute()),
-            keeps_evidence=True, life=life,
-        )  # fmt: skip
+            mixed(packages),
+            scratch,
+            watcher,
+            jobs,
+            book=str(kept.absolute()),
+            keeps_evidence=True,
+            life=life,
+        )
 
 
 def kept_in(folder: Path) -> Mapping[str, Result]:

@@ -85,9 +85,10 @@ def _kept_kills(
     with gradebook(kept, BOOK) as book:
         for lab in labs:
             killed = [
-                (each, result) for each, result in results.items()
+                (each, result)
+                for each, result in results.items()
                 if each.lab == lab and fate_of(result) is Fate.KILLED
-            ]  # fmt: skip
+            ]
             count = keep_kills(lab, killed, book, folder)
             yield Line(
                 f"{lab.name}: {count} kills are named. ./roslings prove --record {lab.name}"

@@ -45,9 +45,10 @@ class Outcome:
     def of(self, fate: Fate) -> list[Wrongness]:
         """The packages that nobody explains, and of which this came; by name."""
         found = [
-            each for each, came in self.fates.items()
+            each
+            for each, came in self.fates.items()
             if came is fate and (fate is Fate.KILLED or each.name not in self.explained)
-        ]  # fmt: skip
+        ]
         return sorted(found, key=attrgetter("name"))
 
     @property

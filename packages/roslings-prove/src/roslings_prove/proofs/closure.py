@@ -14,17 +14,21 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
+from roslings.lab_folders import GRADERS
 from roslings.workspace.normal import digest_of, normal
 
-TABLE = re.compile(r"roslings\.(capability|capabilities\.[a-z]+)")
+TABLE = re.compile(rf"roslings\.(capability|capabilities\.[a-z]+)|{GRADERS}\.\w+")
 """Modules whose texts name others that they do not need: a table of what may be there."""
+OF_A_LAB = re.compile(rf"({GRADERS}\.\w+(?:\.\w+)*)(:\w+)?")
+"""A text of this kind names a module of a lab's own folder, or something in it."""
 
 
 @dataclass(frozen=True)
 class Tree:
-    """Where modules lie: the folders above our packages."""
+    """Where modules lie: the folders above our packages, and the one with what labs bring."""
 
     sources: tuple[Path, ...]
+    graders: Path | None = None
 
     @cached_property
     def packages(self) -> dict[str, Path]:
@@ -35,9 +39,12 @@ class Tree:
     def file_of(self, module: str) -> Path | None:
         """Its file; None where it is none of ours."""
         first, *inner = module.split(".")
-        if not (above := self.packages.get(first)):
+        if first == GRADERS and self.graders:
+            place = self.graders.joinpath(*inner)
+        elif above := self.packages.get(first):
+            place = above.joinpath(first, *inner)
+        else:
             return None
-        place = above.joinpath(first, *inner)
         found = (place / "__init__.py", place.with_suffix(".py"))
         return next((file for file in found if file.is_file()), None)
 
@@ -46,8 +53,16 @@ class Tree:
         parts = self.parts_of(file.with_suffix(""))
         return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
 
+    def with_parents(self, module: str) -> Iterator[str]:
+        """A module and the packages around it: their `__init__` runs, too, where there is one."""
+        parts = module.split(".")
+        names = (".".join(parts[: length + 1]) for length in range(len(parts)))
+        return (name for name in names if self.file_of(name))
+
     def parts_of(self, place: Path) -> tuple[str, ...]:
         """Of a module or a folder: the words of its name, from its package on."""
+        if self.graders and place.is_relative_to(self.graders):
+            return (GRADERS, *place.relative_to(self.graders).parts)
         above = next(each for each in self.sources if place.is_relative_to(each))
         return place.relative_to(above).parts
 
@@ -102,7 +117,7 @@ class Code:
         """Those of ours that it imports or names, and the packages that they lie in."""
         taken = {each.module for each in self.imports if each.module}
         named = {name for text in self._texts for name in [self.module_named(text)] if name}
-        return frozenset(each for name in taken | named for each in with_parents(name))
+        return frozenset(each for name in taken | named for each in self.tree.with_parents(name))
 
     @cached_property
     def _definitions(self) -> dict[str, list[ast.stmt]]:
@@ -164,12 +179,6 @@ def _counts(file: Path) -> bool:
     return "__pycache__" not in file.parts
 
 
-def with_parents(module: str) -> Iterator[str]:
-    """A module and the packages around it: their `__init__` runs, too."""
-    parts = module.split(".")
-    yield from (".".join(parts[: length + 1]) for length in range(len(parts)))
-
-
 def walk_at_run_time(tree: ast.AST) -> Iterator[ast.AST]:
     """Every node but those that only a type checker reads."""
     todo = [tree]
@@ -227,7 +236,7 @@ class Modules:
     def reached(self, start: Iterable[str]) -> frozenset[str]:
         """These modules, and all that they lead to."""
         found: set[str] = set()
-        todo = [each for name in start for each in with_parents(name)]
+        todo = [each for name in start for each in self.tree.with_parents(name)]
         while todo:
             module = todo.pop()
             if module not in found:
@@ -241,7 +250,7 @@ class Modules:
         if not TABLE.fullmatch(module):
             return code.modules
         taken = {each.module for each in code.imports if each.module}
-        return {each for name in taken for each in with_parents(name)}
+        return {each for name in taken for each in self.tree.with_parents(name)}
 
     def meaning(self, module: str, name: str) -> str:
         """What a name of a module is: the statements that define it; without a name, all of them.
@@ -284,10 +293,18 @@ class Modules:
             if isinstance(node, ast.Import | ast.ImportFrom) or is_for_types(node):
                 return ""
             if isinstance(node, ast.Constant) and isinstance(node.value, str):
-                return "(module)" if self.tree.file_of(node.value) else None
+                return self._place_in(node.value)
             return None
 
         return normal(ast.Module([statement], []), special)
+
+    def _place_in(self, text: str) -> str | None:
+        """What counts of a text that names a module: where that lies does not."""
+        if self.tree.file_of(text):
+            return "(module)"
+        found = OF_A_LAB.fullmatch(text)
+        named = found and self.tree.file_of(found[1])
+        return f"(module){found[2]}" if found and named else None
 
 
 def _is_import(statement: ast.stmt) -> bool:

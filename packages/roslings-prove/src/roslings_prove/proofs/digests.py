@@ -14,11 +14,14 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 from roslings.course import Lab, all_labs
 from roslings.course.files import read_tree
 from roslings.course.labs import engine_root
+from roslings.lab_folders import GRADERS
 from roslings.workspace.normal import digest_of, digest_of_all, digest_of_file
+from roslings_launcher import built_interfaces
 from roslings_launcher.sources import source_folders
 from roslings_prove.proofs.closure import (
     Code,
@@ -33,21 +36,25 @@ from roslings_prove.proofs.closure import (
 
 START = ("roslings.experiment.measuring", "roslings.experiment.start", "roslings.workspace.inspect")
 """Where measuring begins; a lab's grader leads on from its experiments."""
-MEASURING_GROUPS = frozenset({"ros", "colcon", "check", "ros2", "interfaces", "vision"})
+MEASURING_GROUPS = frozenset({"ros", "colcon", "check", "ros2", "vision"})
 """Groups of packages that take part when a package is built, run and watched."""
+BUILT_TYPES = f"{built_interfaces.FOLDER}/*"
+"""The course's message types as they are loaded."""
 BROUGHT = ("interfaces", "firmware")
 """Folders of a lab that its nodes are built with or talk to."""
-JUDGED_ONLY = ("points",)
+JUDGED_ONLY = ("points", "numbers_within")
 """Words of a card that no experiment looks at."""
-CAPABILITY = re.compile(r"(roslings\.capabilities\.[a-z]+)\..+")
+CAPABILITY = re.compile(rf"(roslings\.capabilities\.[a-z]+|{GRADERS}\.\w+)\..+")
 READ_WITH = ("contract", "record")
 """Modules by which a card and evidence of a capability are read."""
 STARTED = {
     "roslings.capabilities.launch.act": (
-        "ros2_on_pip.start", "ros2_on_pip.cli", "ros2_on_pip.commands.launch",
+        "ros2_on_pip.start",
+        "ros2_on_pip.cli",
+        "ros2_on_pip.commands.launch",
     ),
-    "roslings.capabilities.bags.act": ("ros2_on_pip.stand_ins.rosbag2_py",),
-}  # fmt: skip
+    "graders.black_box.act": ("ros2_on_pip.stand_ins.rosbag2_py",),
+}
 """Module that starts a program to what the program is; no import leads there. A test holds this
 against the files that a grading opens."""
 
@@ -64,8 +71,9 @@ class Measuring:
 
     @cached_property
     def core(self) -> str:
-        """What all labs share: modules, files beside them, pinned packages."""
-        return digest_of_all(self._of_modules(self.shared) | {"pins": self._pins()})
+        """What all labs share: modules, files beside them, pinned packages, message types."""
+        brought = {"pins": self._pins(), "message types": self._types()}
+        return digest_of_all(self._of_modules(self.shared) | brought)
 
     def experiments(self, lab: Lab) -> str:
         """What a lab has besides: its experiments, and what only some labs are measured with."""
@@ -86,7 +94,7 @@ class Measuring:
         return self._closures[lab]
 
     def _closure(self, lab: Lab) -> frozenset[str]:
-        own = {name for code in self._graders(lab) for name in code.modules}
+        own = self._grader(lab).modules
         found = self.modules.reached({*START, *own})
         return self.modules.reached({*found, *self._led_to(found)})
 
@@ -98,19 +106,12 @@ class Measuring:
                 names = (f"{inside[1]}.{part}" for part in READ_WITH)
                 yield from (name for name in names if self.modules.tree.file_of(name))
 
-    def _graders(self, lab: Lab) -> list[Code]:
-        """The experiments of the grader, and of what lies in its folder beside it."""
-        beside = lab.grader.parent / lab.name.replace("-", "_")
-        return [experiments_in(lab.grader, self.modules.tree)] + [
-            Code(file, ast.parse(file.read_bytes()), self.modules.tree)
-            for file in sorted(beside.rglob("*.py"))
-        ]
+    def _grader(self, lab: Lab) -> Code:
+        """The experiments; what they need of the folder beside the grader is reached from them."""
+        return experiments_in(lab.grader, self.modules.tree)
 
     def _experiments(self, lab: Lab) -> dict[str, str]:
-        codes = enumerate(self._graders(lab))
-        return {
-            f"grader {n}": self.modules.digest_of_code(code, self._is_told) for n, code in codes
-        }
+        return {"grader 0": self.modules.digest_of_code(self._grader(lab), self._is_told)}
 
     def _is_told(self, taken: Import) -> bool:
         """What all labs share is counted by the core; a name of it is enough where it has one."""
@@ -122,10 +123,12 @@ class Measuring:
         """How many of the shared modules are called so, or define such a name."""
         codes = map(self.modules.code, self.shared)
         defined = (names_of(each) for code in codes for each in code.defining(""))
-        return Counter([
-            *(name for names in defined for name in names),
-            *(module.rpartition(".")[2] for module in self.shared),
-        ])  # fmt: skip
+        return Counter(
+            [
+                *(name for names in defined for name in names),
+                *(module.rpartition(".")[2] for module in self.shared),
+            ]
+        )
 
     def _of_modules(self, names: Iterable[str], told: Told = not_told) -> dict[str, str]:
         """What the modules do, all together, and the files beside them."""
@@ -146,6 +149,12 @@ class Measuring:
         lines = (self.course / "constraints.txt").read_text("utf-8").splitlines()
         return digest_of("\n".join(_measuring_pins(lines)).encode())
 
+    def _types(self) -> str:
+        """The message types that come built with the course."""
+        return digest_of_all(
+            {file.name: digest_of_file(file) for file in self.course.glob(BUILT_TYPES)}
+        )
+
 
 def _measuring_pins(lines: Iterable[str]) -> Iterator[str]:
     for line in lines:
@@ -157,15 +166,21 @@ def _measuring_pins(lines: Iterable[str]) -> Iterator[str]:
 def measuring() -> Measuring:
     """Of this course, as its files are now."""
     root = engine_root()
-    return Measuring(Modules(Tree(tuple(source_folders(root)))), tuple(all_labs()), root)
+    tree = Tree(tuple(source_folders(root)), root / GRADERS)
+    return Measuring(Modules(tree), tuple(all_labs()), root)
 
 
 def card_digest(lab: Lab) -> str:
-    """Of what the card says, comments and points aside."""
+    """Of what the card says, comments and what only judges aside."""
     said = read_tree(lab.folder / "card.yaml")
-    assert isinstance(said, dict)
-    kept = {name: value for name, value in said.items() if name not in JUDGED_ONLY}
-    return digest_of(json.dumps(kept, sort_keys=True, default=str).encode())
+    return digest_of(json.dumps(_measured_by(said), sort_keys=True, default=str).encode())
+
+
+def _measured_by(said: Any) -> Any:
+    """Without the words that no experiment looks at, wherever they stand."""
+    if isinstance(said, dict):
+        return {n: _measured_by(part) for n, part in said.items() if n not in JUDGED_ONLY}
+    return [_measured_by(part) for part in said] if isinstance(said, list) else said
 
 
 # --- the experiments of a grader ---------------------------------------------------------------

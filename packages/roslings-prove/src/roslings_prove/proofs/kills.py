@@ -63,9 +63,11 @@ class KnownKill:
     def make(self, folder: Path) -> Path:
         """The solution, injured."""
         wrong = Mutant(
-            name=self.kill.name, what=self.kill.name, fails=(self.kill.check,),
+            name=self.kill.name,
+            what=self.kill.name,
+            fails=(self.kill.check,),
             edits=(self.kill.edit,),
-        )  # fmt: skip
+        )
         return injured(self.lab, wrong, folder / self.name.replace("/", "-"))
 
     def problem(self, result: Result) -> str:

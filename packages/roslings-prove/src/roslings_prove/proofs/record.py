@@ -126,10 +126,14 @@ class Recorder:
         file.write_bytes(content)
         self.folder.note_state(self.measuring.core)
         line = KeptProof(
-            package=name, content=kept.package.content, card=card_digest(lab),
-            experiments=self.measuring.experiments(lab), core=self.measuring.core,
-            evidence=digest_of_evidence(file), checks=words_of(judge(lab, kept)),
-        )  # fmt: skip
+            package=name,
+            content=kept.package.content,
+            card=card_digest(lab),
+            experiments=self.measuring.experiments(lab),
+            core=self.measuring.core,
+            evidence=digest_of_evidence(file),
+            checks=words_of(judge(lab, kept)),
+        )
         self.write(lab, {**self.folder.lines(lab), name: line})
 
     def write(self, lab: Lab, lines: Mapping[str, KeptProof]) -> None:

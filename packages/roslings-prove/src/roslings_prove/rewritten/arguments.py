@@ -83,5 +83,5 @@ def _named(call: cst.Call, names: Sequence[str]) -> cst.Call:
     args = [
         arg if arg.keyword else argument(arg.value, name).with_changes(comma=arg.comma)
         for arg, name in zip(call.args, (*names, *(" ",) * len(call.args)), strict=False)
-    ]  # fmt: skip
+    ]
     return call.with_changes(args=args)

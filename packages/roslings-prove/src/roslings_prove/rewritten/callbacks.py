@@ -67,9 +67,10 @@ def _grouped(one: cst.ClassDef) -> cst.ClassDef:
     if begin is None:
         return one
     plain = [
-        call for call in all_of(begin, cst.Call)
+        call
+        for call in all_of(begin, cst.Call)
         if called(call) in TAKES_CALLBACKS and not keyword_of(call, "callback_group")
-    ]  # fmt: skip
+    ]
     if not plain:
         return one
     group = argument(cst.Name("group"), "callback_group")
@@ -89,9 +90,11 @@ def async_callbacks(sources: Sources) -> Sources:
 
     def change(tree: cst.Module) -> cst.Module:
         plain = [
-            each for one in classes(tree) for each in functions(one)
+            each
+            for one in classes(tree)
+            for each in functions(one)
             if each.name.value in callbacks(one) - called_here(one)
-        ]  # fmt: skip
+        ]
         later = cst.Asynchronous()
         return swapped(tree, {each: each.with_changes(asynchronous=later) for each in plain})
 
@@ -129,8 +132,12 @@ def _has_one_timer(one: cst.ClassDef) -> bool:
 
 def _uses_timer(one: cst.ClassDef, begin: cst.FunctionDef) -> bool:
     """It does something with the timer that a rate cannot do."""
-    kept = {own_attribute(x.target) for line in body_of(begin) if _timers(line)
-            for x in all_of(line, cst.AssignTarget)}  # fmt: skip
+    kept = {
+        own_attribute(x.target)
+        for line in body_of(begin)
+        if _timers(line)
+        for x in all_of(line, cst.AssignTarget)
+    }
     said = [own_attribute(each) for each in all_of(one, cst.Attribute)]
     return any(said.count(name) > 1 for name in kept if name)
 

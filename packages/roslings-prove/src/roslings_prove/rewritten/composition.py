@@ -33,8 +33,10 @@ def composition_for_inheritance(sources: Sources) -> Sources:
     """`class Talker(Node)` is `class Talker`, whose `self.node` is the node."""
     holders = {
         one.name.value: one
-        for tree in sources.modules.values() for one in classes(tree) if _can_hold(one)
-    }  # fmt: skip
+        for tree in sources.modules.values()
+        for one in classes(tree)
+        if _can_hold(one)
+    }
     return sources.mapped(lambda tree: _with_holders(tree, holders))
 
 
@@ -44,8 +46,9 @@ def _can_hold(one: cst.ClassDef) -> bool:
 
 
 def _init(one: cst.ClassDef) -> list[cst.CSTNode]:
-    return [line for each in functions(one) if each.name.value == "__init__"
-            for line in body_of(each)]  # fmt: skip
+    return [
+        line for each in functions(one) if each.name.value == "__init__" for line in body_of(each)
+    ]
 
 
 def _with_holders(tree: cst.Module, holders: Mapping[str, cst.ClassDef]) -> cst.Module:
@@ -140,8 +143,9 @@ def _variables(block: cst.CSTNode, holders: Mapping[str, cst.ClassDef]) -> dict[
         target.target.value: called(line.value)
         for line in all_of(block, cst.Assign)
         if isinstance(line.value, cst.Call) and called(line.value) in holders
-        for target in line.targets if isinstance(target.target, cst.Name)
-    }  # fmt: skip
+        for target in line.targets
+        if isinstance(target.target, cst.Name)
+    }
 
 
 def _holder_of(

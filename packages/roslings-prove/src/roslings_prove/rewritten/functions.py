@@ -223,13 +223,15 @@ def _with_lambdas(tree: cst.Module) -> cst.Module:
 def _without_short_callbacks(one: cst.ClassDef) -> cst.CSTNode:
     """A callback of one expression stands as a lambda where it was given away."""
     short = {
-        each.name.value: each for each in functions(one)
+        each.name.value: each
+        for each in functions(one)
         if each.name.value in callbacks(one) and _only(each) and _said_once(one, each)
-    }  # fmt: skip
+    }
     given: dict[cst.CSTNode, cst.CSTNode] = {
         node: _as_lambda(short[own_attribute(node)])
-        for node in all_of(one, cst.Attribute) if own_attribute(node) in short
-    }  # fmt: skip
+        for node in all_of(one, cst.Attribute)
+        if own_attribute(node) in short
+    }
     changed = swapped(one, given)
     kept = [line for line in body_of(changed) if _name(line) not in short]
     return with_body(changed, kept)

@@ -62,9 +62,11 @@ class _Strip(cst.CSTTransformer):
     def leave_IndentedBlock(  # noqa: N802
         self, original_node: cst.IndentedBlock, updated_node: cst.IndentedBlock
     ) -> cst.IndentedBlock:
-        return updated_node if updated_node.body else updated_node.with_changes(
-            body=statements("pass")
-        )  # fmt: skip
+        return (
+            updated_node
+            if updated_node.body
+            else updated_node.with_changes(body=statements("pass"))
+        )
 
     def leave_TrailingWhitespace(  # noqa: N802
         self, original_node: cst.TrailingWhitespace, updated_node: cst.TrailingWhitespace
@@ -128,8 +130,9 @@ def _used(imports: Sequence[Statement], body: Sequence[Statement]) -> list[State
 def _needed(line: Statement, names: set[str]) -> list[Statement]:
     """An import without what nobody uses."""
     found: list[cst.Import | cst.ImportFrom] = [
-        *all_of(line, cst.Import), *all_of(line, cst.ImportFrom),
-    ]  # fmt: skip
+        *all_of(line, cst.Import),
+        *all_of(line, cst.ImportFrom),
+    ]
     imported = found[0]
     if isinstance(imported.names, cst.ImportStar):
         return [line]
@@ -192,10 +195,11 @@ def _by_need(sources: Sources, trees: Mapping[str, cst.Module]) -> list[str]:
     needs = {
         name: {
             dotted(each.module).removeprefix(f"{sources.card.package}.")
-            for each in all_of(tree, cst.ImportFrom) if sources.is_own(each)
+            for each in all_of(tree, cst.ImportFrom)
+            if sources.is_own(each)
         }
         for name, tree in trees.items()
-    }  # fmt: skip
+    }
     return list(TopologicalSorter(needs).static_order())
 
 
@@ -204,9 +208,10 @@ def _without_frame(sources: Sources, name: str, tree: cst.Module) -> list[Statem
     _, rest = parted(tree.body)
     own = [each for each in all_of(tree, cst.ImportFrom) if sources.is_own(each)]
     kept = [
-        line for line in rest
+        line
+        for line in rest
         if not m.matches(line, GUARD) and not any(x in own for x in all_of(line, cst.ImportFrom))
-    ]  # fmt: skip
+    ]
     mains: dict[cst.CSTNode, cst.CSTNode] = {
         each.name: cst.Name(f"{name}_main") for each in functions(tree) if each.name.value == "main"
     }

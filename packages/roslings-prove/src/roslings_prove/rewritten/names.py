@@ -61,9 +61,11 @@ def renamed_functions(sources: Sources) -> Sources:
 def renamed_attributes(sources: Sources) -> Sources:
     """`self.count` is `self.my_count`."""
     names = {
-        name for tree in sources.modules.values() for one in _free_classes(tree)
+        name
+        for tree in sources.modules.values()
+        for one in _free_classes(tree)
         for name in attributes(one)
-    }  # fmt: skip
+    }
     return _with_attributes(sources, {name: f"my_{name}" for name in names})
 
 
@@ -71,10 +73,12 @@ def renamed_variables(sources: Sources) -> Sources:
     """`message` is `the_message`, and `NEAR` is `THE_NEAR`."""
     constants = {
         target.value
-        for tree in sources.modules.values() for line in tree.body
+        for tree in sources.modules.values()
+        for line in tree.body
         if isinstance(line, cst.SimpleStatementLine)
-        for target in assigned(line) if isinstance(target, cst.Name)
-    }  # fmt: skip
+        for target in assigned(line)
+        if isinstance(target, cst.Name)
+    }
     names = {name: f"THE_{name}" for name in constants if not is_dunder(name)}
     said = _keywords(sources)
     return _with_globals(sources, names).mapped(lambda tree: _with_locals(tree, said))
@@ -89,8 +93,10 @@ def _keywords(sources: Sources) -> set[str]:
     """Names by which arguments are given somewhere: a parameter keeps such a name."""
     return {
         arg.keyword.value
-        for tree in sources.modules.values() for arg in all_of(tree, cst.Arg) if arg.keyword
-    }  # fmt: skip
+        for tree in sources.modules.values()
+        for arg in all_of(tree, cst.Arg)
+        if arg.keyword
+    }
 
 
 # --- names of modules and functions ------------------------------------------------------------
@@ -99,8 +105,9 @@ def _keywords(sources: Sources) -> set[str]:
 def _renamed(tree: cst.Module, names: Mapping[cst.CSTNode, str]) -> cst.Module:
     others: dict[cst.CSTNode, cst.CSTNode] = {
         node: node.with_changes(value=name)
-        for node, name in names.items() if isinstance(node, cst.Name)
-    }  # fmt: skip
+        for node, name in names.items()
+        if isinstance(node, cst.Name)
+    }
     return swapped(tree, others)
 
 
@@ -217,8 +224,11 @@ def _with_attributes(sources: Sources, names: NewNames) -> Sources:
     free = {name: new for name, new in names.items() if name not in unsure and _is_free(name)}
     changed = {}
     for module, tree in sources.modules.items():
-        named = {node.attr: free[node.attr.value] for node, _ in _places(tree, owners)
-                 if node.attr.value in free}  # fmt: skip
+        named = {
+            node.attr: free[node.attr.value]
+            for node, _ in _places(tree, owners)
+            if node.attr.value in free
+        }
         changed[module] = tree
         changed[module] = _renamed(tree, named | _definitions(tree, free))
     return sources.with_modules(changed)
@@ -227,8 +237,10 @@ def _with_attributes(sources: Sources, names: NewNames) -> Sources:
 def _definitions(tree: cst.Module, names: NewNames) -> dict[cst.CSTNode, str]:
     return {
         each.name: names[each.name.value]
-        for one in classes(tree) for each in functions(one) if each.name.value in names
-    }  # fmt: skip
+        for one in classes(tree)
+        for each in functions(one)
+        if each.name.value in names
+    }
 
 
 def _is_free(name: str) -> bool:

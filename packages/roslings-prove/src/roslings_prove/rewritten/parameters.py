@@ -29,8 +29,10 @@ from roslings_prove.rewritten.trees import (
 )
 
 VALUES = {
-    cst.Float: "double_value", cst.Integer: "integer_value", cst.SimpleString: "string_value",
-}  # fmt: skip
+    cst.Float: "double_value",
+    cst.Integer: "integer_value",
+    cst.SimpleString: "string_value",
+}
 CALL = m.Call(func=m.Attribute(attr=m.Name("declare_parameter") | m.Name("get_parameter")))
 READ = m.Attribute(value=CALL, attr=m.Name("value"))
 CALLBACK = '''def take_parameters(self, parameters):
@@ -70,14 +72,19 @@ def _by_type(tree: cst.Module) -> cst.Module:
     kinds = {
         _name(call): VALUES[kind]
         for call in all_of(tree, cst.Call)
-        if called(call) == "declare_parameter" and len(call.args) > 1
+        if called(call) == "declare_parameter"
+        and len(call.args) > 1
         and (kind := type(_constant(tree, call.args[1].value))) in VALUES
-    }  # fmt: skip
+    }
     reads = [*_reads(tree, "get_parameter"), *_reads(tree, "declare_parameter")]
-    return swapped(tree, {
-        each: cst.Attribute(_long(_call(each)), cst.Name(kinds[_name(_call(each))]))
-        for each in reads if _name(_call(each)) in kinds
-    })  # fmt: skip
+    return swapped(
+        tree,
+        {
+            each: cst.Attribute(_long(_call(each)), cst.Name(kinds[_name(_call(each))]))
+            for each in reads
+            if _name(_call(each)) in kinds
+        },
+    )
 
 
 def _long(call: cst.Call) -> cst.Call:
@@ -131,10 +138,12 @@ def _kept(one: cst.ClassDef) -> dict[str, str]:
     given = [own_attribute(target) for target in assigned(one)]
     return {
         name: _name(_call(read))
-        for each in all_of(one, cst.Assign) for read in _reads(each, "declare_parameter")
-        if each.value is read and (name := own_attribute(each.targets[0].target))
+        for each in all_of(one, cst.Assign)
+        for read in _reads(each, "declare_parameter")
+        if each.value is read
+        and (name := own_attribute(each.targets[0].target))
         and given.count(name) == 1
-    }  # fmt: skip
+    }
 
 
 # --- through a callback ------------------------------------------------------------------------
@@ -158,12 +167,17 @@ def _with_callbacks(tree: cst.Module) -> cst.Module:
 def _read_later(one: cst.ClassDef) -> dict[str, str]:
     """Parameters that other methods than `__init__` read, to the attribute for their value."""
     begin = method(one, "__init__")
-    declared = {_name(call) for call in all_of(begin, cst.Call)
-                if called(call) == "declare_parameter"} if begin else set()  # fmt: skip
+    declared = (
+        {_name(call) for call in all_of(begin, cst.Call) if called(call) == "declare_parameter"}
+        if begin
+        else set()
+    )
     named = [
-        _name(_call(read)) for each in functions(one) if each is not begin
+        _name(_call(read))
+        for each in functions(one)
+        if each is not begin
         for read in _reads(each, "get_parameter")
-    ]  # fmt: skip
+    ]
     plain = {name: f"{name[1:-1]}_now" for name in named if name in declared and name[0] in "'\""}
     return {} if own_names(one) & {*plain.values(), "take_parameters"} else plain
 
@@ -173,9 +187,11 @@ def _noting(one: cst.ClassDef) -> cst.ClassDef:
     assert begin is not None
     others: dict[cst.CSTNode, cst.CSTNode] = {
         read: cst.Attribute(cst.Name("self"), cst.Name(kept[_name(_call(read))]))
-        for each in functions(one) if each is not begin
-        for read in _reads(each, "get_parameter") if _name(_call(read)) in kept
-    }  # fmt: skip
+        for each in functions(one)
+        if each is not begin
+        for read in _reads(each, "get_parameter")
+        if _name(_call(read)) in kept
+    }
     new = swapped(
         one, others | {begin: _with_first_values(begin, kept, POST_SET if _judges(one) else ON_SET)}
     )

@@ -59,10 +59,16 @@ def _profile(depth: cst.Integer, words: tuple[str, ...]) -> cst.BaseExpression:
 
 def _words(call: cst.Call, sources: Sources) -> tuple[str, ...] | None:
     """What else may be said of a topic; None where the card leaves nothing free."""
-    topics = {_as_said(each.topic): each for node in sources.card.nodes
-              for each in (*node.publishes, *node.subscribes)}  # fmt: skip
-    said = [topics[x.evaluated_value] for x in all_of(call, cst.SimpleString)
-            if x.evaluated_value in topics]  # fmt: skip
+    topics = {
+        _as_said(each.topic): each
+        for node in sources.card.nodes
+        for each in (*node.publishes, *node.subscribes)
+    }
+    said = [
+        topics[x.evaluated_value]
+        for x in all_of(call, cst.SimpleString)
+        if x.evaluated_value in topics
+    ]
     if called(call) == "create_publisher":
         return OFFERS if said and all(_is_free(each) for each in said) else None
     return ASKS if said and all(_is_free(each) for each in said) else None

@@ -80,9 +80,10 @@ class Sources:
     def with_modules(self, modules: Mapping[str, cst.Module]) -> Sources:
         """The same package with these modules in place of its own."""
         kept = {
-            file: text for file, text in self.texts.items()
+            file: text
+            for file, text in self.texts.items()
             if self._module(file).split(".")[-1] in ("", *EMPTY)
-        }  # fmt: skip
+        }
         changed = {self._file(name): tree.code for name, tree in modules.items()}
         return replace(self, texts={**kept, **changed})
 
@@ -130,13 +131,16 @@ class Sources:
         """What `other` changed, as `diff -u` shows it."""
         names = sorted({*self.texts, *other.texts})
         return "".join(
-            line for name in names
+            line
+            for name in names
             for line in difflib.unified_diff(
                 self.texts.get(name, "").splitlines(keepends=True),
                 other.texts.get(name, "").splitlines(keepends=True),
-                f"solution/{name}", f"rewritten/{name}", n=2,
+                f"solution/{name}",
+                f"rewritten/{name}",
+                n=2,
             )
-        )  # fmt: skip
+        )
 
 
 @lru_cache(maxsize=256)

@@ -20,8 +20,13 @@ BLANK = (cst.BaseParenthesizableWhitespace, cst.TrailingWhitespace, cst.EmptyLin
 """Nodes that no rewrite looks for."""
 
 ASSIGN = (
-    cst.AssignTarget, cst.AnnAssign, cst.AugAssign, cst.For, cst.CompFor, cst.NamedExpr,
-)  # fmt: skip
+    cst.AssignTarget,
+    cst.AnnAssign,
+    cst.AugAssign,
+    cst.For,
+    cst.CompFor,
+    cst.NamedExpr,
+)
 
 TAKES_CALLBACKS = ("create_timer", "create_subscription", "create_service", "ActionServer")
 """What keeps a function and has it called by the executor."""
@@ -165,9 +170,11 @@ def callbacks(one: cst.ClassDef, takers: Collection[str] = TAKES_CALLBACKS) -> s
     """Its methods that are given away to be called by others."""
     return {
         name
-        for call in all_of(one, cst.Call) if called(call) in takers
-        for arg in call.args if (name := own_attribute(arg.value))
-    }  # fmt: skip
+        for call in all_of(one, cst.Call)
+        if called(call) in takers
+        for arg in call.args
+        if (name := own_attribute(arg.value))
+    }
 
 
 def called_here(one: cst.ClassDef) -> set[str]:
@@ -254,9 +261,10 @@ def parted(body: Sequence[Statement]) -> tuple[list[Statement], list[Statement]]
 def argument(value: cst.BaseExpression, keyword: str) -> cst.Arg:
     """`keyword=value`, as it stands in a call."""
     return cst.Arg(
-        value, keyword=cst.Name(keyword),
+        value,
+        keyword=cst.Name(keyword),
         equal=cst.AssignEqual(cst.SimpleWhitespace(""), cst.SimpleWhitespace("")),
-    )  # fmt: skip
+    )
 
 
 def with_arguments(call: cst.Call, args: Iterable[cst.Arg]) -> cst.Call:

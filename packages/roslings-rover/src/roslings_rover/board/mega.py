@@ -49,9 +49,12 @@ class Mega:
         """How things stand."""
         wheels = self.rover.wheels
         return Truth(
-            self._now_us / US_PER_S, *self._pwm, wheels.left_rad_s, wheels.right_rad_s,
+            self._now_us / US_PER_S,
+            *self._pwm,
+            wheels.left_rad_s,
+            wheels.right_rad_s,
             self.rover.pose,
-        )  # fmt: skip
+        )
 
     @property
     def counts(self) -> Counts:

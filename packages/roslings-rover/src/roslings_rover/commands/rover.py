@@ -13,27 +13,36 @@ from ros2_on_pip.typed_paths import shown
 def add_options(word: argparse.ArgumentParser) -> None:
     """What it takes."""
     word.add_argument(
-        "--view", choices=("auto", "window", "terminal", "lines"), default="auto",
+        "--view",
+        choices=("auto", "window", "terminal", "lines"),
+        default="auto",
         help="where the map is shown (default: a window where there is a screen)",
-    )  # fmt: skip
+    )
     word.add_argument(
         "--keys", action="store_true", help="drive it by the keys of this terminal: i, j, k, l"
     )
     word.add_argument(
-        "--listen", action="store_true",
+        "--listen",
+        action="store_true",
         help="show the sentences that your nodes say, and keep the limit of /motor_state; it"
         " is one more subscription on each of these topics",
-    )  # fmt: skip
+    )
+    word.add_argument("--tf", action="store_true", help="publish /tf too")
     word.add_argument(
-        "--tf", action="store_true", help="publish /tf too; its type is compiled once, by g++"
+        "--room",
+        metavar="SEED",
+        type=_seed,
+        help="drive in a room that you have not seen: each whole number is another one; bumps are"
+        " counted",
     )
     word.add_argument("--save", metavar="FILE.png", type=Path, help="save the map at the end")
     word.add_argument("--seed", metavar="N", type=int, default=0, help="for the sensors' noise")
     word.add_argument(
-        "--sick", action="store_true",
+        "--sick",
+        action="store_true",
         help="run nothing, and write the bag of a sick rover: with five faults that follow from"
         " --name",
-    )  # fmt: skip
+    )
     word.add_argument("--name", metavar="NAME", help="of --sick: the name that you hand in under")
     word.add_argument(
         "--to", metavar="FOLDER", type=Path, help="of --sick: a new folder (default: ~/sick_rover)"
@@ -54,10 +63,25 @@ def run(options: argparse.Namespace) -> int:
     domain_id()
     check_middleware()
     run_rover(
-        options.view, options.save, options.seed, options.keys,
-        listens=options.listen, tf=options.tf,
-    )  # fmt: skip
+        options.view,
+        options.save,
+        options.seed,
+        options.keys,
+        listens=options.listen,
+        tf=options.tf,
+        room=options.room,
+    )
     return OK
+
+
+def _seed(typed: str) -> int:
+    """The seed of a room, as argparse reads it."""
+    from roslings_rover.models.rooms import NoSeed, seed_of
+
+    try:
+        return seed_of(typed)
+    except NoSeed as error:
+        raise argparse.ArgumentTypeError(str(error)) from error
 
 
 def _sick_rover(name: str | None, folder: Path | None) -> int:

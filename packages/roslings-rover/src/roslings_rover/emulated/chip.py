@@ -47,8 +47,10 @@ class EmulatedMega:
         figures = (body.fastest_wheel_rad_s, body.motor_lag_s, TICKS_PER_TURN)
         self._process = subprocess.Popen(
             [str(self._built.runner), str(self._built.sketch), *map(str, figures)],
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
-        )  # fmt: skip
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+        )
         return self
 
     def __exit__(

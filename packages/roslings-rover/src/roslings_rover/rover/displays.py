@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from typing import Any, Literal, Protocol, TextIO
 
 from roslings_rover.errors import DeviceTrouble
+from roslings_rover.models.rooms import moving_in
 from roslings_rover.models.world import colour_of
 from roslings_rover.rover.driven import DrivenRover
 from roslings_rover.rover.text_map import ASCII, FLOOR, UNICODE, Cell, cells
@@ -36,6 +37,7 @@ STYLES = {
     "wall": "bright_black",
     "path": "cyan",
     "rover": "bold yellow",
+    "moving": "bold red",
     "believed": "bright_black",
     "said": "bold magenta",
 }
@@ -129,8 +131,9 @@ class Window:
         (self._path,) = self._axes.plot([], [], color="#1f77b4")
         self._parts: list[Any] = []
         self._shown: object = None
-        print(f"The map is in its own window. {_how_to_drive(node)}\nCtrl-C here ends it.",
-              flush=True)  # fmt: skip
+        print(
+            f"The map is in its own window. {_how_to_drive(node)}\nCtrl-C here ends it.", flush=True
+        )
 
     def __enter__(self) -> Window:
         self._plt.show(block=False)
@@ -146,20 +149,22 @@ class Window:
 
     def show(self, node: DrivenRover) -> None:
         """Move the rover and its path; a picture that would be the same is not drawn again."""
-        now = (node.rover.pose, news(node), position(node), heard(node))
+        moving = moving_in(node.rover.world)
+        now = (node.rover.pose, news(node), position(node), heard(node), moving)
         if now != self._shown:
             self._shown = now
             self._draw(node)
         self._figure.canvas.flush_events()
 
     def _draw(self, node: DrivenRover) -> None:
-        from roslings_rover.rover.picture import draw_rover
+        from roslings_rover.rover.picture import draw_moving, draw_rover
 
         for part in self._parts:
             part.remove()
         path = [*node.rover.path, node.rover.pose]
         self._path.set_data([p.x_m for p in path], [p.y_m for p in path])
-        self._parts = [*draw_rover(node.rover, self._axes), self._words(node)]
+        moving = draw_moving(node.rover.world, self._axes)
+        self._parts = [*moving, *draw_rover(node.rover, self._axes), self._words(node)]
         title = "\n".join(filter(None, news(node))) or position(node)
         self._axes.set_title(title, fontsize=10)
         self._figure.canvas.draw_idle()
@@ -167,9 +172,13 @@ class Window:
     def _words(self, node: DrivenRover) -> Any:
         """What it hears, over the rover."""
         return self._axes.annotate(
-            heard(node), (node.rover.pose.x_m, node.rover.pose.y_m), xytext=(0, 18),
-            textcoords="offset points", ha="center", parse_math=False,
-        )  # fmt: skip
+            heard(node),
+            (node.rover.pose.x_m, node.rover.pose.y_m),
+            xytext=(0, 18),
+            textcoords="offset points",
+            ha="center",
+            parse_math=False,
+        )
 
     def _title(self, text: str) -> None:
         if self._figure.canvas.manager is not None:
@@ -254,8 +263,9 @@ def _filled(words: list[str], lines: int) -> list[str]:
 
 def _append_row(text: Any, row: list[Cell]) -> None:
     for cell in row:
-        text.append(cell.letter, style=colour_of(cell.hue) if cell.hue is not None else
-                    STYLES[cell.kind])  # fmt: skip
+        text.append(
+            cell.letter, style=colour_of(cell.hue) if cell.hue is not None else STYLES[cell.kind]
+        )
 
 
 class Lines:
@@ -266,7 +276,10 @@ class Lines:
 
     def __init__(self, node: DrivenRover, out: TextIO) -> None:
         self._out, self._last = out, list[str]()
-        self._say("The rover is ready. It hears /cmd_vel and says " + ", ".join(said(node)) + ".")
+        if node.about_place:
+            self._say(node.about_place)
+        topics = ", ".join([*said(node), *node.says_besides])
+        self._say(f"The rover is ready. It hears /cmd_vel and says {topics}.")
         if node.listens:
             self._say("It also hears sentences (std_msgs/msg/String), and /motor_state.")
         if node.tf and not node.publishes_tf:

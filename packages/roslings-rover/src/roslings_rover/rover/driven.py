@@ -29,6 +29,31 @@ class DrivenRover(RoverNode):
     """What there is to say of the parts that it is made of; at most 32 columns each."""
 
     @property
+    def title(self) -> str:
+        """What stands above all that is told of it; at most 32 columns."""
+        return "The rover"
+
+    @property
+    def about_place(self) -> str:
+        """Where it is; empty in the course's own room."""
+        return ""
+
+    @property
+    def counted(self) -> dict[str, int]:
+        """What is counted besides its way, by a short name."""
+        return {}
+
+    @property
+    def says_besides(self) -> tuple[str, ...]:
+        """Topics that it publishes only where it is now."""
+        return ()
+
+    @property
+    def bumped(self) -> str:
+        """What it has just run into, where that counts; at most 80 columns."""
+        return ""
+
+    @property
     def believed(self) -> Pose | None:
         """Where somebody thinks that it is; None where nobody says it."""
         return None
@@ -56,6 +81,7 @@ class DrivenRover(RoverNode):
         there = self._node.get_publishers_info_by_topic("cmd_vel")
         names = [
             f"{each.node_namespace.rstrip('/')}/{each.node_name}"
-            for each in there if not each.node_name.startswith("_")
-        ]  # fmt: skip
+            for each in there
+            if not each.node_name.startswith("_")
+        ]
         self.driver = min(names, default="")

@@ -13,8 +13,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
 
+from roslings_rover.models.rooms import moving_in
 from roslings_rover.models.world import Ball, Box, Circle, World
-from roslings_rover.rover.picture import OBSTACLE, PATH, ROVER, WALL
+from roslings_rover.rover.picture import MOVING, OBSTACLE, PATH, ROVER, WALL
 from roslings_rover.rover.rover import Moment
 
 PX_PER_M = 50.0
@@ -91,17 +92,19 @@ def moving_map(
         raise ValueError("a map needs one moment at least")
     sheet = _Sheet(world.room)
     wide, high = sheet.size_px
-    return "".join([
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {wide:g} {high:g}"'
-        f' width="{wide:g}" height="{high:g}">',
-        f"<style>{STYLE}{_motion(sheet, trail) if moves else ''}</style>",
-        *_axes(sheet),
-        *_room(sheet, world),
-        *_way(sheet, trail, dots),
-        _rover(sheet, trail[-1], radius_m),
-        *_legend(world),
-        "</svg>",
-    ])  # fmt: skip
+    return "".join(
+        [
+            f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {wide:g} {high:g}"'
+            f' width="{wide:g}" height="{high:g}">',
+            f"<style>{STYLE}{_motion(sheet, trail) if moves else ''}</style>",
+            *_axes(sheet),
+            *_room(sheet, world),
+            *_way(sheet, trail, dots),
+            _rover(sheet, trail[-1], radius_m),
+            *_legend(world),
+            "</svg>",
+        ]
+    )
 
 
 def _axes(sheet: _Sheet) -> Iterator[str]:
@@ -136,6 +139,8 @@ def _room(sheet: _Sheet, world: World) -> Iterator[str]:
             yield _disc(sheet, shape, 'class="obstacle"')
     for ball in world.balls:
         yield _disc(sheet, ball.shape, f'fill="{_colour(ball)}"')
+    for thing in moving_in(world):
+        yield _disc(sheet, thing, f'fill="{MOVING}" stroke="{WALL}"')
 
 
 def _box(sheet: _Sheet, box: Box, kind: str) -> str:
@@ -184,6 +189,8 @@ def _legend(world: World) -> Iterator[str]:
     if world.balls:
         ball = _colour(world.balls[0])
         marks.append((f'<circle cx="10" cy="-4" r="5" fill="{ball}"/>', "ball"))
+    if moving_in(world):
+        marks.append((f'<circle cx="10" cy="-4" r="6" fill="{MOVING}"/>', "moves"))
     for number, (mark, word) in enumerate(marks):
         x = LEFT_PX + number * 84
         yield f'<g transform="translate({x:g} 22)">{mark}<text x="27">{word}</text></g>'

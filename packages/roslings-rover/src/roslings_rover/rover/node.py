@@ -178,7 +178,7 @@ def _what_it_cannot_do(twist: Any) -> str:
 
 
 def _tf_publisher(node: Any) -> Any | None:
-    """A publisher on /tf, where tf2_msgs is: no wheel has it, and `--tf` builds it."""
+    """A publisher on /tf, where tf2_msgs is: no wheel has it, and `--tf` brings it."""
     try:
         from tf2_msgs.msg import TFMessage
     except ImportError:

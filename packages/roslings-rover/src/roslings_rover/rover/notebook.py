@@ -10,10 +10,14 @@ from __future__ import annotations
 
 import os
 import threading
+from contextlib import ExitStack
 
 from roslings_rover.models.differential_drive import Pose
+from roslings_rover.rover.in_room import Bump, RoomRover
+from roslings_rover.rover.made import rover_in
 from roslings_rover.rover.moving_map import moving_map
-from roslings_rover.rover.node import RoverNode
+from roslings_rover.rover.one_rover import rover_of_cell
+from roslings_rover.rover.room_node import node_for
 from roslings_rover.rover.rover import Moment, Rover
 
 
@@ -22,6 +26,8 @@ class LiveRover:
 
     def __init__(self, rover: Rover, tf: bool = False) -> None:
         self._rover, self._tf = rover, tf
+        self._alone = ExitStack()
+        self._alone.enter_context(rover_of_cell())
         self._stopping = threading.Event()
         self._ready = threading.Event()
         self._thread = threading.Thread(target=self._run, name="rover", daemon=True)
@@ -39,10 +45,16 @@ class LiveRover:
         """Where it is now."""
         return self._rover.pose
 
+    @property
+    def bumps(self) -> list[Bump]:
+        """When and where it ran into something; counted in a room from a seed alone."""
+        return list(self._rover.bumps) if isinstance(self._rover, RoomRover) else []
+
     def stop(self) -> None:
         """End the node. The map stays."""
         self._stopping.set()
         self._thread.join()
+        self._alone.close()
 
     @property
     def trail(self) -> list[Moment]:
@@ -61,7 +73,7 @@ class LiveRover:
 
     def _run(self) -> None:
         try:
-            with RoverNode(self._rover, tf=self._tf) as node:
+            with node_for(self._rover, tf=self._tf) as node:
                 self._ready.set()
                 while not self._stopping.is_set():
                     node.turn()
@@ -69,10 +81,12 @@ class LiveRover:
             self._ready.set()
 
 
-def start(seed: int = 0, tf: bool = False) -> LiveRover:
+def start(seed: int = 0, tf: bool = False, room: int | None = None) -> LiveRover:
     """Start a rover; with `tf` it publishes /tf, where tf2_msgs is installed.
 
-    Without a word about the range, only this computer hears it.
+    `room` is the seed of a room that it is in; `seed` is that of its sensors' noise. Without a word
+    about the range, only this computer hears it. Raises NoSeed and
+    RoverThere.
     """
     os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-    return LiveRover(Rover(seed=seed), tf)
+    return LiveRover(rover_in(room, seed), tf)

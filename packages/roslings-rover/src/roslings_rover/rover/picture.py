@@ -7,10 +7,12 @@ from pathlib import Path
 from typing import Any
 
 from roslings_rover.models.differential_drive import Pose
+from roslings_rover.models.rooms import moving_in
 from roslings_rover.models.world import Ball, Box, Circle, World
 from roslings_rover.rover.rover import Rover
 
 WALL, OBSTACLE, PATH, ROVER = "#444444", "#b8b8b8", "#1f77b4", "#0b2f6b"
+MOVING = "#c2571a"
 DOTS_PER_INCH = 100
 
 
@@ -21,6 +23,7 @@ def draw(rover: Rover, axes: Any) -> None:
     start = rover.path[0]
     axes.plot([start.x_m], [start.y_m], "o", color=PATH, markersize=4, label="start")
     draw_rover(rover, axes)
+    draw_moving(rover.world, axes)
     name_what_is_drawn(axes)
 
 
@@ -45,6 +48,16 @@ def draw_world(world: World, axes: Any) -> None:
     for ball in world.balls:
         axes.add_patch(_ball(ball))
         axes.plot([], [], "o", color=_colour(ball), label="ball")  # for the legend
+
+
+def draw_moving(world: World, axes: Any) -> list[Any]:
+    """Draw what moves, where it is now; returns what can be removed again."""
+    from matplotlib.patches import Circle as Disc
+
+    return [
+        axes.add_patch(Disc((each.x_m, each.y_m), each.radius_m, facecolor=MOVING, edgecolor=WALL))
+        for each in moving_in(world)
+    ]
 
 
 def draw_rover(rover: Rover, axes: Any, colour: str = ROVER) -> list[Any]:

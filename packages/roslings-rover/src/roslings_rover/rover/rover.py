@@ -126,9 +126,10 @@ class Rover:
         """The ball that it has driven to, while it touches something."""
         reach_m = self.body.radius_m + TOUCH_M
         near = (
-            ball for ball in self.world.balls
+            ball
+            for ball in self.world.balls
             if ball.shape.gap(self.pose.x_m, self.pose.y_m) < reach_m
-        )  # fmt: skip
+        )
         return next(near, None) if self.touches else None
 
     def _turning_on_the_spot(self) -> Wheels:

@@ -13,6 +13,9 @@ from roslings_rover.remembered import remember_the_ball
 from roslings_rover.rover.displays import Display, View, opened
 from roslings_rover.rover.driven import DrivenRover
 from roslings_rover.rover.keys import driving
+from roslings_rover.rover.made import rover_in
+from roslings_rover.rover.one_rover import rover_of_terminal
+from roslings_rover.rover.room_node import node_for
 from roslings_rover.rover.rover import Rover
 from roslings_rover.rover.words import position
 
@@ -34,20 +37,24 @@ def run(
     keys: bool = False,
     listens: bool = False,
     tf: bool = False,
+    room: int | None = None,
 ) -> Rover:
     """Run the rover until Ctrl-C; returns it as it then is. With `keys`, this terminal drives it.
 
     One that `listens` shows what others say; with `tf` it also publishes /tf, where the type of
-    that topic is installed. Raises NoWindow, CannotSave, NoTerminal.
+    that topic is installed. `room` is the seed of a room that it is in. Raises NoWindow,
+    CannotSave, NoTerminal, NoSeed, RoverInCell.
     """
     picture = picture and _as_typed(picture)
     if picture:
         _require_place_for(picture)
-    node = DrivenRover(Rover(seed=seed), by_keys=keys, listens=listens, tf=tf)
-    with driving(keys) as look, node, listening() as asked:
+    node = node_for(rover_in(room, seed), by_keys=keys, listens=listens, tf=tf)
+    with rover_of_terminal(), driving(keys) as look, node, listening() as asked:
         with opened(view, node) as display:
             _go_on(node, display, asked, look)
         print(f"\nThe rover is at {position(node)}.\nIt went {node.rover.way_m:.2f} m.")
+        for name, count in node.counted.items():
+            print(f"{name.capitalize()}: {count}.")
         if picture:
             _save(node.rover, picture)
     return node.rover

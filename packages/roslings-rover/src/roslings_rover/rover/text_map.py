@@ -5,13 +5,19 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, TypeVar
+
+import numpy as np
 
 from roslings_rover.models.differential_drive import Pose
-from roslings_rover.models.world import Ball, World
+from roslings_rover.models.rooms import moving_in
+from roslings_rover.models.shape_arrays import Numbers, gaps
+from roslings_rover.models.world import Ball, Box, Circle, World
 from roslings_rover.rover.rover import Rover
 
-Kind = Literal["floor", "wall", "path", "ball", "believed", "rover", "said"]
+Length = TypeVar("Length", float, Numbers)
+Kind = Literal["floor", "wall", "path", "ball", "moving", "believed", "rover", "said"]
+ASIDE_M = 1e-6
 LETTER_HEIGHT = 2.0
 """A letter in a terminal is about twice as high as it is wide."""
 
@@ -39,12 +45,13 @@ class Letters:
     arrows: str
     """The rover that looks east, and on, counter-clockwise, in equal steps."""
     ball: str
+    moving: str
     dots: bool
     """Braille dots draw the path four times as fine as letters."""
 
 
-UNICODE = Letters(("┌", "┐", "└", "┘", "─", "│"), ("▀", "▄", "█"), "→↗↑↖←↙↓↘", "●", dots=True)
-ASCII = Letters(("+", "+", "+", "+", "-", "|"), ("#", "#", "#"), ">^<v", "o", dots=False)
+UNICODE = Letters(("┌", "┐", "└", "┘", "─", "│"), ("▀", "▄", "█"), "→↗↑↖←↙↓↘", "●", "◆", dots=True)
+ASCII = Letters(("+", "+", "+", "+", "-", "|"), ("#", "#", "#"), ">^<v", "o", "@", dots=False)
 BRAILLE = 0x2800
 DOT_BITS = ((0x01, 0x08), (0x02, 0x10), (0x04, 0x20), (0x40, 0x80))
 """Unicode's bit for each dot, by row and column within a letter."""
@@ -79,6 +86,8 @@ def cells(
     sheet = Sheet(rover.world, *size_for(rover.world, columns, lines), letters)
     sheet.put_obstacles()
     sheet.put_path(rover.path)
+    for thing in moving_in(rover.world):
+        sheet.put_moving(thing)
     for ball in rover.world.balls:
         sheet.put_ball(ball)
     sheet.put_words(rover.pose, said)
@@ -106,17 +115,14 @@ class Sheet:
         yield self._wall(south_west + along * self._wide + south_east)
 
     def put_obstacles(self) -> None:
-        """Obstacles, half a letter fine."""
+        """Obstacles, half a letter fine; what is thinner than that is drawn all the same."""
         upper, lower, both = self._letters.halves
-        letter_of = {(True, False): upper, (False, True): lower, (True, True): both}
-        for line in range(self._high):
-            for column in range(self._wide):
-                halves = (
-                    self._is_blocked(column, line + 0.25),
-                    self._is_blocked(column, line + 0.75),
-                )
-                if halves in letter_of:
-                    self._cells[line][column] = Cell(letter_of[halves], "wall")
+        letters = " ", upper, lower, both
+        shown = [self._not_too_thin(each) for each in self._world.obstacles]
+        blocked = gaps(shown, *self._half_letters()) <= 0
+        for line, column in np.argwhere(blocked[::2] | blocked[1::2]):
+            halves = blocked[2 * line, column] + 2 * blocked[2 * line + 1, column]
+            self._cells[line][column] = Cell(letters[halves], "wall")
 
     def put_path(self, path: list[Pose], hue: int | None = None) -> None:
         """Where the rover went; with a hue, where there are several."""
@@ -125,6 +131,15 @@ class Sheet:
             cell = self._cell(column, line)
             if cell and cell.kind in ("floor", "path"):
                 self._set(column, line, Cell(self._dotted(cell, column, line), "path", hue))
+
+    def put_moving(self, thing: Circle) -> None:
+        """What moves, where it is now: its middle, and as many letters as it covers."""
+        columns, lines = self._letters_between(thing)
+        for column in columns:
+            for line in lines:
+                if thing.gap(*self._place(column + 0.5, line + 0.5)) <= 0:
+                    self._set(column, line, Cell(self._letters.moving, "moving"))
+        self._set(*self._position(thing.x_m, thing.y_m), Cell(self._letters.moving, "moving"))
 
     def put_ball(self, ball: Ball) -> None:
         """One ball."""
@@ -168,11 +183,36 @@ class Sheet:
         bit = DOT_BITS[int(line % 1 * 4)][int(column % 1 * 2)]
         return chr(BRAILLE + (before | bit))
 
-    def _is_blocked(self, column: int, line: float) -> bool:
+    def _not_too_thin(self, shape: Circle | Box) -> Circle | Box:
+        """A wall of one letter, or half of one, at least: no thinner one is sure to be seen."""
+        if isinstance(shape, Circle):
+            return shape
         room = self._world.room
-        x_m = room.west_m + (column + 0.5) / self._wide * (room.east_m - room.west_m)
+        letter_m = (room.east_m - room.west_m) / self._wide
+        half_m = (room.north_m - room.south_m) / self._high / 2
+        west_m, east_m = _at_least(letter_m, shape.west_m, shape.east_m)
+        south_m, north_m = _at_least(half_m, shape.south_m, shape.north_m)
+        return Box(west_m, south_m, east_m, north_m)
+
+    def _half_letters(self) -> tuple[Numbers, Numbers]:
+        """The middle of the upper and the lower half of each letter: x of columns, y of rows."""
+        columns, rows = np.arange(self._wide) + 0.5, np.arange(2 * self._high) / 2 + 0.25
+        x_m, y_m = self._place(columns, rows)
+        return x_m[None, :], y_m[:, None]
+
+    def _letters_between(self, thing: Circle) -> tuple[range, range]:
+        """The columns and lines that something round reaches into."""
+        x_m, y_m, r = thing.x_m, thing.y_m, thing.radius_m
+        left, top = self._position(x_m - r, y_m + r)
+        right, low = self._position(x_m + r, y_m - r)
+        return range(int(left), int(right) + 1), range(int(top), int(low) + 1)
+
+    def _place(self, column: Length, line: Length) -> tuple[Length, Length]:
+        """Where in the room a column and a line are, with fractions."""
+        room = self._world.room
+        x_m = room.west_m + column / self._wide * (room.east_m - room.west_m)
         y_m = room.north_m - line / self._high * (room.north_m - room.south_m)
-        return any(shape.gap(x_m, y_m) <= 0 for shape in self._world.obstacles)
+        return x_m, y_m
 
     def _position(self, x_m: float, y_m: float) -> tuple[float, float]:
         """Column and line, with fractions; what lies on a wall is drawn inside of it."""
@@ -192,3 +232,11 @@ def _next_to(place: float, side: float, count: int) -> float:
     """The letter before `place` or behind it, on the `side` of this sign where there is one."""
     step = 1 if side >= 0 else -1
     return place + step if 0 <= place + step < count else place - step
+
+
+def _at_least(least_m: float, low_m: float, high_m: float) -> tuple[float, float]:
+    """The same ends, or ends so far apart; a little aside, so that no two letters share them."""
+    if high_m - low_m >= least_m:
+        return low_m, high_m
+    low_m = (low_m + high_m - least_m) / 2 - ASIDE_M
+    return low_m, low_m + least_m

@@ -18,7 +18,7 @@ def beside(node: DrivenRover) -> list[str]:
     """Where the rover is, and what it hears and says; at most 32 columns."""
     pose, motion = node.rover.pose, node.rover.motion
     return [
-        "The rover",
+        node.title,
         "",
         f"x        {shown(pose.x_m):>6} m",
         f"y        {shown(pose.y_m):>6} m",
@@ -26,6 +26,7 @@ def beside(node: DrivenRover) -> list[str]:
         f"speed    {shown(motion.forward_m_s):>6} m/s{_limit(node)}",
         f"turn     {shown(motion.turn_rad_s):>6} rad/s",
         f"way      {node.rover.way_m:6.2f} m",
+        *(f"{name:8} {count:6}" for name, count in node.counted.items()),
         "",
         *(node.about_parts or _topics(node)),
         "",
@@ -33,12 +34,13 @@ def beside(node: DrivenRover) -> list[str]:
     ]
 
 
-def _topics(node: RoverNode) -> list[str]:
+def _topics(node: DrivenRover) -> list[str]:
     return [
         "hears /cmd_vel",
         *(("      sentences, /motor_state",) if node.listens else ()),
         f"says  {', '.join(said(node))}",
         "      /camera/image_raw",
+        *((f"      {', '.join(node.says_besides)}",) if node.says_besides else ()),
         *about_tf(node),
     ]
 
@@ -98,6 +100,8 @@ def news(node: DrivenRover) -> list[str]:
     """What is told wherever the map is shown, in two lines; empty where there is nothing."""
     if node.notice:
         return [node.notice, ""]
+    if node.bumped:
+        return [node.bumped, ""]
     if node.reached:
         return [f"The rover touches the {node.reached.colour} ball. Well done!", node.next_step]
     return []

@@ -8,6 +8,7 @@ from ros2_on_pip.domain_lease import NoFreeDomain
 from ros2_on_pip.profiles import QUICK_DISCOVERY
 from roslings.arena import kernel
 from roslings.arena.arena import Arena, Installed, Place, opened
+from roslings.arena.companion import Companion, Plan
 from roslings.arena.environment import (
     Wall,
     base_environment,
@@ -24,6 +25,7 @@ __all__ = [
     "QUICK_DISCOVERY",
     "Arena",
     "CannotStart",
+    "Companion",
     "Host",
     "Hosts",
     "Installed",
@@ -34,6 +36,7 @@ __all__ = [
     "NoFreeUser",
     "NoHosts",
     "Place",
+    "Plan",
     "Process",
     "Sandbox",
     "User",

@@ -10,7 +10,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from ros2_on_pip.domain_lease import leased_domain
-from roslings.arena.environment import Wall, ros_environment
+from roslings.arena.companion import BEGIN, Companion, Plan, Surroundings
+from roslings.arena.environment import Wall, base_environment, ros_environment
 from roslings.arena.hosts import Host
 from roslings.arena.kernel import waits
 from roslings.arena.process import Launch, Process
@@ -114,6 +115,26 @@ class Arena:
                 stack.enter_context(process)
             self.processes.append(process)
             yield process
+
+    def companion(
+        self, program: Path, plan: Plan, changed: Callable[[], None], host: Host | None = None
+    ) -> Companion:
+        """A program of a grader's own beside the nodes; it runs while a block `with` it lasts.
+
+        It may import what the environment has, and nothing of the course: in a sandbox it sees
+        its own file alone. Peers of another host are told to who must reach it, not to it.
+        """
+        place = self._place
+        shown = place.sandbox and place.sandbox.showing(program, BEGIN)
+        sandbox = shown and replace(shown, home=place.home)
+        environment = {
+            **base_environment(place.home),
+            **ros_environment(place.wall, place.paced),
+            **(host.environment if host else {}),
+            "ROS_STATIC_PEERS": "",
+            "ROS_DOMAIN_ID": str(self.domain_id),
+        }
+        return Companion(program, plan, Surroundings(environment, sandbox, host), changed)
 
     @property
     def devices(self) -> Path:

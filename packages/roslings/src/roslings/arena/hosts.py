@@ -99,8 +99,10 @@ class Link:
             words = [*map(str, self._ends), str(theirs.fileno()), *self._words]
             self._process = subprocess.Popen(
                 [sys.executable, "-I", "-S", str(LINK), *words],
-                pass_fds=[*self._ends, theirs.fileno()], stdin=subprocess.DEVNULL, env={},
-            )  # fmt: skip
+                pass_fds=[*self._ends, theirs.fileno()],
+                stdin=subprocess.DEVNULL,
+                env={},
+            )
         return self
 
     def __exit__(self, *error: object) -> None:

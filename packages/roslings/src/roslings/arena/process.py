@@ -25,8 +25,11 @@ from roslings.evidence import Ending, LogLine, ProcessSeen
 
 Listener = Callable[[], None]
 OUTPUT = {
-    "head_bytes": 512 * 1024, "tail_bytes": 64 * 1024, "head_lines": 10_000, "tail_lines": 1_000,
-}  # fmt: skip
+    "head_bytes": 512 * 1024,
+    "tail_bytes": 64 * 1024,
+    "head_lines": 10_000,
+    "tail_lines": 1_000,
+}
 """What is kept of its output."""
 FLOOD = {"rows_a_second": 1_000, "row_bytes": 80, "seconds": 3}
 """Who writes so much for so long prints without end, and is ended.
@@ -301,10 +304,12 @@ class Process:
             others_s = waiting.sum_s()
             return Ending(signal=name, after_s=None, watched_s=watched_s, others_waited_s=others_s)
         return Ending(
-            signal=name, after_s=(self.seen.ended_ns - sent_ns) / 1e9, watched_s=watched_s,
+            signal=name,
+            after_s=(self.seen.ended_ns - sent_ns) / 1e9,
+            watched_s=watched_s,
             waited_s=self._waited_since(waiting.before_ns),
             others_waited_s=waiting.sum_s(without=self._main_thread),
-        )  # fmt: skip
+        )
 
     def _own_waits_ns(self) -> dict[str, int] | None:
         """As `waits_ns`, of those whose end is waited for; None when it is gone."""

@@ -40,13 +40,32 @@ ROS2 = Path(ros2_on_pip.__file__).parent
 STAND_INS = tuple(ROS2 / name for name in ("__init__.py", "rosbag2", "stand_ins"))
 """Packages of ROS that no wheel brings, and what they stand on."""
 KERNEL_SETTINGS = (
-    "sys", "irq", "bus", "acpi", "fs", "scsi", "tty", "pressure", "sysrq-trigger", "mtrr",
-)  # fmt: skip
+    "sys",
+    "irq",
+    "bus",
+    "acpi",
+    "fs",
+    "scsi",
+    "tty",
+    "pressure",
+    "sysrq-trigger",
+    "mtrr",
+)
 """Of /proc; what is written there holds for the whole machine."""
 COVERED = (
-    "keys", "key-users", "kcore", "kmsg", "kpagecgroup", "kpagecount", "kpageflags", "pagetypeinfo",
-    "sched_debug", "slabinfo", "timer_list", "vmallocinfo",
-)  # fmt: skip
+    "keys",
+    "key-users",
+    "kcore",
+    "kmsg",
+    "kpagecgroup",
+    "kpagecount",
+    "kpageflags",
+    "pagetypeinfo",
+    "sched_debug",
+    "slabinfo",
+    "timer_list",
+    "vmallocinfo",
+)
 """Of /proc; keys of whoever runs the command, and what only root reads."""
 PROC = Path("/proc")
 SHARED_MEMORY_BYTES = 64 * MB
@@ -94,9 +113,12 @@ class Sandbox:
         return replace(self, other=other, view=view)
 
     @contextmanager
-    def around(self, inner: Sequence[str]) -> Iterator[tuple[list[str], cgroup.Group]]:
+    def around(
+        self, inner: Sequence[str], tells: int | None = None
+    ) -> Iterator[tuple[list[str], cgroup.Group]]:
         """The command that runs `inner` inside, and the group that counts what it takes.
 
+        Into the descriptor `tells` bubblewrap writes, as JSON, which process that is.
         Raises OSError where what is to be seen cannot be shown.
         """
         with cgroup.group(self.trees, self.bounds) as group:
@@ -104,11 +126,12 @@ class Sandbox:
                 for path, place in self.to_be_shown():
                     if not place.exists():
                         kernel.show(str(path), str(place), self._is_written(path))
-            yield group.command(self.command(inner)), group
+            yield group.command(self.command(inner, tells)), group
 
-    def command(self, inner: Sequence[str]) -> list[str]:
+    def command(self, inner: Sequence[str], tells: int | None = None) -> list[str]:
         """bubblewrap's; the other user, where there is one, starts it."""
-        return [*self._as_other(), *self._walls(), *self._view(), "--", *inner]
+        info = [] if tells is None else ["--info-fd", str(tells)]
+        return [*self._as_other(), *self._walls(), *info, *self._view(), "--", *inner]
 
     def _as_other(self) -> list[str]:
         if self.other is None:
@@ -140,10 +163,24 @@ class Sandbox:
 
     def _walls(self) -> list[str]:
         return [
-            str(self.program), "--unshare-user", "--uid", USER, "--gid", USER, "--unshare-pid",
-            "--unshare-ipc", "--unshare-uts", "--unshare-cgroup-try", "--hostname", "roslings",
-            "--cap-drop", "ALL", "--new-session", "--die-with-parent", "--as-pid-1",
-        ]  # fmt: skip
+            str(self.program),
+            "--unshare-user",
+            "--uid",
+            USER,
+            "--gid",
+            USER,
+            "--unshare-pid",
+            "--unshare-ipc",
+            "--unshare-uts",
+            "--unshare-cgroup-try",
+            "--hostname",
+            "roslings",
+            "--cap-drop",
+            "ALL",
+            "--new-session",
+            "--die-with-parent",
+            "--as-pid-1",
+        ]
 
     def _view(self) -> Iterator[str]:
         """The mounts, in their order: what comes later lies over what comes earlier."""

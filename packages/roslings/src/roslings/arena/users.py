@@ -305,9 +305,17 @@ def _keys_of(kind: str, uid: int) -> list[str]:
 def _run_as(uid: int, command: Sequence[str]) -> subprocess.CompletedProcess[str]:
     """Raises OSError, subprocess.SubprocessError."""
     return subprocess.run(
-        command, user=uid, group=uid, extra_groups=(), cwd="/", check=False, capture_output=True,
-        text=True, env=base_environment(Path("/nonexistent")), timeout=TRIED_WITHIN_S,
-    )  # fmt: skip
+        command,
+        user=uid,
+        group=uid,
+        extra_groups=(),
+        cwd="/",
+        check=False,
+        capture_output=True,
+        text=True,
+        env=base_environment(Path("/nonexistent")),
+        timeout=TRIED_WITHIN_S,
+    )
 
 
 @cache

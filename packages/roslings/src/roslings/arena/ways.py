@@ -52,12 +52,13 @@ def facts() -> Facts:
         is_container=any(Path(sign).exists() for sign in SIGNS_OF_CONTAINERS),
         has_sudo=shutil.which("sudo") is not None,
         people=tuple(
-            each.pw_name for each in pwd.getpwall()
+            each.pw_name
+            for each in pwd.getpwall()
             if each.pw_uid in ACCOUNTS and Path(each.pw_shell).name not in NO_SHELLS
         ),
         settings={name: value for name, value in found.items() if value is not None},
         counts_by_namespace=kernel_counts_by_namespace(),
-    )  # fmt: skip
+    )
 
 
 def _setting(name: str) -> int | None:

@@ -48,7 +48,8 @@ RUNS = ("rclpy", "roslings.arena", "roslings.experiment", "roslings.probe")
 def is_found_by_its_name(known: Capability[Any]) -> None:
     """The registry leads to it, by the name that it has itself."""
     assert capability(known.name) is known, (
-        f"the entry point {known.name!r} of roslings.capability does not lead to this capability"
+        f"no folder beside a grader, and no entry point {known.name!r} of roslings.capability,"
+        " leads to this capability"
     )
 
 
@@ -133,7 +134,8 @@ def its_sections_draw_nothing_from_nothing(known: Capability[Any]) -> None:
 def reading_and_judging_run_nothing(known: Capability[Any]) -> None:
     """What evidence is read, judged and shown with imports neither ROS nor what measures."""
     modules = [name for name in _modules_of(known) if name.rpartition(".")[2] in PURE]
-    source = "import importlib, sys\nfor name in sys.argv[1:]: importlib.import_module(name)\n"
+    source = "import importlib, sys, roslings.lab_folders\n"
+    source += "for name in sys.argv[1:]: importlib.import_module(name)\n"
     source += f"print(*[name for name in {RUNS} if name in sys.modules])"
     done = subprocess.run(
         [sys.executable, "-c", source, *modules], capture_output=True, text=True, check=False

@@ -7,6 +7,7 @@ import os
 import sys
 import time
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -35,6 +36,8 @@ if TYPE_CHECKING:
 __all__ = ["add_options", "leave", "run"]
 
 READY = "ROSLINGS_READY_S"
+WINDOW_PAGE = "ROSLINGS_CHECK_PAGE"
+"""Set in the terminals and notebooks of a day's window: where it looks for the page to show."""
 
 
 def add_options(word: argparse.ArgumentParser) -> None:
@@ -46,34 +49,46 @@ def add_options(word: argparse.ArgumentParser) -> None:
     verdict_options(word)
     hidden_option(word)
     word.add_argument(
-        "--evidence", metavar="DIR", type=Path,
+        "--evidence",
+        metavar="DIR",
+        type=Path,
         help="save all that was seen in the new folder DIR, to judge it again (regrade)",
-    )  # fmt: skip
+    )
     trust_option(word)
     word.add_argument(
-        "--as-stranger", action="store_true",
+        "--as-stranger",
+        action="store_true",
         help="hold somebody else's package as grade does, or refuse it where nothing can",
-    )  # fmt: skip
+    )
     whose_option(word, "check by the card of NAME, where each student has another one")
     soak_option(word, "0; as grade does where a platform's file is written")
     word.add_argument(
-        "--clock", choices=("auto", "sim", "wall"), default="auto",
+        "--clock",
+        choices=("auto", "sim", "wall"),
+        default="auto",
         help="simulated time where it can be believed (auto), always (sim), or never (wall)",
-    )  # fmt: skip
+    )
     word.add_argument(
         "--seed", metavar="N", type=int, help="repeat the random choices of a verdict"
     )
     word.add_argument(
-        "--port", metavar="DEVICE", type=Path,
+        "--port",
+        metavar="DEVICE",
+        type=Path,
         help="use the real board on this serial port, for example /dev/ttyACM0",
-    )  # fmt: skip
+    )
     word.add_argument(
         "--timings", action="store_true", help="show where the seconds of the check went"
     )
     word.add_argument(
-        "--hint", metavar="STEP", type=int, choices=(1, 2, 3), nargs="?", const=1,
+        "--hint",
+        metavar="STEP",
+        type=int,
+        choices=(1, 2, 3),
+        nargs="?",
+        const=1,
         help="a hint for what your last check found: 1 where, 2 which idea, 3 other code",
-    )  # fmt: skip
+    )
 
 
 def run(options: argparse.Namespace) -> int:
@@ -133,9 +148,15 @@ def _check_package(lab: Lab, package: Path, options: argparse.Namespace) -> int:
     with place_for_bags(options.evidence, package) as bags:
         seed = any_seed() if options.seed is None else options.seed
         choices = Choices(
-            seed, options.clock, bags, options.port, options.hidden, strangers=strangers,
-            for_others=others, soak_s=_soak_s(lab, options, others),
-        )  # fmt: skip
+            seed,
+            options.clock,
+            bags,
+            options.port,
+            options.hidden,
+            strangers=strangers,
+            for_others=others,
+            soak_s=_soak_s(lab, options, others),
+        )
         with ready(lab, choices) as begun:
             graded = begun.grade(package, began_ns(os.environ), quiet)
         before = None if options.solution else replace_kept(lab, graded.verdict, package)
@@ -202,11 +223,22 @@ def _save(graded: Graded, options: argparse.Namespace, bags: Path | None) -> Non
 
     if options.html:
         graded.write_page(options.html, _own_page(options))
+    _show_in_window(graded, options)
     if options.evidence:
         save(graded, options.evidence, bags)
         say = f"\nThe evidence is in {from_here(options.evidence)}. Look at it in a browser:"
         page = from_here(options.evidence / "report.html")
         print(f"{say}\n{page}", file=sys.stderr if is_stdout(options.json) else sys.stdout)
+
+
+def _show_in_window(graded: Graded, options: argparse.Namespace) -> None:
+    """Its links cannot lead to the site's files: the window is a page of a server."""
+    from roslings.report.html import Own
+    from roslings.report.whole_file import CannotWrite
+
+    if page := os.environ.get(WINDOW_PAGE):
+        with suppress(CannotWrite):  # the verdict stands in the terminal all the same
+            graded.write_page(Path(page), Own(as_typed(options)))
 
 
 def _own_page(options: argparse.Namespace) -> Own:

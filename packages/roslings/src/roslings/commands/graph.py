@@ -23,9 +23,7 @@ def add_options(word: argparse.ArgumentParser) -> None:
     word.add_argument(
         "path", metavar="PATH", type=Path, nargs="?", help="with --for: your package, as for check"
     )
-    word.add_argument(
-        "--tf", action="store_true", help="publish /tf too; its type is compiled once, by g++"
-    )
+    word.add_argument("--tf", action="store_true", help="publish /tf too")
     word.add_argument("--save", metavar="FILE.png", type=Path, help="save a picture of it")
     word.add_argument("--force", action="store_true", help="replace FILE.png if it is there")
     word.add_argument("--all", action="store_true", help="also /rosout and other parts of ROS")
@@ -76,8 +74,7 @@ def _nothing_to_draw() -> int:
 
 def _saved(seen: Graph, file: Path, options: argparse.Namespace) -> bool:
     """Draw the picture; its folder is made where it is missing."""
-    from roslings.report import draw_graph
-    from roslings.report.graph_picture import NotAPng
+    from roslings.report.graph_picture import NotAPng, draw_graph
 
     try:
         draw_graph(seen, file, show_hidden=options.all, overwrite=options.force)

@@ -22,9 +22,12 @@ def package_options(word: argparse.ArgumentParser) -> None:
 def path_option(word: argparse.ArgumentParser) -> None:
     """Where a package lies."""
     word.add_argument(
-        "path", metavar="PATH", type=Path, nargs="?",
+        "path",
+        metavar="PATH",
+        type=Path,
+        nargs="?",
         help="your package, or a folder that holds it (default: your workspace, ~/roslings_ws)",
-    )  # fmt: skip
+    )
 
 
 def whose_option(word: argparse.ArgumentParser, help_text: str) -> None:
@@ -65,9 +68,11 @@ def trust_option(word: argparse.ArgumentParser) -> None:
 def soak_option(word: argparse.ArgumentParser, default: str) -> None:
     """How long nodes are left running."""
     word.add_argument(
-        "--soak", metavar="SECONDS", type=seconds_of_soak,
+        "--soak",
+        metavar="SECONDS",
+        type=seconds_of_soak,
         help=f"let the nodes run on for so long, to see that they stay (default: {default})",
-    )  # fmt: skip
+    )
 
 
 def seconds_of_soak(text: str) -> float:

@@ -40,7 +40,7 @@ def _let_run(lab: Lab, options: argparse.Namespace) -> None:
     """Let the nodes run as they will where they are graded; the file is there, whatever comes."""
     from roslings.course.soak import soak_seconds
     from roslings.handing_in import left_running
-    from roslings.report import Progress
+    from roslings.report.progress import Progress
 
     if for_s := soak_seconds(lab.card, options.soak):
         try:

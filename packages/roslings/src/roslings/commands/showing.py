@@ -22,7 +22,8 @@ def show(verdict: Verdict, options: argparse.Namespace, before: Verdict | None =
     from rich.console import Console
 
     from roslings.platforms import write_shapes
-    from roslings.report import print_verdict, write_json
+    from roslings.report.json_file import write_json
+    from roslings.report.terminal import print_verdict
     from roslings.typed import as_typed
 
     if options.json:
@@ -30,9 +31,14 @@ def show(verdict: Verdict, options: argparse.Namespace, before: Verdict | None =
     write_shapes(verdict, options)
     if not is_stdout(options.json):
         print_verdict(
-            verdict, console=Console(), hint_step=options.hint, only=options.only,
-            whole=options.all, before=before, typed=as_typed(options),
-        )  # fmt: skip
+            verdict,
+            console=Console(),
+            hint_step=options.hint,
+            only=options.only,
+            whole=options.all,
+            before=before,
+            typed=as_typed(options),
+        )
     return EXIT_OF_OUTCOME[verdict.outcome]
 
 
@@ -51,7 +57,7 @@ def replace_kept(lab: Lab, verdict: Verdict, package: Path) -> Verdict | None:
 
     The package is kept, too, where it has the best score so far: `my-rover` carries that one.
     """
-    from roslings.report import BadVerdictFile
+    from roslings.report.json_file import BadVerdictFile
 
     before = None
     with suppress(BadVerdictFile):
@@ -62,14 +68,15 @@ def replace_kept(lab: Lab, verdict: Verdict, package: Path) -> Verdict | None:
 
 def read(path: Path) -> Verdict:
     """A verdict that was kept. Raises BadVerdictFile."""
-    from roslings.report import read_json
+    from roslings.report.json_file import read_json
 
     return read_json(path)
 
 
 def _keep(lab: Lab, verdict: Verdict, package: Path) -> None:
     """Keep score and verdict; a workspace that cannot be written does not hide the verdict."""
-    from roslings.report import CannotWrite, write_json
+    from roslings.report.json_file import write_json
+    from roslings.report.whole_file import CannotWrite
     from roslings.workspace.best import keep_best
     from roslings.workspace.progress import record
 

@@ -13,8 +13,11 @@ from roslings.typed import program
 def add_options(word: argparse.ArgumentParser) -> None:
     """The lab."""
     lab_options(word)
-    whose_option(word, "whose card it is, where each student has another one: the number or the"
-                 " name that your teacher has in the class list")  # fmt: skip
+    whose_option(
+        word,
+        "whose card it is, where each student has another one: the number or the"
+        " name that your teacher has in the class list",
+    )
 
 
 def run(options: argparse.Namespace) -> int:

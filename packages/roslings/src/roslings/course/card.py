@@ -14,6 +14,7 @@ from pydantic import Field, RootModel, create_model, field_validator, model_vali
 
 from roslings.capability import capabilities
 from roslings.course.contract import (
+    NUMBERS_WITHIN,
     Contract,
     Expected,
     Plain,
@@ -57,6 +58,12 @@ class TopicContract(Contract):
     )
     fields: Annotated[dict[str, Plain], Expected] = Field(
         default_factory=dict, description="What each message holds; a dot leads into a field"
+    )
+    numbers_within: Annotated[float, Kind.TOLERANCE] = Field(
+        default=NUMBERS_WITHIN,
+        gt=0,
+        lt=1,
+        description="So far off a number still counts: as a part of it, and near 0 in its unit",
     )
 
     def at(self, hz: float) -> TopicContract:

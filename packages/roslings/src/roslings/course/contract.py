@@ -13,6 +13,8 @@ Expected = Kind.EXPECTED
 Stimulus = Kind.STIMULUS
 Promise = Kind.PROMISE
 Prose = Kind.PROSE
+NUMBERS_WITHIN = 1e-6
+"""So far off a number still counts, where a card says nothing: 32 bits keep seven digits."""
 
 
 class Contract(BaseModel):
@@ -40,6 +42,6 @@ class RateContract(Contract):
         return self.hz * (1 + self.within)
 
 
-def as_typed(value: Plain) -> str:
+def as_typed(value: object) -> str:
     """A value as ROS's command line shows it."""
     return str(value).lower() if isinstance(value, bool) else str(value)

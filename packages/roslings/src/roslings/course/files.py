@@ -109,11 +109,12 @@ def _line_of(tree: yaml.Node | None, location: Location) -> int:
         if node is None:
             break
         line = node.start_mark.line + 1
-        node = _child(node, step)
+        node = child_of(node, step)
     return node.start_mark.line + 1 if node is not None else line
 
 
-def _child(node: yaml.Node, step: int | str) -> yaml.Node | None:
+def child_of(node: yaml.Node, step: int | str) -> yaml.Node | None:
+    """The part of a YAML tree that one step leads to; None where there is none."""
     import yaml
 
     if isinstance(node, yaml.MappingNode):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import difflib
-import os
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -11,24 +10,17 @@ from typing import TYPE_CHECKING
 
 from roslings.course.files import NoSuchLab, read_tree, read_yaml, text_of
 from roslings.course.outline import Outline, outline_as_written, outline_in
+from roslings.course_folder import engine_root, root
+from roslings.lab_folders import GRADER, GRADERS, folder_beside
 
 if TYPE_CHECKING:
     from roslings.course.card import Card, Hint
     from roslings.course.mutants import Mutant
 
-
-def root() -> Path:
-    """The course's folder: the clone this engine lies in, or `ROSLINGS_COURSE`."""
-    return Path(os.environ.get("ROSLINGS_COURSE") or engine_root()).absolute()
-
+__all__ = ["EXAMPLE", "MUTANTS", "Lab", "all_labs", "engine_root", "example_root", "lab", "root"]
 
 EXAMPLE = "example"
 MUTANTS = "mutants"
-
-
-def engine_root() -> Path:
-    """The folder that this engine lies in: a clone, unless it came by pip."""
-    return Path(__file__).parents[5]
 
 
 def example_root() -> Path:
@@ -84,6 +76,11 @@ class Lab:
         """The files with experiments and checks."""
         return (self.grader, self.hidden) if self.hidden else (self.grader,)
 
+    @property
+    def beside(self) -> Path:
+        """The folder with what only this lab needs to measure and judge; most labs have none."""
+        return folder_beside(self.grader)
+
     @cached_property
     def hints(self) -> dict[str, Hint]:
         """Check's name to its hint. Raises BadCourseFile."""
@@ -138,7 +135,8 @@ def lab(name: str, hidden: Path | None = None) -> Lab:
 
 
 def _lab_in(folder: Path) -> Lab:
-    grader = folder.parents[1] / "graders" / f"grade_{folder.name.replace('-', '_')}.py"
+    name = folder.name.replace("-", "_")
+    grader = folder.parents[1] / GRADERS / f"{GRADER}{name}.py"
     return Lab(folder.name, folder, grader)
 
 

@@ -20,7 +20,7 @@ from roslings.course.card import (
     QosContract,
     TopicContract,
 )
-from roslings.course.contract import as_typed
+from roslings.course.contract import NUMBERS_WITHIN, as_typed
 from roslings.course.files import BadCourseFile
 from roslings.course.labs import Lab, all_labs, lab
 
@@ -151,6 +151,8 @@ def _topic_rows(topic: TopicContract) -> Iterable[tuple[str, ...]]:
         yield "text", _text(topic.text)
     for name, value in topic.fields.items():
         yield f"field `{name}`", f"`{as_typed(value)}`"
+    if topic.numbers_within != NUMBERS_WITHIN:
+        yield "its numbers", f"may be off by {topic.numbers_within:g}"
 
 
 def _qos(qos: QosContract) -> str:

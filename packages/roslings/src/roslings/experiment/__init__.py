@@ -11,7 +11,9 @@ from roslings.experiment.measure import (
     measure,
     measuring_process,
 )
-from roslings.experiment.scene import Run, Scene, mending
+from roslings.experiment.running import Run
+from roslings.experiment.scene import Scene
+from roslings.experiment.slips import mending
 from roslings.experiment.unobserved import Unobserved
 from roslings.experiment.walls import NoWall, insist_on_wall
 from roslings.grader import Experiment, experiment, experiments_of

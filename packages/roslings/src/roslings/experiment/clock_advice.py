@@ -72,10 +72,9 @@ def _comes_by_real_time(topic: str, simulated: ExperimentSeen, counted: Experime
     heard = simulated.topics.get(topic)
     span = _span(simulated, heard.messages if heard else ())
     by_real, by_simulated = rate.hz * span.real_s, rate.hz * span.simulated_s
-    return (
-        abs(span.count - by_real) <= max(COUNTS_DIFFER, COUNTS_DIFFER_SHARE * by_real)
-        and abs(span.count - by_simulated) > max(CLEARLY, CLEARLY_SHARE * by_simulated)
-    )  # fmt: skip
+    return abs(span.count - by_real) <= max(COUNTS_DIFFER, COUNTS_DIFFER_SHARE * by_real) and abs(
+        span.count - by_simulated
+    ) > max(CLEARLY, CLEARLY_SHARE * by_simulated)
 
 
 def _publishers(seen: ExperimentSeen, topic: str) -> list[Endpoint]:

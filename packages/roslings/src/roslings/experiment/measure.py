@@ -111,13 +111,22 @@ def measuring_process(lab: str, choices: Choices) -> Iterator[Measuring]:
     with run_folder() as folder, walls.user() as leased:
         user = replace(leased, closed=closed_places()) if leased and not walls.leases else None
         assignment = Assignment(
-            lab=lab, seed=choices.seed, wall=walls.wall, sandbox=walls.sandbox_of(leased),
-            clock=choices.clock, folder=folder, keeps_bags=choices.bags is not None,
-            port=choices.port, hidden=choices.hidden, user=user,
-            builds=None if user else choices.builds, builds_as_kin=choices.builds_as_kin,
-            for_others=choices.for_others, only_soak=choices.only_soak,
+            lab=lab,
+            seed=choices.seed,
+            wall=walls.wall,
+            sandbox=walls.sandbox_of(leased),
+            clock=choices.clock,
+            folder=folder,
+            keeps_bags=choices.bags is not None,
+            port=choices.port,
+            hidden=choices.hidden,
+            user=user,
+            builds=None if user else choices.builds,
+            builds_as_kin=choices.builds_as_kin,
+            for_others=choices.for_others,
+            only_soak=choices.only_soak,
             soak_s=0.0 if choices.port else choices.soak_s,
-        )  # fmt: skip
+        )
         assignment.make_folders()
         with assignment.errors.open("wb") as errors:
             fork = Fork(assignment, walls, errors.fileno())

@@ -35,10 +35,11 @@ from roslings.experiment.middleware import note_a_deaf_node
 from roslings.experiment.packets import Tap, tapped
 from roslings.experiment.preload import load_beforehand
 from roslings.experiment.presence import Absences
-from roslings.experiment.scene import ENDED, Scene
+from roslings.experiment.scene import Scene
 from roslings.experiment.soaking import SOAKING, Soak, soaking
 from roslings.experiment.turns import Turns
 from roslings.experiment.unobserved import Unobserved
+from roslings.experiment.watching import ENDED
 from roslings.grader import Experiment, experiments_of, load_grader
 from roslings.probe import Probe
 from roslings.probe.bag import fresh_folder, write_bag
@@ -97,8 +98,12 @@ def measure_here(assignment: Assignment, package: PackageSeen) -> Evidence:
         paced = carries_pictures(task.card)
         os.environ.update(ros_environment(assignment.wall, paced))
         stage = Stage(installed, assignment, task.card.ends_within_s, timeline, paced)
-        declared = [each for file in task.graders for each in experiments_of(load_grader(file))
-                    if assignment.for_others or not each.unobserved]  # fmt: skip
+        declared = [
+            each
+            for file in task.graders
+            for each in experiments_of(load_grader(file))
+            if assignment.for_others or not each.unobserved
+        ]
         _carry_out(
             stage, [] if assignment.only_soak else declared, evidence, _soak(stage, task.card)
         )
@@ -243,11 +248,12 @@ class Stage:
     ) -> list[ExperimentSeen]:
         """Run an experiment until one run is to be believed; that one comes last."""
         say(f"Watching: {each.about}")
-        return [*self._until_believed(each, number, earlier)]
+        return [*self.runs(each, number, earlier)]
 
-    def _until_believed(
+    def runs(
         self, each: Experiment, number: int, earlier: Sequence[ExperimentSeen]
     ) -> Iterator[ExperimentSeen]:
+        """One run after the other, as they are asked for, until one is to be believed."""
         choice, outlives_s = self.assignment.clock if each.clock == "auto" else "wall", 0.0
         if choice != "wall":
             yield (seen := self.run(each, "sim", number, earlier))
@@ -291,9 +297,15 @@ class Stage:
         ):
             seed, port = self.assignment.seed + number, self.assignment.port
             scene = Scene(
-                arena, probe, seed, self.ends_within_s, port, self.turns, self.timeline,
+                arena,
+                probe,
+                seed,
+                self.ends_within_s,
+                port,
+                self.turns,
+                self.timeline,
                 self.absences,
-            )  # fmt: skip
+            )
             scene.outlives_s = outlives_s
             each.function(scene, *earlier)
         note_an_end(seen)

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from roslings.course import NodeContract
+from roslings.course.contract import as_typed
 
 
 @dataclass(frozen=True)
@@ -26,7 +27,7 @@ class Start:
         values = [
             word
             for name, value in {**self.parameters, **(SIMULATED if simulated else {})}.items()
-            for word in ("-p", f"{name}:={_written(value)}")
+            for word in ("-p", f"{name}:={as_typed(value)}")
         ]
         return ["--ros-args", *rules, *values] if rules or values else []
 
@@ -39,11 +40,6 @@ class Start:
             return []
         space, _, name = self.named.rpartition("/")
         return [f"__node:={name}", f"__ns:={space or '/'}"]
-
-
-def _written(value: bool | int | float | str) -> str:
-    """A value as ROS's command line reads it (YAML)."""
-    return str(value).lower() if isinstance(value, bool) else str(value)
 
 
 SIMULATED = {"use_sim_time": True}

@@ -45,9 +45,17 @@ OF_CONTENT = (None, errno.EINVAL)
 """Numbers of errors that an archive itself makes, not the disk: what bz2 cannot read has none, and
 where an entry is said to begin before the file, there is no such place."""
 BROKEN = (
-    zipfile.BadZipFile, tarfile.TarError, zlib.error, lzma.LZMAError, EOFError, struct.error,
-    NotImplementedError, RuntimeError, ValueError, gzip.BadGzipFile,
-)  # fmt: skip
+    zipfile.BadZipFile,
+    tarfile.TarError,
+    zlib.error,
+    lzma.LZMAError,
+    EOFError,
+    struct.error,
+    NotImplementedError,
+    RuntimeError,
+    ValueError,
+    gzip.BadGzipFile,
+)
 
 
 def is_archive(path: Path) -> bool:
@@ -242,9 +250,10 @@ def zip_names(archive: Path, limits: Limits) -> dict[str, zipfile.ZipInfo]:
     with suppress(*BROKEN, OSError), zipfile.ZipFile(archive) as file:
         named = ((_zip_name(info).replace("\\", "/"), info) for info in file.infolist())
         return {
-            name: info for name, info in named
+            name: info
+            for name, info in named
             if not _is_folder(info) and not any(map(is_clutter, name.split("/")))
-        }  # fmt: skip
+        }
     return {}
 
 

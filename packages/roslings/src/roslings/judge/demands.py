@@ -158,9 +158,12 @@ def stay_up(process: ProcessView) -> None:
     for run in process.runs:
         if run.seen.ended_by_itself:
             raise faults.StoppedByItself(
-                run.seen.executable, run.ran_s, describe_end(run.seen),
-                simulated=run.is_simulated, log=run.last_lines(),
-            )  # fmt: skip
+                run.seen.executable,
+                run.ran_s,
+                describe_end(run.seen),
+                simulated=run.is_simulated,
+                log=run.last_lines(),
+            )
     remark(how_long(process))
 
 
@@ -175,9 +178,11 @@ def outlast_the_soak(process: ProcessView) -> None:
         return
     if soaked.ended_by_itself:
         raise faults.EndedInTheSoak(
-            soaked.executable, lifetime_s(soaked), describe_end(soaked),
+            soaked.executable,
+            lifetime_s(soaked),
+            describe_end(soaked),
             log=tuple(line.text for line in without_interrupt(soaked)),
-        )  # fmt: skip
+        )
     remark(f"{lifetime_s(soaked):.0f} s left alone")
 
 

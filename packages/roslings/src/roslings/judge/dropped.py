@@ -78,17 +78,19 @@ def watched_experiment(seen: ExperimentSeen, looks: Looks) -> ExperimentSeen:
     dropped = {each.kind: each.count for each in seen.dropped}
     missing = {
         name: Missing(f"{dropped[kind]} {NAMES[kind]} of {seen.name!r}", kind == "rosout")
-        for kind, names in WHERE.items() if kind in dropped
+        for kind, names in WHERE.items()
+        if kind in dropped
         for name in names
-    }  # fmt: skip
+    }
     whole = {
         "topics": Topics(
             {name: _watched_topic(each, looks) for name, each in seen.topics.items()},
-            _unheard(dropped.get("topics", 0), seen.name), looks,
+            _unheard(dropped.get("topics", 0), seen.name),
+            looks,
         ),
         "processes": {name: _watched_process(each, looks) for name, each in seen.processes.items()},
         "parts": Parts(seen.parts, _unasked(dropped.get("requests", 0), seen.name), looks),
-    }  # fmt: skip
+    }
     return _telling(seen.model_copy(update=whole), missing, looks)
 
 

@@ -27,6 +27,9 @@ def flood_in(views: Iterable[object]) -> PrintsWithoutEnd | None:
 
 def _fault(seen: ProcessSeen) -> PrintsWithoutEnd:
     return PrintsWithoutEnd(
-        seen.executable, seen.output_lines, seen.output_bytes / 1e6, lifetime_s(seen),
+        seen.executable,
+        seen.output_lines,
+        seen.output_bytes / 1e6,
+        lifetime_s(seen),
         log=tuple(line.text for line in seen.lines[-LAST_LINES:]),
-    )  # fmt: skip
+    )

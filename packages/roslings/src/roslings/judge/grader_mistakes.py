@@ -21,6 +21,7 @@ from ros2_on_pip.errors import INCONCLUSIVE
 from roslings.course import Lab, root
 from roslings.course.files import CourseError
 from roslings.grader import Experiment, experiments_of, load_grader
+from roslings.lab_folders import folder_beside
 
 FRAME = re.compile(r'\s*File "(?P<file>.+)", line (?P<line>\d+)(?:, in (?P<within>.+))?')
 """A line of a traceback, as Python writes it; a syntax error is within nothing."""
@@ -79,8 +80,12 @@ class Mistake:
         what = "The grader broke off" if self.raised else "The grader has a mistake"
         code = linecache.getline(str(self.file), self.line).strip()
         raised = f"  (raised in {self.raised})" if self.raised else ""
-        lines = [f"{what}: {self.place}{within}", f"    {code}" if code else "",
-                 f"{self.words}{raised}", NEXT_STEP]  # fmt: skip
+        lines = [
+            f"{what}: {self.place}{within}",
+            f"    {code}" if code else "",
+            f"{self.words}{raised}",
+            NEXT_STEP,
+        ]
         return "\n".join(filter(None, lines))
 
     @property
@@ -109,8 +114,9 @@ def mistake_of(error: BaseException, graders: Sequence[Path]) -> Mistake | None:
 def mistake_in(text: str, graders: Sequence[Path]) -> Mistake | None:
     """The same of a traceback that another process wrote."""
     lines = text.splitlines()
-    found = [(number, match) for number, line in enumerate(lines)
-             if (match := FRAME.fullmatch(line))]  # fmt: skip
+    found = [
+        (number, match) for number, line in enumerate(lines) if (match := FRAME.fullmatch(line))
+    ]
     if not found:
         return None
     last, _ = found[-1]
@@ -141,8 +147,8 @@ def _innermost(frames: Sequence[_Frame], words: str, graders: Sequence[Path]) ->
 
 def _is_of(file: Path, graders: Sequence[Path]) -> bool:
     """One of them, or what a lab has beside its own: `graders/e_stop/` of `grade_e_stop.py`."""
-    folders = [each.parent / each.stem.removeprefix("grade_") for each in graders]
-    return file in graders or any(file.is_relative_to(folder) for folder in folders)
+    folders = (folder_beside(each).resolve() for each in graders)
+    return file in graders or any(file.resolve().is_relative_to(folder) for folder in folders)
 
 
 def _is_pythons(file: Path) -> bool:
@@ -191,8 +197,9 @@ def asked_for_nothing(grader: Any) -> Iterator[Mistake]:
     for name, function in vars(grader).items():
         if name.startswith("test_") and inspect.isfunction(function):
             asked = inspect.signature(function).parameters
-            yield from (nothing_called(word, function, there) for word in asked
-                        if word not in there)  # fmt: skip
+            yield from (
+                nothing_called(word, function, there) for word in asked if word not in there
+            )
 
 
 def _asks(each: Experiment, name: str, known: Sequence[str]) -> Mistake:

@@ -261,9 +261,10 @@ class ExperimentView(View):
         runs = [each.processes[label] for each in self.before if label in each.processes]
         before = tuple(process for process in runs if process.ending)
         doubted = tuple(
-            (each.processes[label], each) for each in self.doubted
+            (each.processes[label], each)
+            for each in self.doubted
             if label in each.processes and not is_told_in_real_time(label, each, self.seen)
-        )  # fmt: skip
+        )
         seen = self.seen.processes[label]
         return ProcessView(
             seen,
@@ -389,9 +390,11 @@ def views_of(evidence: Evidence) -> dict[str, View]:
 def _soaked(evidence: Evidence) -> dict[str, ProcessSeen]:
     """Without what ended by itself in an experiment as well: checks that look there tell it."""
     told = {
-        each.executable for run in evidence.runs for label, each in run.processes.items()
+        each.executable
+        for run in evidence.runs
+        for label, each in run.processes.items()
         if each.ended_by_itself and not is_outlived(label, run, evidence.experiments[run.name])
-    }  # fmt: skip
+    }
     soaked = evidence.soak.processes if evidence.soak else {}
     return {name: seen for name, seen in soaked.items() if name not in told}
 

@@ -21,6 +21,13 @@ def describe_end(seen: ProcessSeen) -> str:
     return "; ".join([describe_status(seen.status), *met])
 
 
+def how_it_went(seen: ProcessSeen) -> str:
+    """Of a program that has one task: whether it ended, and how."""
+    if seen.ended_by_itself:
+        return f"the program ended ({describe_end(seen)})"
+    return "the program ran on"
+
+
 def describe_status(status: int | None) -> str:
     """A process's status in words: `exit code 1`, or `ended by SIGSEGV`."""
     if status is None:

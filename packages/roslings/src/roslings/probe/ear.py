@@ -86,9 +86,13 @@ class Ear:
 
     def _open(self) -> None:
         self._subscription = self._eye.create_subscription(
-            self._kind, self._topic, self._hear, self._profile, raw=True,
+            self._kind,
+            self._topic,
+            self._hear,
+            self._profile,
+            raw=True,
             event_callbacks=no_ear_events(),
-        )  # fmt: skip
+        )
 
     def _hear(self, raw: bytes, info: Any) -> None:
         if not self._fits(self._profile.depth * len(raw)) and waited_ns(info) > WAITED_NS:

@@ -97,9 +97,12 @@ class Probe:
         self._context = rclpy.Context()
         rclpy.init(context=self._context, domain_id=self._domain_id, signal_handler_options=None)
         self._eye = Node(
-            NAME, context=self._context, enable_rosout=False, start_parameter_services=False,
+            NAME,
+            context=self._context,
+            enable_rosout=False,
+            start_parameter_services=False,
             parameter_overrides=[Parameter("start_type_description_service", value=False)],
-        )  # fmt: skip
+        )
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self._eye)
         self._graph_bytes = MOST_BYTES if self.store.budget.take(MOST_BYTES) else 0
@@ -304,9 +307,13 @@ class Probe:
         self._canaries += 1
         self.seen.canary = CanarySeen(wanted_hz=hz)
         mouth = Endpoint(
-            kind="publisher", node=f"/{canary.NODE}", topic=canary.TOPIC, type=canary.TYPE,
-            qos=Qos(), gid="canary",
-        )  # fmt: skip
+            kind="publisher",
+            node=f"/{canary.NODE}",
+            topic=canary.TOPIC,
+            type=canary.TYPE,
+            qos=Qos(),
+            gid="canary",
+        )
         self._canary = Recorder(self._eye, mouth, self.notify, self.store, queues=self._queues)
         self.seen.canary.messages = self._canary.seen.messages
 
@@ -315,9 +322,11 @@ class Probe:
             from roslings.probe.content import message_class
 
             self._publishers[ear.gid] = self._eye.create_publisher(
-                message_class(ear.type), ear.topic, offering(ear.qos),
+                message_class(ear.type),
+                ear.topic,
+                offering(ear.qos),
                 event_callbacks=no_mouth_events(),
-            )  # fmt: skip
+            )
         return self._publishers[ear.gid]
 
     def _record(self, endpoint: Endpoint) -> None:

@@ -52,9 +52,13 @@ class Recorder:
         self._readers = {} if readers is None else readers
         self._raw: list[bytes] = []
         self._ear = Ear(
-            eye, self._class, endpoint.topic, self._take, _matching_qos(endpoint),
+            eye,
+            self._class,
+            endpoint.topic,
+            self._take,
+            _matching_qos(endpoint),
             queues or Queues(),
-        )  # fmt: skip
+        )
 
     @property
     def count(self) -> int:

@@ -38,8 +38,13 @@ def check50_of(verdict: Verdict) -> dict[str, Any]:
 def refused(refusal: Refusal) -> dict[str, Any]:
     """The file where there is no verdict: check50 names what kept it from running."""
     kind = "Refused" if refusal.is_students else "NotGraded"
-    error = {"type": kind, "value": refusal.text, "traceback": [], "data": {},
-             "actions": {"show_traceback": False, "message": refusal.text}}  # fmt: skip
+    error = {
+        "type": kind,
+        "value": refusal.text,
+        "traceback": [],
+        "data": {},
+        "actions": {"show_traceback": False, "message": refusal.text},
+    }
     return {"slug": f"roslings/{refusal.lab}", "version": __version__, "error": error}
 
 

@@ -36,11 +36,23 @@ def classroom_of(verdict: Verdict) -> dict[str, Any]:
     known = verdict.score is not None
     tests = [_test(check, known) for check in checks]
     if not known:
-        tests = [{"name": "verdict", "status": "error", "score": 0, "max_score": 0,
-                  "message": INCONCLUSIVE}, *tests]  # fmt: skip
+        tests = [
+            {
+                "name": "verdict",
+                "status": "error",
+                "score": 0,
+                "max_score": 0,
+                "message": INCONCLUSIVE,
+            },
+            *tests,
+        ]
     most = sum(check.max_points for check in checks) if known else 0
-    return {"version": VERSION, "status": STATUS[verdict.outcome], "max_score": most,
-            "tests": tests}  # fmt: skip
+    return {
+        "version": VERSION,
+        "status": STATUS[verdict.outcome],
+        "max_score": most,
+        "tests": tests,
+    }
 
 
 def refused(refusal: Refusal) -> dict[str, Any]:
@@ -48,10 +60,12 @@ def refused(refusal: Refusal) -> dict[str, Any]:
     counts = refusal.is_students
     most = WHOLE if counts else 0
     test = {
-        "name": "submission", "status": "fail" if counts else "error", "score": 0,
+        "name": "submission",
+        "status": "fail" if counts else "error",
+        "score": 0,
         "max_score": most,
         "message": refusal.text if counts else f"{NO_GRADE}\n{refusal.text}",
-    }  # fmt: skip
+    }
     return {"version": VERSION, "status": test["status"], "max_score": most, "tests": [test]}
 
 

@@ -75,10 +75,13 @@ def refused(refusal: Refusal) -> dict[str, Any]:
 def _test(check: CheckResult, known: bool) -> dict[str, Any]:
     points = {"score": check.points, "max_score": check.max_points} if known else {}
     words: dict[str, Any] = {
-        "name": harmless(check.title), "number": check.id, **points,
-        "output_format": "md", "visibility": "hidden" if check.hidden else "visible",
+        "name": harmless(check.title),
+        "number": check.id,
+        **points,
+        "output_format": "md",
+        "visibility": "hidden" if check.hidden else "visible",
         "output": markdown_of(check),
-    }  # fmt: skip
+    }
     if check.outcome in STATUS:
         words["status"] = STATUS[check.outcome]
     return words

@@ -26,10 +26,14 @@ def junit_of(verdict: Verdict) -> bytes:
     shown = [check for check in verdict.checks if not check.hidden]
     counts = {word: sum(check.outcome == word for check in shown) for word in ELEMENTS}
     suite = Element(
-        "testsuite", name=f"roslings.{verdict.lab}", tests=str(len(shown)),
-        failures=str(counts["fail"]), errors=str(counts["inconclusive"]),
-        skipped=str(counts["skip"]), time=f"{verdict.seconds.total:.3f}",
-    )  # fmt: skip
+        "testsuite",
+        name=f"roslings.{verdict.lab}",
+        tests=str(len(shown)),
+        failures=str(counts["fail"]),
+        errors=str(counts["inconclusive"]),
+        skipped=str(counts["skip"]),
+        time=f"{verdict.seconds.total:.3f}",
+    )
     if words := held(verdict):
         properties = SubElement(suite, "properties")
         SubElement(properties, "property", name="wall", value=str(verdict.environment.wall))
@@ -43,9 +47,13 @@ def refused(refusal: Refusal) -> bytes:
     """One test case that failed, or an error where the machine is at fault."""
     told = "failure" if refusal.is_students else "error"
     suite = Element(
-        "testsuite", name=f"roslings.{refusal.lab}", tests="1", skipped="0",
-        failures=str(int(told == "failure")), errors=str(int(told == "error")),
-    )  # fmt: skip
+        "testsuite",
+        name=f"roslings.{refusal.lab}",
+        tests="1",
+        skipped="0",
+        failures=str(int(told == "failure")),
+        errors=str(int(told == "error")),
+    )
     case = SubElement(suite, "testcase", classname=f"roslings.{refusal.lab}", name="submission")
     element = SubElement(case, told, message=_plain(refusal.reason), type="Refused")
     element.text = _plain(refusal.text)
@@ -74,9 +82,11 @@ def _add(suite: Element, check: CheckResult, verdict: Verdict) -> None:
 def lines_of(check: CheckResult) -> list[str]:
     """A failure as lines of text."""
     rows = {
-        "expected": check.expected, "measured": check.measured, "why": check.why,
+        "expected": check.expected,
+        "measured": check.measured,
+        "why": check.why,
         "try": check.hint,
-    }  # fmt: skip
+    }
     return [check.title, *(f"{label}: {text}" for label, text in rows.items() if text)]
 
 

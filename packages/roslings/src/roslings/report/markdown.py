@@ -28,8 +28,10 @@ def markdown_of(check: CheckResult) -> str:
     if check.outcome != "fail":
         return escaped(check.why or "")
     rows = {
-        "Expected": check.expected, "Measured": check.measured, "Why": check.why,
+        "Expected": check.expected,
+        "Measured": check.measured,
+        "Why": check.why,
         "Try": check.hint,
-    }  # fmt: skip
+    }
     parts = [f"**{label}:** {escaped(text)}" for label, text in rows.items() if text]
     return "\n\n".join([*parts, *([block("\n".join(check.log))] if check.log else [])])

@@ -17,9 +17,13 @@ def shown_checks(verdict: Verdict) -> tuple[CheckResult, ...]:
 def _together(hidden: tuple[CheckResult, ...]) -> CheckResult:
     outcomes = {check.outcome for check in hidden}
     return CheckResult(
-        id="hidden", title=TOGETHER,
-        outcome="inconclusive" if "inconclusive" in outcomes
-        else "pass" if outcomes == {"pass"} else "fail",
+        id="hidden",
+        title=TOGETHER,
+        outcome="inconclusive"
+        if "inconclusive" in outcomes
+        else "pass"
+        if outcomes == {"pass"}
+        else "fail",
         points=sum(check.points for check in hidden),
         max_points=sum(check.max_points for check in hidden),
-    )  # fmt: skip
+    )

@@ -76,9 +76,7 @@ def build(
     shell = ["bash", "--noprofile", "--norc", "-c", _script(room)]
     namespaces, around = place.wall == "namespace", room.around(place)
     place.give(room.lies)
-    launch = Launch(
-        shell, environment, room.folder, namespaces, sandbox=around, user=place.user
-    )  # fmt: skip
+    launch = Launch(shell, environment, room.folder, namespaces, sandbox=around, user=place.user)
     with Process("colcon", launch) as process:
         meanwhile()
         process.wait_ended_in_own_time(within_s, NEIGHBOURS_MOST * within_s)

@@ -402,8 +402,12 @@ def _file_on_the_way(path: Path) -> Path:
 
 def without_places(text: str, places: Iterable[Path]) -> str:
     """A text for somebody else: these folders of this machine are `submission` in it."""
-    names = {name for place in places for path in (place, place.resolve())
-             for name in (str(path), shown(path))}  # fmt: skip
+    names = {
+        name
+        for place in places
+        for path in (place, place.resolve())
+        for name in (str(path), shown(path))
+    }
     for name in sorted(names, key=len, reverse=True):
         text = text.replace(name, "submission")
     return text

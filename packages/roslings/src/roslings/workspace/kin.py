@@ -98,9 +98,12 @@ def install_like(eldest: Path, own: Path, package: Path) -> None:
     Both folders have names of equal length, which stand in scripts. Raises OSError, shutil.Error.
     """
     shutil.copytree(
-        eldest / "install", own / "install", symlinks=True,
-        ignore=shutil.ignore_patterns(BYTECODE), copy_function=_moved(eldest, own),
-    )  # fmt: skip
+        eldest / "install",
+        own / "install",
+        symlinks=True,
+        ignore=shutil.ignore_patterns(BYTECODE),
+        copy_function=_moved(eldest, own),
+    )
     for installed in own.glob(f"install/{package.name}/{PACKAGES}/{package.name}"):
         for name in modules_of(package):
             shutil.copyfile(package / name, installed / name.name)

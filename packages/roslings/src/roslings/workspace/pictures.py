@@ -72,5 +72,9 @@ def _look(path: Path, name: str) -> PictureSeen:
             if time.process_time() > until_s:
                 raise PictureTooSlow(path, path.stat().st_size, LONGEST_S)
     return PictureSeen(
-        path=name, format="PNG", width=header.width, height=header.height, colours=colours,
-    )  # fmt: skip
+        path=name,
+        format="PNG",
+        width=header.width,
+        height=header.height,
+        colours=colours,
+    )

@@ -111,9 +111,11 @@ def _build_in(
         seen.filled_its_disk |= isinstance(error, NoRoom) and error.by_itself
         return seen, installed
     built = Built(
-        seen=seen, programs=installed.programs, environment=installed.environment,
+        seen=seen,
+        programs=installed.programs,
+        environment=installed.environment,
         folder=installed.folder,
-    )  # fmt: skip
+    )
     _kept(shared).write_text(built.model_dump_json(), "utf-8")
     return seen, installed
 

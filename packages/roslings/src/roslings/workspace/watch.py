@@ -20,20 +20,25 @@ LOOK_AGAIN_MS = 100
 """How long a key waits at most."""
 _ENDINGS = "py|xml|cfg|yaml|yml|txt|md|sh|json|msg|srv|action|launch"
 _EDITORS = re.compile(
-    "|".join((
-        r"^\.",  # hidden: Vim's swap files, gedit's and nano's new ones, Emacs's locks
-        r"~$", r"^#.*#$", r"\.py[co]$",
-        r"\.(tmp|temp|swp|swo|swx|bak|bck|old|orig|rej|part|lock)$",
-        r"\.(tmp|temp)[.\d-]",
-        r"^4913$",  # Vim's test of whether it may write
-        r"___jb_(tmp|old)___$",  # PyCharm
-        r"\.kate-swp$", rf"\.({_ENDINGS})\.[A-Za-z0-9]{{6}}$",  # Kate, and all that Qt saves
-        r"\.sb-[0-9a-f]+-\w+$",  # macOS
-        r"^(flycheck|flymake)_|_(flycheck|flymake)\.\w+$",  # Emacs
-        r"^sed[A-Za-z0-9]{6}$",  # sed -i
-        r"\.yours\d*$",  # ours: what a drill was before it was begun again
-    ))
-)  # fmt: skip
+    "|".join(
+        (
+            r"^\.",  # hidden: Vim's swap files, gedit's and nano's new ones, Emacs's locks
+            r"~$",
+            r"^#.*#$",
+            r"\.py[co]$",
+            r"\.(tmp|temp|swp|swo|swx|bak|bck|old|orig|rej|part|lock)$",
+            r"\.(tmp|temp)[.\d-]",
+            r"^4913$",  # Vim's test of whether it may write
+            r"___jb_(tmp|old)___$",  # PyCharm
+            r"\.kate-swp$",
+            rf"\.({_ENDINGS})\.[A-Za-z0-9]{{6}}$",  # Kate, and all that Qt saves
+            r"\.sb-[0-9a-f]+-\w+$",  # macOS
+            r"^(flycheck|flymake)_|_(flycheck|flymake)\.\w+$",  # Emacs
+            r"^sed[A-Za-z0-9]{6}$",  # sed -i
+            r"\.yours\d*$",  # ours: what a drill was before it was begun again
+        )
+    )
+)
 """Files that an editor makes for itself."""
 
 

@@ -42,13 +42,16 @@ from roslings.judge import ExperimentView, Inconclusive, NothingToJudge
 LOUD = ArgumentContract(name="loud", about="", default="false", tried="true", sets="it.loud")
 FILE = ArgumentContract(name="file", about="", default="config/all.yaml", tried="another")
 TWO = LaunchContract(
-    file="launch/two.launch.py", starts=("it",), respawns=("it",), respawns_within_s=2.0,
+    file="launch/two.launch.py",
+    starts=("it",),
+    respawns=("it",),
+    respawns_within_s=2.0,
     arguments=(FILE, LOUD),
     namespaces=(
         NamespaceContract(namespace="/left", values={"it.size": 10}),
         NamespaceContract(namespace="/right", only_with="right", values={"it.size": 20}),
     ),
-)  # fmt: skip
+)
 IT = NodeContract(node="/it", executable="it")
 
 
@@ -67,19 +70,25 @@ def view(*nodes: str, ends: tuple[Endpoint, ...] = (), **more: Any) -> Experimen
     """What is seen of a launch with these nodes in the graph."""
     fields: dict[str, Any] = {"status": None, "launch": LaunchSeen(), "read": {}, **more}
     process = ProcessSeen(
-        executable=f"{LABEL} two two.launch.py", started_ns=0, status=fields["status"],
-        ended_by_itself=fields["status"] is not None, ending=fields.get("ending"),
+        executable=f"{LABEL} two two.launch.py",
+        started_ns=0,
+        status=fields["status"],
+        ended_by_itself=fields["status"] is not None,
+        ending=fields.get("ending"),
         left_behind=fields.get("left", 0),
-        lines=[LogLine(arrival_ns=1, text=line, source="terminal")
-               for line in fields.get("lines", ())],
-    )  # fmt: skip
+        lines=[
+            LogLine(arrival_ns=1, text=line, source="terminal") for line in fields.get("lines", ())
+        ],
+    )
     read = [ParametersRead(node=name, values=values) for name, values in fields["read"].items()]
     seen = ExperimentSeen(
-        name="launch", clock="wall", processes={LABEL: process},
+        name="launch",
+        clock="wall",
+        processes={LABEL: process},
         graph=GraphSeen(nodes=[*dict.fromkeys((*nodes, *fields["read"]))], endpoints=[*ends]),
         held_up=fields.get("held_up", {}),
         parts={"launch": fields["launch"], "parameters": ParametersSeen(read=read)},
-    )  # fmt: skip
+    )
     return ExperimentView(seen)
 
 
@@ -186,10 +195,16 @@ def test_what_an_argument_leaves_out() -> None:
 
 
 SHOWN = (
-    "Arguments (pass arguments as '<name>:=<value>'):", "",
-    "    'file':", "        the file", "        (default: '/ws/share/two/config/all.yaml')", "",
-    "    'loud':", "        no description given", "        (default: 'False')",
-)  # fmt: skip
+    "Arguments (pass arguments as '<name>:=<value>'):",
+    "",
+    "    'file':",
+    "        the file",
+    "        (default: '/ws/share/two/config/all.yaml')",
+    "",
+    "    'loud':",
+    "        no description given",
+    "        (default: 'False')",
+)
 
 
 def test_the_arguments_are_shown_with_their_defaults() -> None:

@@ -15,10 +15,12 @@ from roslings.judge import ExperimentView, Inconclusive
 def launched(status: int | None, *nodes: str, said: str = "") -> ExperimentView:
     """A launch of two nodes."""
     process = ProcessSeen(
-        executable=f"{LABEL} rover two.launch.xml", started_ns=0, status=status,
+        executable=f"{LABEL} rover two.launch.xml",
+        started_ns=0,
+        status=status,
         ended_by_itself=status is not None,
         lines=[LogLine(arrival_ns=1, text=said, source="terminal")],
-    )  # fmt: skip
+    )
     seen = ExperimentSeen(
         name="launch",
         clock="wall",

@@ -28,15 +28,23 @@ FILES = {
 """The sections of a file, in their order. All say the opposite of what the command says."""
 
 WINS = {
-    ("-p", "for all"): True, ("-p", "for all, then for one"): False,
-    ("-p", "for one"): True, ("-p", "for one, then for all"): True,
-    ("no name", "for all"): True, ("no name", "for all, then for one"): False,
-    ("no name", "for one"): True, ("no name", "for one, then for all"): True,
-    ("both names", "for all"): True, ("both names", "for all, then for one"): True,
-    ("both names", "for one"): True, ("both names", "for one, then for all"): False,
-    ("pushed", "for all"): True, ("pushed", "for all, then for one"): True,
-    ("pushed", "for one"): True, ("pushed", "for one, then for all"): False,
-}  # fmt: skip
+    ("-p", "for all"): True,
+    ("-p", "for all, then for one"): False,
+    ("-p", "for one"): True,
+    ("-p", "for one, then for all"): True,
+    ("no name", "for all"): True,
+    ("no name", "for all, then for one"): False,
+    ("no name", "for one"): True,
+    ("no name", "for one, then for all"): True,
+    ("both names", "for all"): True,
+    ("both names", "for all, then for one"): True,
+    ("both names", "for one"): True,
+    ("both names", "for one, then for all"): False,
+    ("pushed", "for all"): True,
+    ("pushed", "for all, then for one"): True,
+    ("pushed", "for one"): True,
+    ("pushed", "for one, then for all"): False,
+}
 """How the command says it, and which file it is held against. A section that comes again keeps its
 first place: so a name wins over a file that begins with what holds for all, and only there."""
 

@@ -42,34 +42,43 @@ def contract(name: str, type_: str, default: Any, **more: Any) -> ParameterContr
 
 
 NODE = NodeContract(
-    node="/it", executable="it", subscribes=(HEARD,), publishes=(SAID,),
+    node="/it",
+    executable="it",
+    subscribes=(HEARD,),
+    publishes=(SAID,),
     parameters=(
         contract("high", "double", 5.0, least=1.0, most=9.0),
         contract("low", "double", 2.0, not_above="high"),
         contract("name", "string", "it", read_only=True),
         contract("beat", "integer", 10, least=1, most=50),
     ),
-)  # fmt: skip
+)
 BEFORE = {"high": 5.0, "low": 2.0, "name": "it", "beat": 10}
 
 
 def trial(accepted: bool, asked: dict[str, Any], at_ns: int = 10, **more: Any) -> ParameterTrial:
     """A request, after which the node says what a right one would say."""
     fields = {
-        "part": "p", "node": "/it", "together": len(asked) > 1, "asked_ns": at_ns,
-        "answered_ns": at_ns + 1, "before": BEFORE,
+        "part": "p",
+        "node": "/it",
+        "together": len(asked) > 1,
+        "asked_ns": at_ns,
+        "answered_ns": at_ns + 1,
+        "before": BEFORE,
         "after": {**BEFORE, **asked} if accepted else BEFORE,
-    }  # fmt: skip
+    }
     return ParameterTrial(asked=asked, accepted=accepted, **{**fields, **more})
 
 
 def view(*trials: ParameterTrial, ended: bool = False, **more: Any) -> ExperimentView:
     """An experiment that tried these."""
     seen = ExperimentSeen(
-        name="x", clock="wall",
+        name="x",
+        clock="wall",
         processes={"it": ProcessSeen(executable="it", started_ns=0, ended_by_itself=ended)},
-        parts={"parameters": ParametersSeen(trials=list(trials))}, **more,
-    )  # fmt: skip
+        parts={"parameters": ParametersSeen(trials=list(trials))},
+        **more,
+    )
     return ExperimentView(seen)
 
 
@@ -155,9 +164,13 @@ def test_no_answer_is_a_fault_of_its_own() -> None:
 def spoken(at_ns: int) -> Spoken:
     """A seven, said to the node."""
     return Spoken(
-        topic="/in", type=HEARD.type, content={"data": 7.0}, sent_ns=at_ns, matched=True,
+        topic="/in",
+        type=HEARD.type,
+        content={"data": 7.0},
+        sent_ns=at_ns,
+        matched=True,
         offered=Qos(),
-    )  # fmt: skip
+    )
 
 
 def message(at_ns: int, data: float = 0.0) -> MessageSeen:

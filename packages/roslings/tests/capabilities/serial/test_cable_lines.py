@@ -12,10 +12,26 @@ from roslings_rover.models.board_lines import framed
 
 GOOD = framed("W,232,4660,-2618,2618").decode().rstrip("\n")
 TEXTS = (
-    "", "*", "$*", "$*0000", "$", GOOD, GOOD[:-1], GOOD[:-4], f"{GOOD[:-4]}\n", f"{GOOD[:-4]}\n\n",
-    GOOD.lower(), f"{GOOD}\n", GOOD[1:], f"x{GOOD}", "noise \xe4*", "$\xe4*0000", "a*b*",
-    "\n", "*\n*",
-)  # fmt: skip
+    "",
+    "*",
+    "$*",
+    "$*0000",
+    "$",
+    GOOD,
+    GOOD[:-1],
+    GOOD[:-4],
+    f"{GOOD[:-4]}\n",
+    f"{GOOD[:-4]}\n\n",
+    GOOD.lower(),
+    f"{GOOD}\n",
+    GOOD[1:],
+    f"x{GOOD}",
+    "noise \xe4*",
+    "$\xe4*0000",
+    "a*b*",
+    "\n",
+    "*\n*",
+)
 
 
 @pytest.mark.parametrize("text", TEXTS)

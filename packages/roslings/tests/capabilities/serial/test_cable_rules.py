@@ -86,9 +86,15 @@ def test_a_way_is_told_in_words() -> None:
 def mark(part: str, board_s: float = 1.0, pwm: tuple[int, int] = (0, 0)) -> BoardMark:
     """How things stood at a moment; the rover is where it began."""
     return BoardMark(
-        part=part, arrival_ns=0, board_s=board_s, x_m=0, y_m=0, heading_rad=0,
-        left_pwm=pwm[0], right_pwm=pwm[1],
-    )  # fmt: skip
+        part=part,
+        arrival_ns=0,
+        board_s=board_s,
+        x_m=0,
+        y_m=0,
+        heading_rad=0,
+        left_pwm=pwm[0],
+        right_pwm=pwm[1],
+    )
 
 
 def seen(board: BoardSeen) -> ExperimentView:
@@ -172,9 +178,15 @@ def say_the_motion(
         source_ns=None, sequence=1, arrival_ns=390 * MS, size=1, content={"twist": {"twist": twist}}
     )
     mark = BoardMark(
-        part="arc", arrival_ns=400 * MS, board_s=0.4, x_m=0.0, y_m=0.0, heading_rad=0.0,
-        left_pwm=0, right_pwm=0,
-    )  # fmt: skip
+        part="arc",
+        arrival_ns=400 * MS,
+        board_s=0.4,
+        x_m=0.0,
+        y_m=0.0,
+        heading_rad=0.0,
+        left_pwm=0,
+        right_pwm=0,
+    )
     board = BoardSeen(told=told, marks=[mark])
     seen = seen_with(name="x", clock="wall", board=board, stall_s=stall_s)
     topic = TopicSeen(name="/odom", type=TOPIC.type, messages=[message])

@@ -29,15 +29,32 @@ from ros2_on_pip.problem import Problem, did_you_mean
 
 CONDITIONS = {"if": IfCondition, "unless": UnlessCondition}
 PROCESS = (
-    "name", "output", "cwd", "launch_prefix", "emulate_tty", "shell", "respawn", "respawn_delay",
-    "respawn_max_retries", "sigterm_timeout", "sigkill_timeout", "on_exit",
-)  # fmt: skip
+    "name",
+    "output",
+    "cwd",
+    "launch_prefix",
+    "emulate_tty",
+    "shell",
+    "respawn",
+    "respawn_delay",
+    "respawn_max_retries",
+    "sigterm_timeout",
+    "sigkill_timeout",
+    "on_exit",
+)
 VALUE = ("name", "value", "type", "value_sep")
 NODE = (*PROCESS, "pkg", "exec", "exec_name", "namespace", "args", "ros_args")
 TYPES: dict[str, Any] = {
-    "bool": bool, "int": int, "float": float, "str": str, "list_of_bool": list[bool],
-    "list_of_int": list[int], "list_of_float": list[float], "list_of_str": list[str], "yaml": None,
-}  # fmt: skip
+    "bool": bool,
+    "int": int,
+    "float": float,
+    "str": str,
+    "list_of_bool": list[bool],
+    "list_of_int": list[int],
+    "list_of_float": list[float],
+    "list_of_str": list[str],
+    "yaml": None,
+}
 
 
 def description_of(file: Path, kind: str) -> LaunchDescription:
@@ -60,9 +77,10 @@ def built(element: Element) -> Entity:
     if element.tag not in TAGS:
         known = sorted(TAGS)
         raise BadLaunchFile(
-            element.place, f"there is no '{element.tag}'.{did_you_mean(element.tag, known)}"
+            element.place,
+            f"there is no '{element.tag}'.{did_you_mean(element.tag, known)}"
             f" Known: {', '.join(known)}.",
-        )  # fmt: skip
+        )
     return _placed(element, TAGS[element.tag])
 
 
@@ -182,10 +200,12 @@ def _arg(reader: Reader) -> Entity:
     listed = reader.parts("choice", "value")
     choices = [str(choice.element.attributes.get("value")) for choice in listed]
     return actions.DeclareLaunchArgument(
-        str(given.get("name") or reader.text("name")), default_value=default,
-        description=str(given.get("description", "")), choices=choices or None,
+        str(given.get("name") or reader.text("name")),
+        default_value=default,
+        description=str(given.get("description", "")),
+        choices=choices or None,
         condition=reader.condition(),
-    )  # fmt: skip
+    )
 
 
 def _let(reader: Reader) -> Entity:
@@ -211,9 +231,12 @@ def _set_env(reader: Reader) -> Entity:
 def _append_env(reader: Reader) -> Entity:
     reader.only("name", "value", "prepend", "separator")
     return actions.AppendEnvironmentVariable(
-        reader.text("name"), reader.text("value"), prepend=reader.optional("prepend") or False,
-        separator=reader.optional("separator") or ":", condition=reader.condition(),
-    )  # fmt: skip
+        reader.text("name"),
+        reader.text("value"),
+        prepend=reader.optional("prepend") or False,
+        separator=reader.optional("separator") or ":",
+        condition=reader.condition(),
+    )
 
 
 def _unset_env(reader: Reader) -> Entity:
@@ -234,9 +257,11 @@ def _group(reader: Reader) -> Entity:
     kept = {tuple(name): value for name, value in reader.pairs("keep", "name", "value")}
     return actions.GroupAction(
         [built(child) for child in inner],
-        scoped=_switch(reader, "scoped"), forwarding=_switch(reader, "forwarding"),
-        launch_configurations=kept, condition=reader.condition(),
-    )  # fmt: skip
+        scoped=_switch(reader, "scoped"),
+        forwarding=_switch(reader, "forwarding"),
+        launch_configurations=kept,
+        condition=reader.condition(),
+    )
 
 
 def _switch(reader: Reader, name: str) -> bool:
@@ -257,9 +282,10 @@ def _include(reader: Reader) -> Entity:
 def _timer(reader: Reader) -> Entity:
     reader.only("period", parts=[child.tag for child in reader.element.children])
     return actions.TimerAction(
-        period=reader.text("period"), actions=built_in(reader.element),
+        period=reader.text("period"),
+        actions=built_in(reader.element),
         condition=reader.condition(),
-    )  # fmt: skip
+    )
 
 
 def _shutdown(reader: Reader) -> Entity:
@@ -296,12 +322,17 @@ def _set_use_sim_time(reader: Reader) -> Entity:
 def _node(reader: Reader) -> Entity:
     reader.only(*NODE, parts=["env", "param", "remap"])
     return Node(
-        package=reader.optional("pkg"), executable=reader.text("exec"),
-        name=reader.optional("name"), exec_name=reader.optional("exec_name"),
-        namespace=reader.optional("namespace"), arguments=reader.words("args"),
-        ros_arguments=reader.words("ros_args"), parameters=_parameters(reader),
-        remappings=reader.pairs("remap", "from", "to"), **_process(reader),
-    )  # fmt: skip
+        package=reader.optional("pkg"),
+        executable=reader.text("exec"),
+        name=reader.optional("name"),
+        exec_name=reader.optional("exec_name"),
+        namespace=reader.optional("namespace"),
+        arguments=reader.words("args"),
+        ros_arguments=reader.words("ros_args"),
+        parameters=_parameters(reader),
+        remappings=reader.pairs("remap", "from", "to"),
+        **_process(reader),
+    )
 
 
 def _executable(reader: Reader) -> Entity:

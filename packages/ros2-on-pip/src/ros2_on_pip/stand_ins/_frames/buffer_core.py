@@ -83,9 +83,13 @@ class BufferCore:
         return stamped(motion, target_frame, source_frame, at_ns)
 
     def lookup_transform_full_core(
-        self, target_frame: str, target_time: Any, source_frame: str, source_time: Any,
+        self,
+        target_frame: str,
+        target_time: Any,
+        source_frame: str,
+        source_time: Any,
         fixed_frame: str,
-    ) -> Any:  # fmt: skip
+    ) -> Any:
         """Where the source lay at its time, in the target at its own: the fixed frame joins them.
 
         Raises a TransformException, and TypeError where a time is none.
@@ -112,9 +116,13 @@ class BufferCore:
         return not lack, lack
 
     def can_transform_full_core(
-        self, target_frame: str, target_time: Any, source_frame: str, source_time: Any,
+        self,
+        target_frame: str,
+        target_time: Any,
+        source_frame: str,
+        source_time: Any,
         fixed_frame: str,
-    ) -> tuple[bool, str]:  # fmt: skip
+    ) -> tuple[bool, str]:
         """Whether it can be looked up, and why not."""
         then_ns, now_ns = time_ns_of(source_time), time_ns_of(target_time)
         with self._lock:
@@ -195,9 +203,13 @@ class BufferCore:
             return frame_id in self._tree.names
 
     def _chain(
-        self, target_frame: str, target_time: Any, source_frame: str, source_time: Any,
+        self,
+        target_frame: str,
+        target_time: Any,
+        source_frame: str,
+        source_time: Any,
         fixed_frame: str,
-    ) -> list[str]:  # fmt: skip
+    ) -> list[str]:
         """The frames on the way from the source by the fixed frame to the target."""
         then_ns, now_ns = time_ns_of(source_time), time_ns_of(target_time)
         with self._lock:

@@ -61,9 +61,11 @@ def _three_axes(rows: Matrix, i: int, j: int, k: int) -> Angles:
     middle = math.atan2(rows[i][k], cosine)
     first = math.atan2(-rows[j][k], rows[k][k]) if cosine > LOCKED else 0.0
     c, s = math.cos(first), math.sin(first)
-    return first, middle, math.atan2(
-        c * rows[j][i] + s * rows[k][i], c * rows[j][j] + s * rows[k][j]
-    )  # fmt: skip
+    return (
+        first,
+        middle,
+        math.atan2(c * rows[j][i] + s * rows[k][i], c * rows[j][j] + s * rows[k][j]),
+    )
 
 
 def _proper(rows: Matrix, i: int, j: int, k: int) -> Angles:
@@ -72,9 +74,11 @@ def _proper(rows: Matrix, i: int, j: int, k: int) -> Angles:
     middle = math.atan2(sine, rows[i][i])
     first = math.atan2(rows[j][i], -rows[k][i]) if sine > LOCKED else 0.0
     c, s = math.cos(first), math.sin(first)
-    return first, middle, math.atan2(
-        -c * rows[j][k] - s * rows[k][k], c * rows[j][j] + s * rows[k][j]
-    )  # fmt: skip
+    return (
+        first,
+        middle,
+        math.atan2(-c * rows[j][k] - s * rows[k][k], c * rows[j][j] + s * rows[k][j]),
+    )
 
 
 def _rotating(axes: str, angles: Angles) -> tuple[tuple[int, ...], Angles]:

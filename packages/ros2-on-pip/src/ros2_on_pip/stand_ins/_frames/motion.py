@@ -101,9 +101,14 @@ def slerp(a: Quaternion, b: Quaternion, part: float) -> Quaternion:
     sign = 1.0 if cosine >= 0.0 else -1.0  # q and -q are the same rotation
     of_a, of_b = _weights(min(abs(cosine), 1.0), part)
     of_b *= sign
-    return normalized((
-        ax * of_a + bx * of_b, ay * of_a + by * of_b, az * of_a + bz * of_b, aw * of_a + bw * of_b,
-    ))  # fmt: skip
+    return normalized(
+        (
+            ax * of_a + bx * of_b,
+            ay * of_a + by * of_b,
+            az * of_a + bz * of_b,
+            aw * of_a + bw * of_b,
+        )
+    )
 
 
 def _weights(cosine: float, part: float) -> tuple[float, float]:

@@ -131,11 +131,13 @@ class SequentialReader:
         """The texts of its types."""
         return [
             MessageDefinition(
-                name, ENCODINGS.get(each.msgdef.format.name, "unknown"), each.msgdef.data,
+                name,
+                ENCODINGS.get(each.msgdef.format.name, "unknown"),
+                each.msgdef.data,
                 each.digest,
             )
             for name, each in self._require().definitions.items()
-        ]  # fmt: skip
+        ]
 
     def _require(self) -> BagReader:
         if self._bag is None:

@@ -228,10 +228,13 @@ def to_bag(found: BagMetadata) -> bag.Metadata:
             bag.File(name, spans.get(name, bag.Span())) for name in found.relative_file_paths
         ),
         span=_span(found.message_count, found.starting_time, found.duration.nanoseconds),
-        compression_format=found.compression_format, compression_mode=found.compression_mode,
-        custom=found.custom_data, distro=found.ros_distro, version=found.version,
+        compression_format=found.compression_format,
+        compression_mode=found.compression_mode,
+        custom=found.custom_data,
+        distro=found.ros_distro,
+        version=found.version,
         size=found.bag_size,
-    )  # fmt: skip
+    )
 
 
 def _file_span(file: FileInformation) -> bag.Span:

@@ -20,8 +20,8 @@ def _how_to_get_it() -> str:
         return "To get it, type once: sudo apt install ros-jazzy-tf2-msgs"
     if (Path(sys.prefix).parent / "roslings").is_file():
         return (
-            "No wheel brings it, so it is compiled once. In the roslings folder type:"
-            " ./roslings rover --tf"
+            "No wheel brings it, but the course does. In the roslings folder type once:"
+            " ./roslings ready rover --tf"
         )
     return "No wheel brings it: build the package tf2_msgs of geometry2 with colcon, and source it"
 

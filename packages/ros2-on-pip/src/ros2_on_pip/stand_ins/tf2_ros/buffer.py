@@ -76,9 +76,14 @@ class Buffer(BufferCore, BufferInterface):
         return self.lookup_transform_core(target_frame, source_frame, time)
 
     def lookup_transform_full(
-        self, target_frame: str, target_time: Any, source_frame: str, source_time: Any,
-        fixed_frame: str, timeout: Any = NO_WAIT,
-    ) -> Any:  # fmt: skip
+        self,
+        target_frame: str,
+        target_time: Any,
+        source_frame: str,
+        source_time: Any,
+        fixed_frame: str,
+        timeout: Any = NO_WAIT,
+    ) -> Any:
         """The same, from one time to another: `fixed_frame` does not move between them.
 
         Raises a TransformException, and TypeError where a time is none.
@@ -93,18 +98,26 @@ class Buffer(BufferCore, BufferInterface):
         return self.lookup_transform_core(target_frame, source_frame, time)
 
     async def lookup_transform_full_async(
-        self, target_frame: str, target_time: Any, source_frame: str, source_time: Any,
+        self,
+        target_frame: str,
+        target_time: Any,
+        source_frame: str,
+        source_time: Any,
         fixed_frame: str,
-    ) -> Any:  # fmt: skip
+    ) -> Any:
         """The same, from one time to another. Raises a TransformException."""
         asked = target_frame, target_time, source_frame, source_time, fixed_frame
         await self.wait_for_transform_full_async(*asked)
         return self.lookup_transform_full_core(*asked)
 
     def can_transform(
-        self, target_frame: str, source_frame: str, time: Any, timeout: Any = NO_WAIT,
+        self,
+        target_frame: str,
+        source_frame: str,
+        time: Any,
+        timeout: Any = NO_WAIT,
         return_debug_tuple: bool = False,
-    ) -> Any:  # fmt: skip
+    ) -> Any:
         """Whether it can be looked up, at the latest after `timeout`; why not, if asked for."""
         found = self._asked(
             lambda: self.can_transform_core(target_frame, source_frame, time), timeout
@@ -112,9 +125,15 @@ class Buffer(BufferCore, BufferInterface):
         return found if return_debug_tuple else found[0]
 
     def can_transform_full(
-        self, target_frame: str, target_time: Any, source_frame: str, source_time: Any,
-        fixed_frame: str, timeout: Any = NO_WAIT, return_debug_tuple: bool = False,
-    ) -> Any:  # fmt: skip
+        self,
+        target_frame: str,
+        target_time: Any,
+        source_frame: str,
+        source_time: Any,
+        fixed_frame: str,
+        timeout: Any = NO_WAIT,
+        return_debug_tuple: bool = False,
+    ) -> Any:
         """Whether it can be looked up, at the latest after `timeout`; why not, if asked for."""
         asked = target_frame, target_time, source_frame, source_time, fixed_frame
         found = self._asked(lambda: self.can_transform_full_core(*asked), timeout)
@@ -136,9 +155,13 @@ class Buffer(BufferCore, BufferInterface):
         )
 
     def wait_for_transform_full_async(
-        self, target_frame: str, target_time: Any, source_frame: str, source_time: Any,
+        self,
+        target_frame: str,
+        target_time: Any,
+        source_frame: str,
+        source_time: Any,
         fixed_frame: str,
-    ) -> Future:  # fmt: skip
+    ) -> Future:
         """A future of the transform from one time to another."""
         asked = target_frame, target_time, source_frame, source_time, fixed_frame
         return self._promised(

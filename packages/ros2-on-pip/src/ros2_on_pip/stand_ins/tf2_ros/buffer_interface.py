@@ -49,9 +49,14 @@ class BufferInterface:
         return _as_type(move(object_stamped, found), new_type)
 
     def transform_full(
-        self, object_stamped: Any, target_frame: str, target_time: Any, fixed_frame: str,
-        timeout: Any = NO_WAIT, new_type: Any = None,
-    ) -> Any:  # fmt: skip
+        self,
+        object_stamped: Any,
+        target_frame: str,
+        target_time: Any,
+        fixed_frame: str,
+        timeout: Any = NO_WAIT,
+        new_type: Any = None,
+    ) -> Any:
         """The same, in the target frame at another time; `fixed_frame` does not move between."""
         move = self.registration.get(type(object_stamped))
         header = object_stamped.header
@@ -67,9 +72,14 @@ class BufferInterface:
         raise NotImplementedException
 
     def lookup_transform_full(
-        self, target_frame: str, target_time: Any, source_frame: str, source_time: Any,
-        fixed_frame: str, timeout: Any = NO_WAIT,
-    ) -> Any:  # fmt: skip
+        self,
+        target_frame: str,
+        target_time: Any,
+        source_frame: str,
+        source_time: Any,
+        fixed_frame: str,
+        timeout: Any = NO_WAIT,
+    ) -> Any:
         """A subclass does it."""
         raise NotImplementedException
 
@@ -80,9 +90,14 @@ class BufferInterface:
         raise NotImplementedException
 
     def can_transform_full(
-        self, target_frame: str, target_time: Any, source_frame: str, source_time: Any,
-        fixed_frame: str, timeout: Any = NO_WAIT,
-    ) -> Any:  # fmt: skip
+        self,
+        target_frame: str,
+        target_time: Any,
+        source_frame: str,
+        source_time: Any,
+        fixed_frame: str,
+        timeout: Any = NO_WAIT,
+    ) -> Any:
         """A subclass does it."""
         raise NotImplementedException
 

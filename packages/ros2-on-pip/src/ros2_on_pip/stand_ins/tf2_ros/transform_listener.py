@@ -28,21 +28,32 @@ class TransformListener:
     """
 
     def __init__(
-        self, buffer: Any, node: Any, *, spin_thread: bool = False, qos: Any = None,
+        self,
+        buffer: Any,
+        node: Any,
+        *,
+        spin_thread: bool = False,
+        qos: Any = None,
         static_qos: Any = None,
-    ) -> None:  # fmt: skip
+    ) -> None:
         """Raises ImportError without tf2_msgs."""
         message = tf_message()
         self.buffer, self.node = buffer, node
         self.group = ReentrantCallbackGroup()
         self.tf_sub = node.create_subscription(
-            message, TF_TOPIC, self.callback, DEPTH if qos is None else qos,
+            message,
+            TF_TOPIC,
+            self.callback,
+            DEPTH if qos is None else qos,
             callback_group=self.group,
-        )  # fmt: skip
+        )
         self.tf_static_sub = node.create_subscription(
-            message, TF_STATIC_TOPIC, self.static_callback,
-            KEPT if static_qos is None else static_qos, callback_group=self.group,
-        )  # fmt: skip
+            message,
+            TF_STATIC_TOPIC,
+            self.static_callback,
+            KEPT if static_qos is None else static_qos,
+            callback_group=self.group,
+        )
         if spin_thread:
             self._spin_alone()
 

@@ -198,12 +198,24 @@ def _row(numbers: Sequence[float]) -> Vector:
 
 
 _ABSENT = (
-    "Arcball", "arcball_constrain_to_axis", "arcball_map_to_sphere", "arcball_nearest_axis",
-    "clip_matrix", "decompose_matrix", "orthogonalization_matrix", "projection_from_matrix",
-    "projection_matrix", "reflection_from_matrix", "reflection_matrix", "rotation_from_matrix",
-    "scale_from_matrix", "scale_matrix", "shear_from_matrix", "shear_matrix",
+    "Arcball",
+    "arcball_constrain_to_axis",
+    "arcball_map_to_sphere",
+    "arcball_nearest_axis",
+    "clip_matrix",
+    "decompose_matrix",
+    "orthogonalization_matrix",
+    "projection_from_matrix",
+    "projection_matrix",
+    "reflection_from_matrix",
+    "reflection_matrix",
+    "rotation_from_matrix",
+    "scale_from_matrix",
+    "scale_matrix",
+    "shear_from_matrix",
+    "shear_matrix",
     "superimposition_matrix",
-)  # fmt: skip
+)
 """What the real package has beside: scale, shear, mirrors and perspective move no frame."""
 
 

@@ -25,10 +25,22 @@ def add_options(word: argparse.ArgumentParser) -> None:
         "--plain", action="store_true", help="no keys, no new screen: lines only, as for a pipe"
     )
     word.set_defaults(
-        solution=False, json=None, html=None, evidence=None, only=None, seed=None, hint=None,
-        clock="auto", port=None, hidden=None, trust=False, as_stranger=False, timings=False,
-        all=False, soak=None,
-    )  # fmt: skip
+        solution=False,
+        json=None,
+        html=None,
+        evidence=None,
+        only=None,
+        seed=None,
+        hint=None,
+        clock="auto",
+        port=None,
+        hidden=None,
+        trust=False,
+        as_stranger=False,
+        timings=False,
+        all=False,
+        soak=None,
+    )
 
 
 def run(options: argparse.Namespace) -> int:

@@ -188,12 +188,17 @@ class Session(ABC):
             Offer(RUN, "run", _nothing),
             Offer("l", "lesson", self._lesson),
             *self.offers(),
-            Offer("c", "compare", self._compare, self.solved is not None,
-                  "Our solution is shown beside yours when yours passes."),
+            Offer(
+                "c",
+                "compare",
+                self._compare,
+                self.solved is not None,
+                "Our solution is shown beside yours when yours passes.",
+            ),
             Offer("a", "all", self.show_all),
             Offer("n", "next", self.go_on, is_done, "This one is not done yet. To leave it: q"),
             Offer(QUIT, "quit", self._quit),
-        ]  # fmt: skip
+        ]
 
     def _line_of_keys(self) -> str:
         """The keys that do something now, in lines of 80 columns."""

@@ -12,10 +12,32 @@ from collections.abc import Iterable
 from pathlib import Path
 
 COUNTS = ("two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
-THINGS = frozenset({
-    "bell", "clock", "cloud", "counter", "desk", "dial", "door", "gate", "glass", "key", "ladder",
-    "lock", "locked", "scale", "sign", "stair", "switch", "table", "tap", "wall", "wheel", "window",
-})  # fmt: skip
+THINGS = frozenset(
+    {
+        "bell",
+        "clock",
+        "cloud",
+        "counter",
+        "desk",
+        "dial",
+        "door",
+        "gate",
+        "glass",
+        "key",
+        "ladder",
+        "lock",
+        "locked",
+        "scale",
+        "sign",
+        "stair",
+        "switch",
+        "table",
+        "tap",
+        "wall",
+        "wheel",
+        "window",
+    }
+)
 """What a drawing shows or does not: nobody says it by the way."""
 SHOWN = THINGS | frozenset(COUNTS)
 WORD = re.compile(r"[a-z]+")
@@ -36,9 +58,12 @@ def untold(alternative: str, drawing: Path) -> list[str]:
     return [
         *(each for each in NUMBER.findall(alternative) if float(each) not in numbers),
         *(each for each in NAME.findall(alternative) if each.lower() not in joined),
-        *(each for each in WORD.findall(alternative.lower())
-          if each in SHOWN and not {each, f"{each}s"} & told),
-    ]  # fmt: skip
+        *(
+            each
+            for each in WORD.findall(alternative.lower())
+            if each in SHOWN and not {each, f"{each}s"} & told
+        ),
+    ]
 
 
 def _with_counts(words: Iterable[str], numbers: set[float]) -> set[str]:

@@ -109,8 +109,10 @@ def _flood(drive: DrivePlan, topic: TopicPlan, chance: Chance) -> DrivePlan:
 
 def _default(drive: DrivePlan, topic: TopicPlan, chance: Chance) -> DrivePlan:
     faster = chance.between(1.25, 2.0)
-    pieces = (replace(piece, motion=replace(piece.motion, forward_m_s=piece.motion.forward_m_s
-              * faster)) for piece in drive.pieces)  # fmt: skip
+    pieces = (
+        replace(piece, motion=replace(piece.motion, forward_m_s=piece.motion.forward_m_s * faster))
+        for piece in drive.pieces
+    )
     return replace(drive, pieces=tuple(pieces))
 
 
@@ -155,49 +157,86 @@ FAULTS = {
     fault.name: fault
     for fault in (
         Fault(
-            "wrong_unit", "the value has another unit than in the table above",
-            LARGEST, SENSORS, _unit, _largest,
+            "wrong_unit",
+            "the value has another unit than in the table above",
+            LARGEST,
+            SENSORS,
+            _unit,
+            _largest,
         ),
         Fault(
             "qos_mismatch",
             "the quality of service that is offered is not enough for who hears it",
             "how many messages were never heard",
-            (ODOM, BATTERY, TEMPERATURE, LIGHT, BUMPER), _best_effort, _count,
+            (ODOM, BATTERY, TEMPERATURE, LIGHT, BUMPER),
+            _best_effort,
+            _count,
         ),
         Fault(
-            "stale_stamps", "the stamp stands still while new messages come",
-            "how old the last message was, in seconds", SENSORS, _stale, _age_s,
+            "stale_stamps",
+            "the stamp stands still while new messages come",
+            "how old the last message was, in seconds",
+            SENSORS,
+            _stale,
+            _age_s,
         ),
         Fault(
-            "dead_node", "a node died, and its topic ends",
+            "dead_node",
+            "a node died, and its topic ends",
             "the seconds from the start of the bag to its last message",
-            (*SENSORS, BUMPER), _dead, _lived_s,
+            (*SENSORS, BUMPER),
+            _dead,
+            _lived_s,
         ),
         Fault(
-            "wrong_frame", "from some message on, the `frame_id` is another one",
-            "how many messages have the wrong one", (ODOM, *SENSORS), _frame, _wrong_frames,
+            "wrong_frame",
+            "from some message on, the `frame_id` is another one",
+            "how many messages have the wrong one",
+            (ODOM, *SENSORS),
+            _frame,
+            _wrong_frames,
         ),
         Fault(
-            "drifting_wheel", "on a straight way one wheel turns slower than the other",
-            "by how many per cent of the faster wheel", (WHEEL_SPEEDS,), _drift, _slower,
+            "drifting_wheel",
+            "on a straight way one wheel turns slower than the other",
+            "by how many per cent of the faster wheel",
+            (WHEEL_SPEEDS,),
+            _drift,
+            _slower,
         ),
         Fault(
-            "wrong_clock", "all stamps are off by the same time",
+            "wrong_clock",
+            "all stamps are off by the same time",
             "by how many seconds they are ahead; with a minus: behind",
-            SENSORS, _clock, _ahead_s, signed=True,
+            SENSORS,
+            _clock,
+            _ahead_s,
+            signed=True,
         ),
         Fault(
-            "wrong_namespace", "the topic has a namespace that nobody listens to",
-            "how many messages went there", (*SENSORS, BUMPER), _namespace, _count,
+            "wrong_namespace",
+            "the topic has a namespace that nobody listens to",
+            "how many messages went there",
+            (*SENSORS, BUMPER),
+            _namespace,
+            _count,
         ),
         Fault(
-            "flood", "messages come far too often", "how many come in a second",
-            (RANGE, BATTERY, TEMPERATURE, LIGHT, BUMPER), _flood, _rate_hz,
+            "flood",
+            "messages come far too often",
+            "how many come in a second",
+            (RANGE, BATTERY, TEMPERATURE, LIGHT, BUMPER),
+            _flood,
+            _rate_hz,
         ),
         Fault(
-            "lost_parameter", "the parameter never arrived, and the node took its default",
-            LARGEST, (CMD_VEL,), _default, _largest,
+            "lost_parameter",
+            "the parameter never arrived, and the node took its default",
+            LARGEST,
+            (CMD_VEL,),
+            _default,
+            _largest,
         ),
     )
-}  # fmt: skip
+}
 """Name to fault, in the order in which the task tells them."""

@@ -121,9 +121,12 @@ def _said(plan: DrivePlan, topic: TopicPlan, around: _Surroundings) -> Iterator[
         stamp_s = min(time_s, topic.still_from_s) + topic.ahead_s
         delay_s = chance.between(LEAST_DELAY_S, MOST_DELAY_S)
         yield Said(
-            plan.start_ns + round((time_s + delay_s) * NS), topic.name,
-            plan.start_ns + round(stamp_s * NS), frame, told,
-        )  # fmt: skip
+            plan.start_ns + round((time_s + delay_s) * NS),
+            topic.name,
+            plan.start_ns + round(stamp_s * NS),
+            frame,
+            told,
+        )
 
 
 def _times(plan: DrivePlan, topic: TopicPlan, chance: Chance) -> Iterator[float]:
@@ -161,8 +164,10 @@ class _Surroundings:
     def wheels(self, time_s: float, chance: Chance) -> tuple[float, ...]:
         """Left and right in rad/s, as an encoder tells them."""
         wheels = self._wheels(time_s)
-        noisy = (speed * chance.around(1, WHEEL_NOISE)
-                 for speed in (wheels.left_rad_s, wheels.right_rad_s))  # fmt: skip
+        noisy = (
+            speed * chance.around(1, WHEEL_NOISE)
+            for speed in (wheels.left_rad_s, wheels.right_rad_s)
+        )
         return tuple(noisy)
 
     def odometry(self, time_s: float, chance: Chance) -> tuple[float, ...]:

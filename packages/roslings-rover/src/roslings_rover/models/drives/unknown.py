@@ -88,12 +88,17 @@ def _topics(chance: Chance, odometry: str, seconds: float, limit: float) -> Iter
     rates = dict(zip(SHEET, chance.shuffled(RATES_HZ), strict=False))
     for sheet in SHEET:
         rate_hz = 20.0 if sheet is ODOM else rates[sheet]
-        planned = {int(part * seconds * rate_hz): periods
-                   for part, periods in pauses.get(sheet, {}).items()}  # fmt: skip
+        planned = {
+            int(part * seconds * rate_hz): periods
+            for part, periods in pauses.get(sheet, {}).items()
+        }
         yield replace(
-            TopicPlan.healthy(sheet), name=names.get(sheet, sheet.name), rate_hz=rate_hz,
-            pauses=planned, ahead_s=-chance.between(0.2, 0.5),
-        )  # fmt: skip
+            TopicPlan.healthy(sheet),
+            name=names.get(sheet, sheet.name),
+            rate_hz=rate_hz,
+            pauses=planned,
+            ahead_s=-chance.between(0.2, 0.5),
+        )
 
 
 def _with_others(drive: Drive, chance: Chance) -> Drive:

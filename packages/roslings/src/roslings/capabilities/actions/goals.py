@@ -66,9 +66,13 @@ class GoalGiver:
         """Give a goal, and do not wait. Raises AttributeError where it has no such field."""
         number = list(uuid.uuid4().bytes)
         seen = GoalSeen(
-            action=self._action, type=self._type, goal=goal, part=part, id=number,
+            action=self._action,
+            type=self._type,
+            goal=goal,
+            part=part,
+            id=number,
             sent_ns=time.monotonic_ns(),
-        )  # fmt: skip
+        )
         self._probe.seen.recording(ActionsSeen).goals.append(seen)
         request = self._goal.Request()
         request.goal_id.uuid = number
@@ -164,9 +168,13 @@ class GoalTaker:
         from rclpy.action import ActionServer
 
         self._server = ActionServer(
-            self._probe.eye, self._class, self._action, self._finish,
-            goal_callback=self._judge, handle_accepted_callback=self._take,
-        )  # fmt: skip
+            self._probe.eye,
+            self._class,
+            self._action,
+            self._finish,
+            goal_callback=self._judge,
+            handle_accepted_callback=self._take,
+        )
         return self
 
     def __exit__(

@@ -41,8 +41,13 @@ def _figure(seen: ExperimentSeen) -> Markup:
     told = ", ".join(f"{number} {end}" for end, number in ends.items())
     words = f"{counted(len(goals), 'goal')}: {told}."
     heading = tag("h3", f"in {seen.name}")
-    return tag("figure", heading, timeline(lines, words), tag("figcaption", words),
-               table("goals of actions", HEAD, rows))  # fmt: skip
+    return tag(
+        "figure",
+        heading,
+        timeline(lines, words),
+        tag("figcaption", words),
+        table("goals of actions", HEAD, rows),
+    )
 
 
 def _line(seen: ExperimentSeen, goal: GoalSeen, goals: Sequence[GoalSeen]) -> Line:
@@ -72,8 +77,11 @@ def _feedback_ns(seen: ExperimentSeen, goal: GoalSeen) -> list[int]:
     """When the feedback of this goal came, where the topic was watched."""
     heard = seen.topics.get(goal.feedback_topic)
     contents = [(each.arrival_ns, each.content) for each in heard.messages] if heard else []
-    return [at_ns for at_ns, content in contents
-            if isinstance(content, dict) and _id_of(content) == goal.id]  # fmt: skip
+    return [
+        at_ns
+        for at_ns, content in contents
+        if isinstance(content, dict) and _id_of(content) == goal.id
+    ]
 
 
 def _id_of(content: dict[str, object]) -> object:
@@ -86,8 +94,14 @@ def _row(seen: ExperimentSeen, goal: GoalSeen) -> tuple[str, ...]:
     ended = goal.ended_ns is not None
     took = time_text(((goal.ended_ns or 0) - goal.sent_ns) / NS_PER_S) if ended else "-"
     result = fields_text(goal.result) if goal.result else "-"
-    return (goal.part or goal.action, _end_of(seen, goal), took, f"{feedback}",
-            fields_text(goal.goal), result)  # fmt: skip
+    return (
+        goal.part or goal.action,
+        _end_of(seen, goal),
+        took,
+        f"{feedback}",
+        fields_text(goal.goal),
+        result,
+    )
 
 
 def _end_of(seen: ExperimentSeen, goal: GoalSeen) -> str:

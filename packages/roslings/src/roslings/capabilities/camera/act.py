@@ -16,7 +16,8 @@ from roslings.capabilities.camera.record import CAMERA
 from roslings.capabilities.parameters.calling import set_parameter
 from roslings.course import NodeContract, TopicContract
 from roslings.evidence import StageMark
-from roslings.experiment.scene import Scene, publishes, says
+from roslings.experiment.missed import publishes, says
+from roslings.experiment.scene import Scene
 from roslings.experiment.start import Start
 from roslings.experiment.timing import accounting
 from roslings.matching import nearest_endpoint

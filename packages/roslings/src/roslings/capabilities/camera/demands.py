@@ -128,9 +128,12 @@ class Lit:
 
 
 def follow_brightness(
-    node: NodeContract, topic: TopicContract, parameter: ParameterContract, neutral: float,
+    node: NodeContract,
+    topic: TopicContract,
+    parameter: ParameterContract,
+    neutral: float,
     levels: float,
-) -> Demand[ExperimentView]:  # fmt: skip
+) -> Demand[ExperimentView]:
     """With each value that was set, the pictures are as much lighter as the card says."""
 
     def demand(experiment: ExperimentView) -> None:

@@ -18,7 +18,8 @@ from roslings.capabilities.launch.record import LABEL, UP, LaunchSeen, ProgramKi
 from roslings.capabilities.parameters.answering import Asked, asked_again
 from roslings.course import NodeContract
 from roslings.course.contract import Plain, as_typed
-from roslings.experiment.scene import COMES_UP_WITHIN_S, Scene
+from roslings.experiment.running import COMES_UP_WITHIN_S
+from roslings.experiment.scene import Scene
 from roslings.experiment.timing import accounting
 
 ROS2 = Path(ros2_on_pip.__file__).parent

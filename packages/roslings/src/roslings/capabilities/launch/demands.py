@@ -236,9 +236,12 @@ def win_over_its_section(
 
 
 def _obeyed(
-    contract: LaunchContract, argument: ArgumentContract, node: Node, has_section: bool,
+    contract: LaunchContract,
+    argument: ArgumentContract,
+    node: Node,
+    has_section: bool,
     kind: type[faults.ArgumentIgnored],
-) -> Demand[ExperimentView]:  # fmt: skip
+) -> Demand[ExperimentView]:
     def demand(experiment: ExperimentView) -> None:
         seen = experiment.seen.part(LaunchSeen)
         value = seen.given.get(argument.name, argument.default)

@@ -14,8 +14,9 @@ HEAD = ("program", "ran so often", "when it was killed")
 
 def sections(evidence: Evidence) -> Iterator[Markup]:
     """For each experiment that launched something."""
-    figures = [_figure(seen) for seen in evidence.experiments.values()
-               if seen.part(LaunchSeen).running]  # fmt: skip
+    figures = [
+        _figure(seen) for seen in evidence.experiments.values() if seen.part(LaunchSeen).running
+    ]
     if figures:
         yield tag("section", tag("h2", "What was launched"), *figures)
 

@@ -22,8 +22,11 @@ def parameters_of(
 
 
 KINDS: dict[int, Literal["bool", "integer", "double", "string", "other"]] = {
-    1: "bool", 2: "integer", 3: "double", 4: "string",
-}  # fmt: skip
+    1: "bool",
+    2: "integer",
+    3: "double",
+    4: "string",
+}
 """The numbers of rcl_interfaces/msg/ParameterType."""
 
 

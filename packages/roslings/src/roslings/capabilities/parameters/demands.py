@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import difflib
-import math
 from collections.abc import Sequence
 
 from ros2_on_pip.rates import Rate
@@ -27,6 +26,7 @@ from roslings.course import NodeContract, RateContract, TopicContract
 from roslings.course.files import written
 from roslings.judge.demands import require_believable, require_steady
 from roslings.judge.faults import NothingToJudge
+from roslings.judge.values import same
 from roslings.judge.views import Demand, ExperimentView, TopicView
 from roslings.matching import nearest_endpoint, own_endpoints
 
@@ -61,7 +61,7 @@ def declare_its_parameters(node: NodeContract, *given: str) -> Demand[Experiment
             found = _declared(experiment, node, parameter)
             if found.type != parameter.type:
                 raise WrongParameterType(found.node, found.name, parameter.type, found.type)
-            if parameter.name not in unseen and not _same(found.value, parameter.default):
+            if parameter.name not in unseen and not same(found.value, parameter.default):
                 wanted, is_ = repr(parameter.default), repr(found.value)
                 raise WrongDefault(found.node, found.name, wanted, is_)
 
@@ -81,12 +81,6 @@ def _declared(
         if (each.node, each.name) == (name, parameter.name):
             return each
     raise NothingToJudge(f"{name} did not say what its parameters are")
-
-
-def _same(found: object, wanted: object) -> bool:
-    if isinstance(found, float) and isinstance(wanted, (int, float)):
-        return math.isclose(found, wanted, rel_tol=1e-6)
-    return found == wanted
 
 
 def follow_its_parameter(

@@ -11,11 +11,12 @@ from roslings.capabilities.parameters import faults
 from roslings.capabilities.parameters.contract import ParameterContract
 from roslings.capabilities.parameters.demands import has_parameter
 from roslings.capabilities.parameters.record import ParametersSeen, ParameterTrial, Values
-from roslings.capabilities.topics.relay import Shown, Turn, field_of, same, shown, turns
+from roslings.capabilities.topics.relay import Shown, Turn, turns
 from roslings.course import NodeContract, TopicContract
 from roslings.course.contract import Plain, as_typed
 from roslings.judge.demands import require_its_time, require_steady
 from roslings.judge.faults import Fault, NothingToJudge
+from roslings.judge.values import field_of, same, shown
 from roslings.judge.views import Demand, ExperimentView
 from roslings.matching import nearest_endpoint
 
@@ -183,7 +184,7 @@ def _insist_on_deed(
     experiment: ExperimentView, place: Shown, turn: Turn, trial: ParameterTrial | None, wanted: Any
 ) -> None:
     found = field_of(turn.message.content if turn.message else None, place.name)
-    if wanted is None or same(found, wanted):
+    if wanted is None or same(found, wanted, place.topic.numbers_within):
         return
     if not turn.settled:
         require_steady(experiment.seen.stall_s)
@@ -256,7 +257,8 @@ def _gaps_s(
     publisher = nearest_endpoint(experiment.seen.graph, "publisher", topic.topic, topic.type)
     heard = experiment.seen.topics.get(publisher.topic) if publisher else None
     sent = [
-        each.source_ns or each.arrival_ns for each in (heard.messages if heard else [])
+        each.source_ns or each.arrival_ns
+        for each in (heard.messages if heard else [])
         if begin_ns < each.arrival_ns < end_ns
-    ]  # fmt: skip
+    ]
     return [(after - before) / 1e9 for before, after in pairwise(sent[1:])]

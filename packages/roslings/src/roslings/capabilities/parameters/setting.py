@@ -37,9 +37,13 @@ class Setter:
     """
 
     def __init__(
-        self, scene: Scene, process: Process, node: str, names: Sequence[str],
+        self,
+        scene: Scene,
+        process: Process,
+        node: str,
+        names: Sequence[str],
         callers: Mapping[str, Caller],
-    ) -> None:  # fmt: skip
+    ) -> None:
         self._scene, self._process, self._node, self._names = scene, process, node, names
         self._callers = callers
         self._now: Values | None = self._read()
@@ -59,9 +63,13 @@ class Setter:
         if self._now is None:
             return
         tried = ParameterTrial(
-            part=part, node=self._node, asked=dict(values), together=together,
-            asked_ns=time.monotonic_ns(), before=self._now,
-        )  # fmt: skip
+            part=part,
+            node=self._node,
+            asked=dict(values),
+            together=together,
+            asked_ns=time.monotonic_ns(),
+            before=self._now,
+        )
         self._scene.seen.recording(ParametersSeen).trials.append(tried)
         service = "set_parameters_atomically" if together else "set_parameters"
         wanted = [message_of(name, value) for name, value in values.items()]
@@ -104,8 +112,9 @@ def setting(scene: Scene, process: Process, node: NodeContract) -> Iterator[Sett
     with ExitStack() as stack:
         callers = {
             name: stack.enter_context(Caller(scene.probe, f"{near.found}/{name}", type_))
-            for name, type_ in SERVICES.items() if near
-        }  # fmt: skip
+            for name, type_ in SERVICES.items()
+            if near
+        }
         names = [parameter.name for parameter in node.parameters]
         ready = scene.until(
             lambda: all(caller.ready for caller in callers.values()), FIRST_MESSAGE_WITHIN_S

@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from pydantic import Field
 
 from roslings.capability import Row, Words
-from roslings.course.contract import Contract, Expected, Promise, Stimulus
-from roslings.course.kinds import Kind
+from roslings.course.contract import Contract, Expected
 
 if TYPE_CHECKING:
-    from roslings.course import Card, NodeContract
+    from roslings.course import NodeContract
 
 Liveliness = Literal["automatic", "manual_by_topic"]
 TOPIC = r"^/[A-Za-z_][A-Za-z0-9_/]*$"
@@ -46,42 +45,15 @@ class AskContract(TimesContract):
     """What one subscription of a node wants to be promised."""
 
 
-class StopContract(Contract):
-    """One reason for which a watching node stops the robot, and how soon."""
-
-    when: Annotated[str, Promise]
-    says: Annotated[str, Expected] = Field(description="The reason, in the node's log line")
-    within_s: Annotated[float, Kind.MOST] = Field(gt=0, description="From the reason to the stop")
-
-
-class HostsContract(Contract):
-    """Two computers that the nodes run on, and what the link between them does."""
-
-    delay_ms: Annotated[float, Stimulus] = Field(ge=0, description="Of each packet, one way")
-    loss: Annotated[float, Stimulus] = Field(ge=0, lt=1, description="Part of all packets")
-    stops_within_s: Annotated[float, Kind.MOST] = Field(
-        gt=0, description="From a press on one computer to the stop on the other"
-    )
-
-
 class NodeWords(Contract):
     """What a card may say of a node."""
 
     offers: tuple[OfferContract, ...] = ()
     asks: tuple[AskContract, ...] = ()
-    stops: dict[str, StopContract] = Field(
-        default_factory=dict, description="By a word for the grader, e.g. `pressed`"
-    )
-
-
-class CardWords(Contract):
-    """What a card may say of the package."""
-
-    hosts: HostsContract | None = None
 
 
 def rows(node: NodeContract) -> Iterable[Row]:
-    """What each side promises or asks for, and each reason to stop."""
+    """What each side promises or asks for."""
     for offered in node.offers:
         yield from _times_rows(offered, "offers on")
         if offered.lifespan_s:
@@ -90,8 +62,6 @@ def rows(node: NodeContract) -> Iterable[Row]:
             yield "a late joiner gets", _messages(offered.keeps)
     for asked in node.asks:
         yield from _times_rows(asked, "asks on")
-    for stop in node.stops.values():
-        yield "stops when", f"{stop.when}; within {stop.within_s:g} s; the reason is `{stop.says}`"
 
 
 def _times_rows(times: TimesContract, verb: str) -> Iterable[Row]:
@@ -106,15 +76,4 @@ def _messages(count: int) -> str:
     return "the last message" if count == 1 else f"the last {count} messages"
 
 
-def package_rows(card: Card) -> Iterable[Row]:
-    """The two computers, and what the link between them does."""
-    if hosts := card.hosts:
-        yield (
-            "on two computers",
-            f"the link has no multicast, delays each packet by {hosts.delay_ms:g} ms and loses"
-            f" {hosts.loss:.0%} of them; a press on one stops the rover on the other within"
-            f" {hosts.stops_within_s:g} s",
-        )
-
-
-WORDS = Words(node=NodeWords, card=CardWords, interface=rows, package=package_rows)
+WORDS = Words(node=NodeWords, interface=rows)

@@ -1,53 +1,23 @@
-"""Demands on quality of service in time: what is offered, who is reached, how soon all stops."""
+"""Demands on quality of service: what is offered and asked for, and what late joiners get."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from itertools import pairwise
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from ros2_on_pip.rates import NS_PER_S
 from roslings.capabilities.qos import faults
-from roslings.capabilities.qos.contract import (
-    AskContract,
-    OfferContract,
-    StopContract,
-    TimesContract,
-)
-from roslings.capabilities.qos.record import (
-    DriveSeen,
-    HostsSeen,
-    JoinSeen,
-    MoveSeen,
-    QosSeen,
-    StopSeen,
-)
-from roslings.capabilities.services.contract import ServiceContract
-from roslings.capabilities.services.record import ServicesSeen
-from roslings.course import NodeContract, TopicContract
+from roslings.capabilities.qos.contract import AskContract, OfferContract, TimesContract
+from roslings.capabilities.qos.record import JoinSeen, QosSeen
+from roslings.course import TopicContract
+from roslings.course.contract import as_typed
 from roslings.course.files import written
-from roslings.judge.demands import most_similar, require_its_time, require_steady
-from roslings.judge.faults import EndpointKind, Inconclusive, NothingToJudge, NoTopic
-from roslings.judge.lines import texts_of, times
-from roslings.judge.views import Demand, ExperimentView, ProcessView
+from roslings.judge.demands import require_steady
+from roslings.judge.faults import EndpointKind, NothingToJudge, NoTopic
+from roslings.judge.views import Demand, ExperimentView
 
 SAME_NS = 1_000_000
-DROVE_NS = 1_000_000_000
-"""So shortly before a reason to stop it must have driven."""
-
-AFTER_S = 0.5
-"""So long after a stop was undone its line may still come."""
-
 DOES = {"publisher": "publishes on", "subscription": "subscribes to"}
-LONGEST_PAUSE_S = 0.5
-"""Ten turns of a timer: whoever leaves out so many is held up by itself."""
-
-LINK_REPAIRS_S = 4.0
-"""On a link that loses packets, what finds each other is told again after seconds; who gets no
-processor for longer than this needs several times as long."""
-
-MOST_LATE_PART = 0.75
-"""Of a deadline: where a command of our own was so late, the guard may have heard of it."""
 
 
 # --- what is offered and asked for -------------------------------------------------------------
@@ -72,9 +42,10 @@ def _times(
 
     def demand(experiment: ExperimentView) -> None:
         ends = [
-            end for end in experiment.seen.graph.endpoints
+            end
+            for end in experiment.seen.graph.endpoints
             if end.kind == kind and end.topic == contract.topic
-        ]  # fmt: skip
+        ]
         if not ends:
             raise NoTopic(contract.topic, DOES[kind])
         qos = ends[0].qos
@@ -118,7 +89,7 @@ def _judge_join(experiment: ExperimentView, topic: str, join: JoinSeen, keeps: i
         require_steady(experiment.seen.stall_s)
         raise faults.NothingForLateJoiners(topic, join.after, keeps)
     if len(join.heard) != min(keeps, join.said):
-        heard = _values(join.heard)
+        heard = values_told(join.heard)
         wanted = min(keeps, join.said)
         raise faults.OtherCountForLateJoiners(topic, join.after, keeps, wanted, heard)
 
@@ -132,297 +103,12 @@ def tell_late_joiners_the_truth(topic: TopicContract) -> Demand[ExperimentView]:
             raise NothingToJudge(f"no late joiner got anything on {topic.topic}")
         for join in joins:
             if join.heard[-1] != join.wanted:
-                words = (join.after, _value(join.wanted), _value(join.heard[-1]))
+                words = (join.after, as_typed(join.wanted), as_typed(join.heard[-1]))
                 raise faults.OldForLateJoiners(topic.topic, *words)
 
     return demand
 
 
-def tell_each_press(service: ServiceContract, topic: TopicContract) -> Demand[ExperimentView]:
-    """Each call leads to one message with the card's state, and nothing else is said."""
-
-    def demand(experiment: ExperimentView) -> None:
-        presses = experiment.seen.part(QosSeen).presses
-        if not presses:
-            raise NothingToJudge(f"{service.service} could not be called")
-        messages = experiment.topic(topic).before_ctrl_c
-        for press, answer in zip(presses, service.answers, strict=False):
-            said = [
-                _data(message.content) for message in messages
-                if press.began_ns <= message.arrival_ns <= press.until_ns
-            ]  # fmt: skip
-            if said != [answer.state]:
-                require_steady(experiment.seen.stall_s)
-                asked = ", ".join(f"{name}: {_value(it)}" for name, it in press.asked.items())
-                words = (asked, _value(answer.state), _values(said))
-                raise faults.OtherThanPressed(topic.topic, *words)
-        most = 1 + len(experiment.seen.part(ServicesSeen).calls)
-        if len(messages) > most:
-            raise faults.SaysMore(topic.topic, most, len(messages))
-
-    return demand
-
-
-def _data(content: Any) -> Any:
-    return content.get("data") if isinstance(content, dict) else None
-
-
-def _value(value: Any) -> str:
-    return str(value).lower() if isinstance(value, bool) else str(value)
-
-
-def _values(values: Iterable[Any]) -> str:
-    return ", then ".join(map(_value, values)) or "nothing"
-
-
-# --- a guard -----------------------------------------------------------------------------------
-
-
-def stand(topic: TopicContract, part: str) -> Demand[ExperimentView]:
-    """In this part nobody has released the stop, and the motors are told zero."""
-
-    def demand(experiment: ExperimentView) -> None:
-        for stop in _stops_in(experiment, part):
-            moves = _moves(experiment, stop.began_ns, stop.until_ns)
-            if not moves:
-                require_steady(experiment.seen.stall_s)
-                raise faults.TellsTheMotorsNothing(topic.topic, stop.cause)
-            for move in moves:
-                if move.fields:
-                    raise faults.DrivesUnasked(topic.topic, stop.cause, _fields(move.fields))
-
-    return demand
-
-
-def drive(
-    topic: TopicContract,
-    *parts: str,
-    deadline_s: float,
-    again: bool = False,
-    steadily: bool = True,
-) -> Demand[ExperimentView]:
-    """In these parts the motors are told what the operator wants.
-
-    `again`: they stood before, for a reason that is gone. `steadily`: they never stop in between;
-    across a link that loses signs of life, they may.
-    """
-
-    def demand(experiment: ExperimentView) -> None:
-        drives = [each for each in experiment.seen.part(QosSeen).drives if each.part in parts]
-        if not drives:
-            raise NothingToJudge("the guard could not be let drive")
-        for each in drives:
-            waits_s = None if steadily else LINK_REPAIRS_S
-            _judge_drive(experiment, topic.topic, each, deadline_s, again, waits_s)
-            if steadily:
-                _judge_steadiness(experiment, topic.topic, each, deadline_s)
-
-    return demand
-
-
-def _judge_drive(
-    experiment: ExperimentView, topic: str, seen: DriveSeen, deadline_s: float, again: bool,
-    waits_s: float | None,
-) -> None:  # fmt: skip
-    """Who was held up for `waits_s` is not judged; None: for as long as was waited."""
-    moves = _moves(experiment, seen.began_ns, seen.until_ns)
-    if not moves:
-        require_steady(experiment.seen.stall_s)
-        raise faults.TellsTheMotorsNothing(topic, seen.after)
-    first = next((n for n, move in enumerate(moves) if move.fields == seen.command), None)
-    words = (topic, seen.after, _fields(seen.command))
-    if first is None:
-        _require_commands(experiment, seen, deadline_s)
-        require_its_time(experiment.seen, seen.part, waits_s, "the operator's command")
-        if any(move.fields for move in moves[len(moves) // 2 :]):
-            raise faults.OtherCommand(*words, _fields(moves[-1].fields))
-        raise (faults.DoesNotGoOn if again else faults.StandsStill)(*words)
-    for move in moves[first:]:
-        if move.fields not in ({}, seen.command):
-            raise faults.OtherCommand(*words, _fields(move.fields))
-
-
-def _judge_steadiness(
-    experiment: ExperimentView, topic: str, seen: DriveSeen, deadline_s: float
-) -> None:
-    """From the first command that came through, none is left out."""
-    moves = _moves(experiment, seen.began_ns, seen.until_ns)
-    first = next(n for n, move in enumerate(moves) if move.fields)
-    if not all(move.fields for move in moves[first:]):
-        _require_commands(experiment, seen, deadline_s)
-        require_its_time(experiment.seen, seen.part, deadline_s / 2, "a command")
-        raise faults.Stutters(topic, seen.after, _longest_gap_s(experiment, seen))
-
-
-def _require_commands(
-    experiment: ExperimentView, seen: DriveSeen | StopSeen, deadline_s: float
-) -> None:
-    """Before a stop is held against the guard: the operator kept up. Raises Inconclusive."""
-    gap_s = _longest_gap_s(experiment, seen)
-    if gap_s > MOST_LATE_PART * deadline_s:
-        raise Inconclusive(
-            f"this computer was so busy that a command came {gap_s:.2f} s late;"
-            " close other programs and check again"
-        )
-
-
-def _longest_gap_s(experiment: ExperimentView, seen: DriveSeen | StopSeen) -> float:
-    """From one command of the operator to the next, in this stretch."""
-    sent = experiment.seen.part(QosSeen).sent_ns
-    inside = [at_ns for at_ns in sent if seen.began_ns <= at_ns <= seen.until_ns]
-    return max((later - one for one, later in pairwise(inside)), default=0) / NS_PER_S
-
-
-def stop_for(topic: TopicContract, reason: str, within_s: float) -> Demand[ExperimentView]:
-    """Each time that there is this reason, the motors are told zero in time, and stay so."""
-
-    def demand(experiment: ExperimentView) -> None:
-        for stop in _stops_in(experiment, reason):
-            _judge_stop(experiment, topic.topic, stop, within_s)
-
-    return demand
-
-
-def _judge_stop(experiment: ExperimentView, topic: str, stop: StopSeen, within_s: float) -> None:
-    everything = experiment.seen.part(QosSeen).moves
-    since_ns = stop.began_ns - DROVE_NS
-    if not any(move.fields for move in everything if since_ns <= move.at_ns <= stop.began_ns):
-        raise NothingToJudge("it did not drive before")
-    moves = _moves(experiment, stop.began_ns, stop.until_ns)
-    if not moves:
-        require_steady(experiment.seen.stall_s)
-        raise faults.TellsTheMotorsNothing(topic, f"after {stop.cause}")
-    driven = [move.at_ns for move in moves if move.fields]
-    late_s = (max(driven, default=stop.began_ns) - stop.began_ns) / NS_PER_S
-    if late_s <= within_s and not moves[-1].fields:
-        _judge_pauses(experiment, topic, stop, moves)
-        return
-    if moves[-1].fields:
-        watched_s = (stop.until_ns - stop.began_ns) / NS_PER_S
-        require_its_time(experiment.seen, stop.part, watched_s - within_s, "the stop")
-        raise faults.DoesNotStop(topic, stop.cause, within_s, watched_s)
-    require_its_time(experiment.seen, stop.part, late_s - within_s, "the stop")
-    raise faults.StopsLate(topic, stop.cause, within_s, late_s)
-
-
-def _judge_pauses(
-    experiment: ExperimentView, topic: str, stop: StopSeen, moves: Sequence[MoveSeen]
-) -> None:
-    """Whoever tells the motors zero tells it all the time.
-
-    Judged where the operator's commands show that who watches was not held up itself.
-    """
-    if not (watched_s := _longest_gap_s(experiment, stop)):
-        return
-    pause_s = max((later.at_ns - one.at_ns for one, later in pairwise(moves)), default=0) / NS_PER_S
-    if pause_s > LONGEST_PAUSE_S + watched_s:
-        require_its_time(experiment.seen, stop.part, pause_s - LONGEST_PAUSE_S, "a message")
-        raise faults.SilentMeanwhile(topic, stop.cause, LONGEST_PAUSE_S, pause_s)
-
-
-def tell_why(
-    node: NodeContract, stops: Mapping[str, StopContract], deadline_s: float
-) -> Demand[ExperimentView]:
-    """For each stop, the card's line with its reason, once.
-
-    Where the operator's commands were late meanwhile, there was a second reason: Inconclusive.
-    """
-    template = written(node.log, node.node)
-
-    def demand(experiment: ExperimentView) -> None:
-        process = experiment.process(node)
-        seen = [stop for stop in experiment.seen.part(QosSeen).stops if stop.reason in stops]
-        if not seen:
-            raise NothingToJudge("it was given no reason to stop")
-        for stop in seen:
-            line = template.format(text=stops[stop.reason].says)
-            try:
-                _judge_line(process, line, stop)
-            except faults.ReasonNotTold:
-                _require_commands(experiment, stop, deadline_s)
-                raise
-            except faults.ReasonToldAgain:
-                require_its_time(experiment.seen, stop.part, deadline_s / 2, "an event")
-                raise
-
-    return demand
-
-
-def _judge_line(process: ProcessView, line: str, stop: StopSeen) -> None:
-    until_ns = stop.until_ns + int(AFTER_S * NS_PER_S)
-    inside = [each for each in process.lines if stop.began_ns <= each.arrival_ns <= until_ns]
-    found = times(each for each in inside if line in each.plain)
-    if found == 0:
-        near = most_similar(line, list(texts_of(inside)))
-        raise faults.ReasonNotTold(line, stop.cause, near)
-    if found > 1:
-        raise faults.ReasonToldAgain(line, stop.cause, found)
-
-
-def _stops_in(experiment: ExperimentView, part: str) -> list[StopSeen]:
-    """Raises NothingToJudge where there are none."""
-    stops = [stop for stop in experiment.seen.part(QosSeen).stops if stop.part == part]
-    if not stops:
-        raise NothingToJudge("it could not be watched so far")
-    return stops
-
-
-def _moves(experiment: ExperimentView, from_ns: int, to_ns: int) -> Sequence[MoveSeen]:
-    moves = experiment.seen.part(QosSeen).moves
-    return [move for move in moves if from_ns < move.at_ns <= to_ns]
-
-
-def _fields(fields: Mapping[str, float]) -> str:
-    return ", ".join(f"{name}: {value:g}" for name, value in fields.items()) or "zero"
-
-
-# --- two computers -----------------------------------------------------------------------------
-
-
-def _hosts(experiment: ExperimentView) -> HostsSeen:
-    """Raises Inconclusive where this computer could not play two."""
-    hosts = experiment.seen.part(QosSeen).hosts
-    if hosts is None:
-        raise NothingToJudge("the nodes were not run on two computers")
-    if hosts.refused:
-        raise Inconclusive(hosts.refused)
-    return hosts
-
-
-def be_reached(service: ServiceContract, topic: TopicContract) -> Demand[ExperimentView]:
-    """What is published on one computer is heard on the other, without multicast."""
-
-    def demand(experiment: ExperimentView) -> None:
-        hosts = _hosts(experiment)
-        if not hosts.served:
-            require_steady(experiment.seen.stall_s)
-            raise faults.NotReached(f"{service.service} is served")
-        if not hosts.heard:
-            require_steady(experiment.seen.stall_s)
-            raise faults.NotReached(f"{topic.topic} is heard on the other one")
-
-    return demand
-
-
-def hear_from_afar(topic: TopicContract) -> Demand[ExperimentView]:
-    """What is said on the other computer is heard, without multicast."""
-
-    def demand(experiment: ExperimentView) -> None:
-        if not _hosts(experiment).matched:
-            require_steady(experiment.seen.stall_s)
-            raise faults.NotReached(f"the guard hears {topic.topic}")
-
-    return demand
-
-
-def on_two_computers(*demands: Demand[ExperimentView]) -> Demand[ExperimentView]:
-    """These demands, where there are two computers. Else Inconclusive, with the reason.
-
-    >>> apart.must(on_two_computers(stop_for(CMD_VEL, "far", HOSTS.stops_within_s)))
-    """
-
-    def demand(experiment: ExperimentView) -> None:
-        _hosts(experiment)
-        experiment.must(*demands)
-
-    return demand
+def values_told(values: Iterable[Any]) -> str:
+    """One after the other."""
+    return ", then ".join(map(as_typed, values)) or "nothing"

@@ -67,15 +67,18 @@ def way_picture(ways: Sequence[WaySeen]) -> Markup:
     return tag(
         "svg",
         *_grid(floor),
-        *(part for kind, way in zip(_kinds(ways), ways, strict=True)
-          for part in _line(way, floor, kind)),
+        *(
+            part
+            for kind, way in zip(_kinds(ways), ways, strict=True)
+            for part in _line(way, floor, kind)
+        ),
         role="img",
         aria_label=describe(ways),
         viewBox=f"0 0 {floor.width:.0f} {floor.height:.0f}",
         width=floor.width,
         height=floor.height,
         class_="way",
-    )  # fmt: skip
+    )
 
 
 def describe(ways: Sequence[WaySeen]) -> str:
@@ -96,8 +99,9 @@ def legend(ways: Sequence[WaySeen]) -> Markup:
 
 
 def _key(kind: str, way: WaySeen) -> Markup:
-    line = tag("line", x1=0.0, x2=28.0, y1=6.0, y2=6.0, class_=kind,
-               stroke_dasharray=DASHED.get(kind))  # fmt: skip
+    line = tag(
+        "line", x1=0.0, x2=28.0, y1=6.0, y2=6.0, class_=kind, stroke_dasharray=DASHED.get(kind)
+    )
     mark = tag("svg", line, viewBox="0 0 28 12", width=28.0, height=12.0, aria_hidden="true")
     return tag("li", mark, joined(" ", _name(way)))
 

@@ -20,8 +20,9 @@ from roslings.capabilities.serial.record import (
 )
 from roslings.course import TopicContract
 from roslings.evidence import Endpoint
+from roslings.experiment.missed import hears, says
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
-from roslings.experiment.scene import Scene, hears, says
+from roslings.experiment.scene import Scene
 from roslings.experiment.start import PLAIN, Start
 from roslings.experiment.timing import accounting, timing
 from roslings.matching import nearest_endpoint

@@ -11,6 +11,7 @@ from ros2_on_pip.rates import NS_PER_S
 from roslings.capabilities.serial import faults as cable_faults
 from roslings.capabilities.serial.record import BoardMark, BoardSeen, CableLine, SerialSeen
 from roslings.capabilities.topics.faults.messages import NoMessages
+from roslings.capabilities.topics.faults.relay import WrongField
 from roslings.course import TopicContract
 from roslings.evidence import MessageSeen, TopicSeen
 from roslings.judge import faults
@@ -59,7 +60,7 @@ def hold_its_fields(contract: TopicContract) -> Demand[TopicView]:
             for field, wanted in contract.fields.items():
                 found = _written(_field(message, field))
                 if found != str(wanted):
-                    raise cable_faults.WrongField(topic.name, field, str(wanted), found)
+                    raise WrongField(topic.name, field, str(wanted), found or "(empty)")
 
     return demand
 
@@ -168,9 +169,10 @@ def tell_the_motion(experiment: ExperimentView, part: str, body: Body) -> Demand
         if not any(_is_motion(told, each) for each in really):
             require_steady(topic.experiment.stall_s)
             raise cable_faults.WrongTwist(
-                topic.name, (really[-1].forward_m_s, really[-1].turn_rad_s),
+                topic.name,
+                (really[-1].forward_m_s, really[-1].turn_rad_s),
                 (told.forward_m_s, told.turn_rad_s),
-            )  # fmt: skip
+            )
 
     return demand
 
@@ -602,7 +604,7 @@ def _speed_fault(left: float, right: float, told: set[tuple[int, int]]) -> cable
 def _velocities(topic: TopicView) -> list[tuple[float, float]]:
     pairs = [content.get("velocity") or [] for content in _contents(topic)]
     if any(len(pair) != 2 for pair in pairs):
-        raise cable_faults.WrongField(topic.name, "velocity", "two numbers", f"{pairs[0]}")
+        raise WrongField(topic.name, "velocity", "two numbers", f"{pairs[0]}")
     return [(_number(left), _number(right)) for left, right in pairs]
 
 

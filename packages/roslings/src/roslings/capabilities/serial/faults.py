@@ -9,25 +9,6 @@ from roslings.judge.faults.base import Fault
 
 
 @dataclass(eq=False)
-class WrongField(Fault):
-    """A field that always holds the same holds something else."""
-
-    topic: str
-    field_name: str
-    wanted: str
-    found: str
-    why = "Other nodes look for these names: with others they do not find what belongs together."
-    hint = "Where is this field set, and to which word?"
-    mend = "Set the field before you call publish(), with exactly the card's word."
-    expected = "{field_name} of {topic} is: {wanted}"
-
-    @property
-    def measured(self) -> str:
-        """What it holds."""
-        return f"it is: {self.found or '(empty)'}"
-
-
-@dataclass(eq=False)
 class LinesAndMessagesDiffer(Fault):
     """Lines of the board have no message, or some have two."""
 

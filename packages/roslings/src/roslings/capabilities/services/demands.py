@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import math
 import statistics
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -15,7 +14,7 @@ from roslings.capabilities.services.contract import MOST_LATE, AnswerContract, S
 from roslings.capabilities.services.record import CLIENT_ENDS, CallSeen, ServiceEnd, ServicesSeen
 from roslings.course import GiveUpContract, NodeContract, TopicContract
 from roslings.course.files import written
-from roslings.evidence import ExperimentSeen, ProcessSeen
+from roslings.evidence import ExperimentSeen
 from roslings.judge.demands import (
     insist_on_at_most,
     most_similar,
@@ -23,8 +22,9 @@ from roslings.judge.demands import (
     require_steady,
 )
 from roslings.judge.faults import EndedWithError, Inconclusive, NothingToJudge, NotLogged
+from roslings.judge.values import same
 from roslings.judge.views import Demand, ExperimentView, ProcessView, TopicView
-from roslings.judge.words import describe_end
+from roslings.judge.words import describe_end, how_it_went
 from roslings.matching import nearest_endpoint
 
 # --- who serves what ---------------------------------------------------------------------------
@@ -122,7 +122,7 @@ def show_each(services: Sequence[ServiceContract], topic: TopicContract) -> Dema
         for call in calls:
             answer = answers[call.part][call.number]
             found = _said_after(experiment, call, topic)
-            if not _same(found, answer.state):
+            if not same(found, answer.state, topic.numbers_within):
                 after = f"{call.service}{_asked(call)}"
                 shown = None if found is None else f"{found}"
                 raise faults.WrongState(topic.topic, after, f"{answer.state}", shown)
@@ -136,18 +136,11 @@ def say_at_first(state: Any) -> Demand[TopicView]:
     def demand(topic: TopicView) -> None:
         contents = [m.content for m in topic.messages if isinstance(m.content, dict)]
         for found in (content.get("data") for content in contents):
-            if not _same(found, state):
+            if not same(found, state, topic.contract.numbers_within):
                 words = "the start, before any call", f"{state}", f"{found}"
                 raise faults.WrongState(topic.name, *words)
 
     return demand
-
-
-def _same(found: Any, wanted: Any) -> bool:
-    """Equal, as far as a number of 32 bits can be."""
-    if isinstance(found, float) and isinstance(wanted, float):
-        return math.isclose(found, wanted, rel_tol=1e-6)
-    return bool(found == wanted)
 
 
 def _conversation(experiment: ExperimentView, service: ServiceContract) -> list[CallSeen]:
@@ -185,11 +178,15 @@ def _require_answer(
 def _compare(call: CallSeen, answer: AnswerContract) -> None:
     for name, wanted in answer.response.items():
         found = call.response.get(name)
-        if found != wanted:
+        if not same(found, wanted):
             raise faults.WrongAnswer(
-                call.service, _case(call, answer), name, _shown(wanted), _shown(found),
+                call.service,
+                _case(call, answer),
+                name,
+                _shown(wanted),
+                _shown(found),
                 case="" if call.request else answer.when,
-            )  # fmt: skip
+            )
 
 
 def _case(call: CallSeen, answer: AnswerContract) -> str:
@@ -217,9 +214,10 @@ def _said_after(experiment: ExperimentView, call: CallSeen, topic: TopicContract
     said = [
         message.content["data"]
         for message in heard.messages
-        if start_ns < message.arrival_ns <= end_ns and isinstance(message.content, dict)
+        if start_ns < message.arrival_ns <= end_ns
+        and isinstance(message.content, dict)
         and "data" in message.content
-    ]  # fmt: skip
+    ]
     return said[-1] if said else None
 
 
@@ -304,17 +302,23 @@ def ask(node: NodeContract, service: ServiceContract) -> Demand[ExperimentView]:
                 raise faults.AsksElsewhere(near)
             _require_its_type(experiment, service)
             raise faults.DidNotAsk(
-                node.executable, service.service, _how_it_went(process.seen),
+                node.executable,
+                service.service,
+                how_it_went(process.seen),
                 log=process.last_lines(6),
-            )  # fmt: skip
+            )
         found = served[0].request
-        if found != wanted:
+        if not _are_same(found, wanted):
             shown = (", ".join(f"{n}: {_shown(v)}" for n, v in d.items()) for d in (wanted, found))
             raise faults.AskedOtherwise(node.executable, *shown)
         if len(served) > 1:
             raise faults.AskedAgain(node.executable, service.service, len(served))
 
     return demand
+
+
+def _are_same(found: Mapping[str, Any], wanted: Mapping[str, Any]) -> bool:
+    return found.keys() == wanted.keys() and all(same(found[n], wanted[n]) for n in wanted)
 
 
 def _require_its_type(experiment: ExperimentView, service: ServiceContract) -> None:
@@ -331,12 +335,6 @@ def require_no_crash(process: ProcessView, task: str) -> None:
     seen = process.seen
     if seen.ended_by_itself and any(text.startswith("Traceback") for text in process.texts):
         raise EndedWithError(seen.executable, task, describe_end(seen), log=process.last_lines())
-
-
-def _how_it_went(seen: ProcessSeen) -> str:
-    if seen.ended_by_itself:
-        return f"the program ended ({describe_end(seen)})"
-    return "the program ran on"
 
 
 def tell_the_answer(node: NodeContract) -> Demand[ExperimentView]:

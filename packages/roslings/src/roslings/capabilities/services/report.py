@@ -42,8 +42,13 @@ def _figure(seen: ExperimentSeen) -> Markup:
         f"{counted(len(calls), 'call')}, {f'{open_} without' if open_ else 'each with'} an answer."
     )
     heading = tag("h3", f"in {seen.name}")
-    return tag("figure", heading, timeline(lines, words), tag("figcaption", words),
-               table("calls of services", HEAD, rows))  # fmt: skip
+    return tag(
+        "figure",
+        heading,
+        timeline(lines, words),
+        tag("figcaption", words),
+        table("calls of services", HEAD, rows),
+    )
 
 
 def _label(call: CallSeen) -> str:

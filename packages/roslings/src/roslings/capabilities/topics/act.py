@@ -10,8 +10,9 @@ from roslings.arena import Process
 from roslings.capabilities.topics.record import TOLD
 from roslings.course import TopicContract
 from roslings.evidence import Endpoint, Spoken, StageMark
+from roslings.experiment.missed import hears, publishes
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
-from roslings.experiment.scene import Scene, hears, publishes
+from roslings.experiment.scene import Scene
 from roslings.matching import nearest_endpoint
 
 TURNS_WITHIN_S = 3.0

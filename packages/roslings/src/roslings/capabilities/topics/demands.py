@@ -70,6 +70,16 @@ def require_carried(rate: Rate) -> None:
         )
 
 
+def say_something(topic: TopicView) -> None:
+    """A message came.
+
+    >>> talking.topic(CHATTER).must(say_something)
+    """
+    if not topic.messages:
+        require_steady(topic.experiment.stall_s)
+        raise NoMessages(topic.name, 0, topic.experiment.watching_s)
+
+
 def say_its_text(topic: TopicView) -> None:
     """Every text is the card's, with some number."""
     template = written(topic.contract.text, topic.name)

@@ -15,13 +15,12 @@ from roslings.course.files import written
 from roslings.evidence import MessageSeen, Spoken
 from roslings.judge.demands import insist_on_at_most, most_similar
 from roslings.judge.faults import Inconclusive, NothingToJudge, NotLogged
+from roslings.judge.values import as_number, field_of, remark, same, shown
 from roslings.judge.views import Demand, ExperimentView, ProcessView, TopicView
 from roslings.matching import nearest_endpoint
 
 FRESH_S = 1.0
 LONGEST_PAUSE_S = 0.1
-CLOSE = 1e-3
-"""A thousandth, or a millimetre: 32 bits hold no more of some numbers."""
 
 Wanted = Callable[[int, dict[str, Any]], Any]
 """What is to be shown after the n-th value, from n and the value; None where it is not asked."""
@@ -35,7 +34,7 @@ def hold_its_fields(topic: TopicView) -> None:
     for content in _contents(topic):
         for name, wanted in topic.contract.fields.items():
             found = field_of(content, name)
-            if not same(found, wanted):
+            if not same(found, wanted, topic.contract.numbers_within):
                 looks = remark(found, wanted)
                 raise faults.WrongField(topic.name, name, shown(wanted), shown(found) + looks)
 
@@ -60,13 +59,6 @@ def _contents(topic: TopicView) -> list[dict[str, Any]]:
     if not contents:
         raise NothingToJudge(f"nothing came on {topic.name}")
     return contents
-
-
-def field_of(content: Any, name: str) -> Any:
-    """A field, with dots that lead into fields; None where there is none."""
-    for step in name.split("."):
-        content = content.get(step) if isinstance(content, dict) else None
-    return content
 
 
 # --- what a node makes of a value --------------------------------------------------------------
@@ -131,7 +123,8 @@ def show_at_first(place: Shown, wanted: Any) -> Demand[ExperimentView]:
             raise NothingToJudge(f"{place.node.executable} could not be told anything")
         for message in heard.messages:
             found = field_of(message.content, place.name)
-            if message.arrival_ns < began_ns[0] and not same(found, wanted):
+            right = same(found, wanted, place.topic.numbers_within)
+            if message.arrival_ns < began_ns[0] and not right:
                 words = (place.topic.topic, place.name, "", shown(wanted), shown(found))
                 raise faults.WrongAtFirst(*words)
 
@@ -157,7 +150,7 @@ def answer_each_once(place: Shown) -> Demand[ExperimentView]:
 
 def _judge(process: ProcessView, turn: Turn, place: Shown, wanted: Any) -> None:
     found = field_of(turn.message.content if turn.message else None, place.name)
-    if same(found, wanted):
+    if same(found, wanted, place.topic.numbers_within):
         return
     heard = turn.heard(place.heard, place.remembers)
     words = (place.topic.topic, place.name, heard, shown(wanted))
@@ -204,68 +197,9 @@ def turns(experiment: ExperimentView, topic: TopicContract) -> Iterator[Turn]:
         yield Turn(number, each, before, said[-1] if said else None, settled)
 
 
-def same(found: Any, wanted: Any) -> bool:
-    """Equal; numbers as far as 32 bits tell, and NaN is NaN."""
-    if isinstance(wanted, bool) or not isinstance(wanted, int | float):
-        return bool(found == wanted)
-    number = as_number(found)
-    if number is None or math.isnan(number) or math.isnan(wanted):
-        return number is not None and math.isnan(number) and math.isnan(wanted)
-    return math.isclose(number, wanted, rel_tol=CLOSE, abs_tol=CLOSE)
-
-
-def as_number(value: Any) -> float | None:
-    """A number of the evidence, where NaN and the infinities are texts; None for other things."""
-    if isinstance(value, bool) or value is None:
-        return None
-    try:
-        return float(value)
-    except (TypeError, ValueError):
-        return None
-
-
-def shown(value: Any) -> str:
-    """A value in words: four digits are enough."""
-    if isinstance(value, bool):
-        return str(value).lower()
-    number = as_number(value)
-    if number is None:
-        return repr(value)
-    if math.isinf(number):
-        return "+infinity" if number > 0 else "-infinity"
-    short = f"{number:.4g}"
-    return "NaN" if math.isnan(number) else f"{number:.6f}" if "e-" in short else short
-
-
 def _should_be_infinite(found: Any, wanted: Any) -> bool:
     goal, number = as_number(wanted), as_number(found)
     return goal is not None and not math.isfinite(goal) and number is not None
-
-
-LOOKS_LIKE = {
-    2.0: "twice as much", 0.5: "half of it", -1.0: "with the wrong sign",
-    100.0: "a hundred times as much: in cm?", 1000.0: "a thousand times as much: in mm?",
-    0.01: "a hundredth of it: divided by 100 once too often?",
-    0.001: "a thousandth of it: divided by 1000 once too often?",
-    math.degrees(1): "180/pi times as much: in degrees?",
-    math.radians(1): "pi/180 of it: turned into radians once too often?",
-}  # fmt: skip
-"""Found over wanted to what is probably the reason."""
-
-
-def remark(found: Any, wanted: Any) -> str:
-    """What the wrong number looks like."""
-    goal, number = as_number(wanted), as_number(found)
-    if not goal or number is None or not math.isfinite(goal):
-        return ""
-    if math.isinf(number):
-        return ", as if it were out of range: compare the units, and the limits"
-    if math.isnan(number):
-        return ""
-    for factor, words in LOOKS_LIKE.items():
-        if math.isclose(number / goal, factor, rel_tol=0.02):
-            return f", {words}"
-    return ""
 
 
 # --- what a node writes of a value -------------------------------------------------------------

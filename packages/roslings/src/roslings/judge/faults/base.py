@@ -74,6 +74,11 @@ class Fault(Exception):
         raise NotImplementedError
 
     @property
+    def headline(self) -> str:
+        """What was measured, in a line that stands alone: it names what it speaks of."""
+        return self.measured
+
+    @property
     def hint(self) -> str:
         """Where to look. It names what is wrong, and not the mend: who finds that has learnt it."""
         raise NotImplementedError

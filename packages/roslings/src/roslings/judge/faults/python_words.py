@@ -13,10 +13,24 @@ from dataclasses import dataclass
 from ros2_on_pip.near_names import nearest
 
 PACKAGES = (
-    "action_msgs", "builtin_interfaces", "diagnostic_msgs", "example_interfaces", "geometry_msgs",
-    "nav_msgs", "rcl_interfaces", "rclpy", "rosbag2_py", "sensor_msgs", "std_msgs", "std_srvs",
-    "test_msgs", "tf2_msgs", "tf2_ros", "trajectory_msgs", "visualization_msgs",
-)  # fmt: skip
+    "action_msgs",
+    "builtin_interfaces",
+    "diagnostic_msgs",
+    "example_interfaces",
+    "geometry_msgs",
+    "nav_msgs",
+    "rcl_interfaces",
+    "rclpy",
+    "rosbag2_py",
+    "sensor_msgs",
+    "std_msgs",
+    "std_srvs",
+    "test_msgs",
+    "tf2_msgs",
+    "tf2_ros",
+    "trajectory_msgs",
+    "visualization_msgs",
+)
 """What a beginner imports."""
 
 NOT_CALLED = (

@@ -94,8 +94,9 @@ def set_aside(evidence: Evidence) -> Iterator[Markup]:
 
 
 def _measures(each: Watched) -> Markup:
-    rows = [tag("tr", tag("th", name, scope="row"), tag("td", value))
-            for name, value in _figures(each)]  # fmt: skip
+    rows = [
+        tag("tr", tag("th", name, scope="row"), tag("td", value)) for name, value in _figures(each)
+    ]
     table = tag("table", tag("tbody", *rows), class_="measures")
     return joined(table, tag("p", ABOUT_JITTER, class_="about")) if each.rate else table
 
@@ -274,7 +275,8 @@ def surroundings(verdict: Verdict) -> Markup:
         "seconds": f"build {seconds.build:.1f}, discovery {seconds.discovery:.1f},"
         f" watching {seconds.watching:.1f}, ending {seconds.ending:.1f}",
     }
-    cells = [tag("tr", tag("th", name, scope="row"), tag("td", text))
-             for name, text in rows.items()]  # fmt: skip
+    cells = [
+        tag("tr", tag("th", name, scope="row"), tag("td", text)) for name, text in rows.items()
+    ]
     table = tag("table", tag("tbody", *cells), class_="measures")
     return tag("section", tag("h2", "Where it was measured"), joined(table))

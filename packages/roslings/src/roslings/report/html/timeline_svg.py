@@ -90,8 +90,14 @@ class _Paper:
         yield tag("text", label, x=self.label - 10.0, y=y + 4.0, text_anchor="end")
         for bar in line.bars:
             x, end = self.axis.at(bar.from_s), self.axis.at(bar.to_s)
-            yield tag("rect", x=x, y=y - 6.0, width=max(LEAST_PX, end - x), height=12.0,
-                      class_=f"bar-{bar.look}")  # fmt: skip
+            yield tag(
+                "rect",
+                x=x,
+                y=y - 6.0,
+                width=max(LEAST_PX, end - x),
+                height=12.0,
+                class_=f"bar-{bar.look}",
+            )
         for time_s in line.dots_s:
             x = self.axis.at(time_s)
             yield tag("line", x1=x, x2=x, y1=y, y2=y, class_="dots")

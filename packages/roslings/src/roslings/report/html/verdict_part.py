@@ -138,8 +138,9 @@ def _read(check: CheckResult, site: str, program: str) -> Markup:
         return prose(lesson)
     if site:
         return tag("a", lesson, href=f"{site}/{found[1]}/index.html#{found[3]}")
-    return joined(lesson, ", in the lesson that ", tag("code", f"{program} lab {int(found[2])}"),
-                  " opens")  # fmt: skip
+    return joined(
+        lesson, ", in the lesson that ", tag("code", f"{program} lab {int(found[2])}"), " opens"
+    )
 
 
 def _failed(check: CheckResult, package: str, plot: Markup, read: Markup) -> Markup:

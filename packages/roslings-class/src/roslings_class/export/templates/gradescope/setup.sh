@@ -4,7 +4,7 @@ set -euo pipefail
 here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd -P)
 course=$here/course
 
-# What no Python package brings; a compiler where the lab has message types of its own.
+# What no Python package brings; a compiler where the lab has message types that must be built.
 missing=()
 python3 -c 'import ensurepip, venv' 2>/dev/null || missing+=(python3 python3-venv)
 needed=(@SYSTEM@)

@@ -3,7 +3,7 @@
 set -euo pipefail
 here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd -P)
 
-# What no Python package brings; a compiler where the lab has message types of its own.
+# What no Python package brings; a compiler where the lab has message types that must be built.
 missing=()
 needed=(@SYSTEM@)
 for package in "${needed[@]}"; do

@@ -15,13 +15,18 @@ class WrongField(Fault):
     name: str
     wanted: str
     found: str
-    why = "Who uses a sensor's messages knows the sensor only by these fields."
+    why = "Who reads these messages takes each field at its word."
     expected = "on {topic}, the field {name} is {wanted}"
     measured = "it is {found}"
     hint = "Which line fills {name}, before you publish?"
     mend = (
         "Fill it before you publish: MESSAGE.{name} = ... A field that nobody fills is 0 or empty."
     )
+
+    @property
+    def headline(self) -> str:
+        """With the field's name."""
+        return f"{self.name} is {self.found}"
 
 
 @dataclass(eq=False)
@@ -65,16 +70,28 @@ class WrongReaction(Fault):
     remark: str = ""
     why = "A robot acts on this value. A wrong one sends it against the wall."
     hint = (
-        "Take this one case, with the numbers of the card, and go through your code with it by"
-        " hand, line by line."
+        "Take this one case, with its numbers, and go through your code with it by hand, line by"
+        " line."
     )
     expected = "after {heard}: {field_name} {wanted} on {topic}"
 
     @property
     def measured(self) -> str:
         """The value that came, and what it looks like."""
-        shown = f"{self.field_name} {self.found}" if self.found is not None else "no message"
-        return f"{shown}{self.remark}"
+        return f"{self._came}{self.remark}"
+
+    @property
+    def headline(self) -> str:
+        """With the case, and the topic."""
+        return f"{self._case}: {self._came} on {self.topic}{self.remark}"
+
+    @property
+    def _came(self) -> str:
+        return "no message" if self.found is None else f"{self.field_name} {self.found}"
+
+    @property
+    def _case(self) -> str:
+        return f"after {self.heard}"
 
 
 @dataclass(eq=False)
@@ -112,6 +129,11 @@ class EndedWhileHearing(WrongReaction):
     )
     measured = "the node ended with an error"
 
+    @property
+    def headline(self) -> str:
+        """With the case."""
+        return f"{self._case}: {self.measured}"
+
 
 @dataclass(eq=False)
 class WrongAtFirst(WrongReaction):
@@ -120,6 +142,10 @@ class WrongAtFirst(WrongReaction):
     why = "A number means that something was measured. Before that, the sensor knows nothing."
     hint = "What do you put into your variable in __init__? It is published until a value comes."
     expected = "before anything was heard: {field_name} {wanted} on {topic}"
+
+    @property
+    def _case(self) -> str:
+        return "before anything was heard"
 
 
 @dataclass(eq=False)

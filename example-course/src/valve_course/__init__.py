@@ -1,1 +1,0 @@
-"""A course of its own: what its labs need beside roslings."""

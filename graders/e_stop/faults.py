@@ -1,0 +1,219 @@
+"""What can be wrong with a button and a guard, in words."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from roslings.judge.faults import Fault
+
+# --- a button ----------------------------------------------------------------------------------
+
+
+@dataclass(eq=False)
+class OtherThanPressed(Fault):
+    """A press did not lead to one message with its value."""
+
+    topic: str
+    asked: str
+    wanted: str
+    found: str
+    why = "The topic is all that the guard hears of the button."
+    expected = "the call with {asked} leads to one message on {topic}: {wanted}"
+    measured = "it leads to: {found}"
+    hint = "Compare what the service was asked with what is published."
+    mend = "Publish request.data in the function of the service, once for each call."
+
+
+@dataclass(eq=False)
+class SaysMore(Fault):
+    """The latched topic says more than it was asked to."""
+
+    topic: str
+    wanted: int
+    found: int
+    why = "A topic that keeps its last message need not say it again. Each message is an event."
+    expected = "at most {wanted} messages on {topic}: one at the start, and one for each call"
+    measured = "{found}"
+    hint = "Is there a timer that publishes? A latched topic needs none."
+
+
+# --- a guard -----------------------------------------------------------------------------------
+
+
+@dataclass(eq=False)
+class TellsTheMotorsNothing(Fault):
+    """No message comes to the motors."""
+
+    topic: str
+    when: str
+    why = "Motors that hear nothing do what they were told last."
+    expected = "messages on {topic} {when}"
+    measured = "none came"
+    hint = "What does your node publish while there is a reason to stop, and how often?"
+    mend = "A timer publishes 20 times a second, also while there is a reason to stop: then zero."
+
+
+@dataclass(eq=False)
+class StandsStill(Fault):
+    """It does not drive, though nothing speaks against it."""
+
+    topic: str
+    when: str
+    command: str
+    why = "A guard that stops the rover for no reason is switched off soon, and then guards nobody."
+    expected = "{when}, {topic} says what the operator wants: {command}"
+    measured = "it says zero all the time"
+    hint = (
+        "Log which reason to stop your guard sees. Each must go away again: on `false`, on the next"
+        " command, and when a publisher is alive again (alive_count)."
+    )
+
+
+@dataclass(eq=False)
+class OtherCommand(Fault):
+    """The motors are told something else than the operator wants."""
+
+    topic: str
+    when: str
+    command: str
+    found: str
+    why = "The guard stands between the operator and the motors, and changes nothing on the way."
+    expected = "{when}, {topic} says what the operator wants: {command}"
+    measured = "it says: {found}"
+    hint = "What becomes of the fields of /cmd_vel_raw on their way through your node?"
+    mend = "Keep the last message of /cmd_vel_raw as it is, with all its fields, and publish it."
+
+
+@dataclass(eq=False)
+class Stutters(Fault):
+    """In the middle of a drive it stops for a moment."""
+
+    topic: str
+    when: str
+    gap_s: float
+    why = "A rover that stops and starts again and again wears its gears, and throws its load."
+    expected = "{when}, {topic} says all the time what the operator wants"
+    measured = "in between it says zero, though no command was more than {gap_s:.2f} s late"
+    hint = (
+        "Does a lost or a late command stop it? One that is lost is no reason to stop: only the"
+        " deadline is."
+    )
+
+
+@dataclass(eq=False)
+class DoesNotStop(Fault):
+    """The motors go on, though there is a reason to stop."""
+
+    topic: str
+    cause: str
+    within_s: float
+    watched_s: float
+    why = "This is what the guard is there for."
+    expected = "after {cause}, {topic} says zero within {within_s:g} s"
+    measured = "{watched_s:.1f} s later it still says another command"
+    hint = (
+        "Which function of yours is called then? For a press it is the subscription's, for the"
+        " others an event's: SubscriptionEventCallbacks(deadline=..., liveliness=...). Log in it."
+    )
+
+
+@dataclass(eq=False)
+class StopsLate(DoesNotStop):
+    """It stops, and not soon enough."""
+
+    measured = "the last other command came {watched_s:.2f} s later"
+    hint = "What lies between the event and your stop: a wait, a timer?"
+    mend = (
+        "Act in the event's own function. A wait, or a timer that looks now and then, comes on top"
+        " of the time that the middleware takes."
+    )
+
+
+@dataclass(eq=False)
+class SilentMeanwhile(Fault):
+    """While there is a reason to stop, the motors hear nothing for a while."""
+
+    topic: str
+    cause: str
+    most_s: float
+    found_s: float
+    why = "Motors that hear nothing do what they were told last."
+    expected = "after {cause}, {topic} has a message every {most_s:g} s at least"
+    measured = "for {found_s:.2f} s there was none"
+    hint = (
+        "Something in your node waits: a time.sleep(), or a loop, in the function of an event or of"
+        " a subscription. Nothing else of the node runs meanwhile, its timer neither."
+    )
+
+
+@dataclass(eq=False)
+class DrivesUnasked(Fault):
+    """It drives before anybody released the stop."""
+
+    topic: str
+    when: str
+    found: str
+    why = "A robot that nobody has released must not move: somebody may stand before it."
+    expected = "{when}, {topic} says zero"
+    measured = "it says: {found}"
+    hint = "In which state does your guard begin, before anything has come?"
+    mend = "Begin with `stopped = True`, and with a button that is not there."
+
+
+@dataclass(eq=False)
+class DoesNotGoOn(StandsStill):
+    """After a reason to stop is gone, it stands for ever."""
+
+    why = "A guard that never lets go again must be started anew after each stop."
+
+
+@dataclass(eq=False)
+class ReasonNotTold(Fault):
+    """The log does not say why it stopped."""
+
+    line: str
+    cause: str
+    near: str | None
+    why = "Who stands beside a rover that stopped wants to know why, before anything else."
+    expected = "after {cause}, the guard writes: {line}"
+    hint = "Where in your code does a stop begin, and what is written there?"
+    mend = "Write the line where the stop begins. Text, colon and reason are those of the card."
+
+    @property
+    def measured(self) -> str:
+        """The nearest line."""
+        return f"it writes: {self.near}" if self.near else "it writes nothing like it"
+
+
+@dataclass(eq=False)
+class ReasonToldAgain(Fault):
+    """One stop is told many times."""
+
+    line: str
+    cause: str
+    times: int
+    why = "A log that says the same again and again hides all that is new."
+    expected = "after {cause}, one line: {line}"
+    measured = "it stands there {times} times"
+    hint = "How often does this event come, and when is the reason a new one?"
+    mend = (
+        "The deadline's event comes again, for each deadline that passes. Write the line only when"
+        " the reason is new."
+    )
+
+
+# --- two computers -----------------------------------------------------------------------------
+
+
+@dataclass(eq=False)
+class NotReached(Fault):
+    """The nodes do not find each other across the link."""
+
+    what: str
+    why = "On two computers there is often no multicast: in schools, and on many a Wi-Fi."
+    expected = "on two computers, {what}"
+    measured = "they did not find each other, though ROS_STATIC_PEERS names the other computer"
+    hint = (
+        "The check sets ROS_STATIC_PEERS and ROS_AUTOMATIC_DISCOVERY_RANGE, as you would in a"
+        " terminal. Your program must leave these variables as they are."
+    )

@@ -1,0 +1,1 @@
+"""A node that finds a ball in pictures: what is shown to it, and what it must answer."""

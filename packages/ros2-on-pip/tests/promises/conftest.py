@@ -1,0 +1,5 @@
+"""What the tests of the promises share."""
+
+from launched import launch
+
+__all__ = ["launch"]

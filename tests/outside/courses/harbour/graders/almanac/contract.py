@@ -1,0 +1,30 @@
+"""What a card says about gales, and its row in task.md."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Annotated
+
+from pydantic import Field
+
+from roslings.capability import Row, Words
+from roslings.course.contract import Contract
+from roslings.course.kinds import Kind
+
+if TYPE_CHECKING:
+    from roslings.course import NodeContract
+
+
+class GaleWords(Contract):
+    """What a card may say of a node."""
+
+    warns_above_m_s: Annotated[float | None, Kind.EDGE] = Field(default=None, gt=0)
+
+
+def rows(node: NodeContract) -> Iterable[Row]:
+    """The wind that is a gale."""
+    if node.warns_above_m_s:
+        yield "warns", f"of wind above {node.warns_above_m_s:g} m/s"
+
+
+WORDS = Words(node=GaleWords, settings=rows)
