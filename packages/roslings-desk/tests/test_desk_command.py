@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import signal
+import time
 from pathlib import Path
 
 import pytest
@@ -24,6 +25,21 @@ def test_it_ends_and_leaves_nothing(number: signal.Signals, tmp_path: Path) -> N
     assert list(tmp_path.iterdir()) == []
     assert found.lines[-1] == "The desk is closed."
     assert "Traceback" not in "\n".join(found.lines)
+
+
+@pytest.mark.parametrize("late_s", [0.0, 0.01, 0.03, 0.1, 0.3])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_it_ends_well_at_each_moment_of_its_start(
+    number: signal.Signals, late_s: float, tmp_path: Path
+) -> None:
+    """While its loop starts, while pages are made, when it serves; twice is not too often."""
+    with leased_domain() as domain, desk(domain, tmp_path) as found:
+        time.sleep(late_s)
+        found.process.send_signal(number)
+        assert found.interrupt(number) == 0
+    assert list(tmp_path.iterdir()) == []
+    assert found.lines[-1] == "The desk is closed.", found.lines
+    assert len(found.lines) == 4, found.lines
 
 
 @pytest.mark.parametrize(

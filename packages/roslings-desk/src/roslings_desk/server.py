@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import signal
 import socket
 import sys
 import tempfile
@@ -11,11 +10,13 @@ import webbrowser
 from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from ros2_on_pip.problem import Problem
 from roslings_desk.bag_player import BagPlayer, playing
 from roslings_desk.door import door
+from roslings_desk.ending import Ending, ending
 from roslings_desk.guard import ENTRANCE, App, Guard
 from roslings_desk.hub import Hub
 from roslings_desk.phone import Doors, PhoneGuard, listening_for_phone, own_address
@@ -97,8 +98,14 @@ def run(wish: Wish) -> None:
         raise NoWords(wish.tab, wish.shown)
     bag: AbstractContextManager[BagPlayer | None]
     bag = playing(wish.bag) if wish.bag else nullcontext()
-    with _own_storage(), _sockets(wish) as sockets, bag as player, Hub(wish.hidden) as hub:
-        _serve(wish, sockets, hub, player)
+    with (
+        ending() as ends,
+        _own_storage(),
+        _sockets(wish) as sockets,
+        bag as player,
+        Hub(wish.hidden) as hub,
+    ):
+        _serve(wish, sockets, hub, player, ends)
 
 
 @contextmanager
@@ -131,7 +138,7 @@ def _listening(port: int) -> Iterator[socket.socket]:
         yield listener
 
 
-def _serve(wish: Wish, sockets: Sockets, hub: Hub, bag: BagPlayer | None) -> None:
+def _serve(wish: Wish, sockets: Sockets, hub: Hub, bag: BagPlayer | None, ends: Ending) -> None:
     import uvicorn
 
     from roslings_desk.application import application
@@ -148,15 +155,16 @@ def _serve(wish: Wish, sockets: Sockets, hub: Hub, bag: BagPlayer | None) -> Non
         timeout_graceful_shutdown=LEAVES_WITHIN_S,
     )
     with door(f"http://{HOST}:{port}{ENTRANCE}?key={guard.key}&tab={wish.tab}") as file:
-        try:
-            _end_kindly()
-            _tell(wish, file)
-            if phone:
-                _tell_of_phone(phone)
-            uvicorn.Server(config).run(sockets=list(filter(None, (sockets.own, sockets.phone))))
-        except KeyboardInterrupt:
-            with suppress(OSError):  # its terminal may be gone
-                print("\nThe desk is closed.", flush=True)
+        server = uvicorn.Server(config)
+        # Its own handlers come late, raise when they go, and at the second signal stop nothing.
+        server.capture_signals = nullcontext  # type: ignore[method-assign]
+        ends.asks(partial(setattr, server, "should_exit", True))
+        _tell(wish, file)
+        if phone:
+            _tell_of_phone(phone)
+        server.run(sockets=list(filter(None, (sockets.own, sockets.phone))))
+    with suppress(OSError):  # its terminal may be gone
+        print("\nThe desk is closed.", flush=True)
 
 
 def _phone_guard(app: App, listener: socket.socket | None) -> PhoneGuard | None:
@@ -164,17 +172,6 @@ def _phone_guard(app: App, listener: socket.socket | None) -> PhoneGuard | None:
         return None
     address, port = listener.getsockname()
     return PhoneGuard(app, address, port, _say_phone)
-
-
-def _end_kindly() -> None:
-    """Ctrl-C, `kill`, and a terminal that is closed: what this desk drives is stopped before.
-
-    Ctrl-C counts also where a script started us deaf to it; `nohup` keeps its meaning.
-    """
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, signal.default_int_handler)
-    if signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:
-        signal.signal(signal.SIGHUP, lambda *_: signal.raise_signal(signal.SIGTERM))
 
 
 def _tell(wish: Wish, file: Path) -> None:
