@@ -160,6 +160,22 @@ def test_every_group_of_the_scripts_table_exists() -> None:
     assert named <= set(groups.names(PYPROJECT))
 
 
+@pytest.mark.parametrize("command", ["lab", "site", "desk", "rover", "graph", "ros2", "check"])
+def test_what_a_lesson_types_is_installed_for_the_tests(command: str) -> None:
+    """Else a lesson's output begins with a download, and is not what the lesson holds."""
+    assert groups_of(command) <= groups_of("test")
+
+
+def groups_of(command: str) -> set[str]:
+    """As the script has them for a command without words."""
+    (row,) = re.findall(
+        rf"^ +(?:[\w-]+ \| )*{command}(?: \| [\w-]+)*\) *(?:\n *)?echo ([\w -]+) ;;$",
+        (REAL / "roslings").read_text(),
+        re.MULTILINE,
+    )
+    return set(row.split())
+
+
 def test_the_script_is_plain_sh() -> None:
     """Nothing that only bash understands, and LF line ends in a clone made under Windows."""
     assert subprocess.run(["sh", "-n", REAL / "roslings"], check=False).returncode == 0
