@@ -83,6 +83,11 @@ def add_options(word: argparse.ArgumentParser) -> None:
         help="judge all proofs that are kept, and say which are stale; runs no node",
     )
     word.add_argument(
+        "--prices",
+        action="store_true",
+        help="what each kept wrong package lost in points, and by what; runs no node",
+    )
+    word.add_argument(
         "--record",
         action="store_true",
         help="measure what is stale, and keep the proofs of it; with --due: all that is due",
@@ -105,6 +110,8 @@ def run(options: argparse.Namespace) -> int:
     """Prove labs' packages and contracts, and say what is not as it must be."""
     if options.drills is not None:
         return _prove_drills(options)
+    if options.prices:
+        return _tell_prices(options.labs)
     if options.kept or options.record or options.due:
         return _prove_kept(options)
     return _prove_labs(options)
@@ -219,6 +226,19 @@ def _prove_kept(options: argparse.Namespace) -> int:
     if not wrong:
         return OK
     return INCONCLUSIVE if all(proof.is_open for proof in wrong) else FAILED
+
+
+def _tell_prices(names: Sequence[str]) -> int:
+    """The price list of each lab."""
+    from roslings_prove.proofs.command import labs_or_all
+    from roslings_prove.proofs.kept import kept_here
+    from roslings_prove.proofs.prices import price_list
+    from roslings_prove.telling import wrapped
+
+    for lab in labs_or_all(names):
+        for line in price_list(lab, kept_here()).lines():
+            print("\n".join(wrapped(line, " " * 18)))
+    return OK
 
 
 def _proofs_of(name: str, options: argparse.Namespace) -> Callable[..., Iterable[Any]]:
