@@ -8,8 +8,8 @@ import pytest
 
 from roslings.course import Lab, all_labs, lab
 from roslings_launcher.cli import main
+from roslings_prove.prices import NOT_DONE, RIGHT, points_of, price_list, priced
 from roslings_prove.proofs.kept import Folder, KeptProof, kept_here
-from roslings_prove.proofs.prices import NOT_DONE, RIGHT, points_of, price_list, priced
 
 LABS = all_labs()
 
