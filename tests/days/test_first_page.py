@@ -147,18 +147,33 @@ def stands(rover: Terminal) -> bool:
 
 
 def drive_to_the_ball(rover: Terminal) -> None:
-    """As somebody does who looks at the map: turn until the arrow points there, then ahead."""
+    """As somebody does who looks at the map: turn until the arrow points there, then ahead.
+
+    The map is always a little late: so one key at a time, and a look when the rover rests.
+    """
     (ball,) = default_world().balls
-    rover.press("c" * 8)  # turn slowly: the map is always a little late
+    rover.press("c" * 8)  # turn slowly
 
     def there() -> bool:
-        x_m, y_m, heading = where_is(rover)
+        x_m, y_m, heading = before = where_is(rover)
         way = math.degrees(math.atan2(ball.y_m - y_m, ball.x_m - x_m))
         off = (way - heading + 180) % 360 - 180
         rover.press(UP if abs(off) < POINTS_THERE else LEFT if off > 0 else RIGHT)
-        return "touches the red ball" in rover.heard()
+        rover.until(lambda: touches(rover) or has_moved(rover, before), "it does not move")
+        return touches(rover)
 
     rover.until(there, "it did not come to the ball")
+
+
+def touches(rover: Terminal) -> bool:
+    """As the page promises."""
+    return "touches the red ball" in rover.heard()
+
+
+def has_moved(rover: Terminal, before: tuple[float, float, float]) -> bool:
+    """It is at another place or has another heading, and rests there."""
+    turns = re.findall(r"\bturn +(-?\d+\.\d\d) rad/s", rover.heard())[-1:]
+    return where_is(rover) != before and stands(rover) and turns == ["0.00"]
 
 
 def where_is(rover: Terminal) -> tuple[float, float, float]:
