@@ -157,7 +157,7 @@ def _serve(wish: Wish, sockets: Sockets, hub: Hub, bag: BagPlayer | None, ends: 
     with door(f"http://{HOST}:{port}{ENTRANCE}?key={guard.key}&tab={wish.tab}") as file:
         server = uvicorn.Server(config)
         # Its own handlers come late, raise when they go, and at the second signal stop nothing.
-        server.capture_signals = nullcontext  # type: ignore[method-assign]
+        server.capture_signals = nullcontext  # type: ignore[assignment, method-assign]
         ends.asks(partial(setattr, server, "should_exit", True))
         _tell(wish, file)
         if phone:
