@@ -9,10 +9,9 @@ from __future__ import annotations
 import platform
 from collections import Counter
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Literal
 
-from roslings.lockstep.quiet import Account, Stat
+from roslings.lockstep.quiet import Account, Stat, Thread
 
 Stands = Literal["sleeps", "waits with a time-out", "elsewhere", "unknown"]
 SLEEPS: dict[str, frozenset[int]] = {
@@ -28,6 +27,7 @@ SELECTS: dict[str, frozenset[int]] = {
 FUTEX: dict[str, int] = {"x86_64": 202, "aarch64": 98}
 SLEEPS_IN = ("hrtimer_nanosleep", "common_nsleep", "do_nanosleep")
 """The same in the words of wchan."""
+MACHINE = platform.machine()
 NAMED_FROM_TICKS = 2
 """A single one may be a start that is not over yet."""
 
@@ -59,21 +59,22 @@ class Call:
         return "elsewhere"
 
 
-def stands_in(thread: Path, machine: str = "") -> Stands:
+def stands_in(thread: Thread, machine: str = MACHINE) -> Stands:
     """Where a thread stands. Some kernels (Yama) tell the call only to whoever began the process,
     and the function to all of the same user."""
     try:
-        call = Call.of((thread / "syscall").read_text())
-        return call.stands(machine or platform.machine()) if call else "elsewhere"
+        call = Call.of(thread.read("syscall").decode())
+        return call.stands(machine) if call else "elsewhere"
     except PermissionError:
-        return _by_function(thread)
+        return by_function(thread)
     except OSError:
         return "elsewhere"
 
 
-def _by_function(thread: Path) -> Stands:
+def by_function(thread: Thread) -> Stands:
+    """The same by the kernel's function in which it stands."""
     try:
-        function = (thread / "wchan").read_text().strip()
+        function = thread.read("wchan").decode().strip()
     except OSError:
         return "unknown"
     if function in ("", "0"):
@@ -105,13 +106,13 @@ class Watch:
     """Counts who sleeps, tick by tick."""
 
     account: Account
-    _seen: Counter[tuple[int, str]] = field(default_factory=Counter)
+    _seen: Counter[tuple[int, int]] = field(default_factory=Counter)
 
     def look(self) -> None:
         """At one moment of quiet."""
-        for thread in self.account.threads_of_nodes():
+        for pid, thread in self.account.threads_of_nodes():
             if stands_in(thread) == "sleeps":
-                self._seen[int(thread.parent.parent.name), thread.name] += 1
+                self._seen[pid, thread.number] += 1
 
     @property
     def sleepers(self) -> tuple[Sleeper, ...]:
@@ -122,11 +123,11 @@ class Watch:
             if ticks >= NAMED_FROM_TICKS
         )
 
-    def _name(self, pid: int, thread: str) -> str:
-        if str(pid) == thread:
+    def _name(self, pid: int, thread: int) -> str:
+        if pid == thread:
             return "its main thread"
         try:
-            file = self.account.proc / str(pid) / "task" / thread / "stat"
-            return f"its thread {Stat.of(file.read_text()).name}"
+            file = self.account.proc / str(pid) / "task" / str(thread) / "stat"
+            return f"its thread {Stat.of(file.read_bytes()).name}"
         except OSError:
             return f"its thread {thread}"

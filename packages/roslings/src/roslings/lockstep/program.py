@@ -29,8 +29,7 @@ ENDS: dict[type[Exception], End] = {
 
 def drive(plan: Plan) -> Drive:
     """In this process, beside nodes that run."""
-    account = Account(plan.pids)
-    with RosVoice() as voice:
+    with Account(plan.pids) as account, RosVoice() as voice:
         world = Lockstep(plan, voice, account)
         try:
             account.check()

@@ -201,7 +201,7 @@ class Lockstep:
             return True
         waited_s = time.monotonic() - self._quiet_s
         if waited_s > self.plan.budget.cap_s:
-            raise NeverQuiet(waited_s, self.account.busy_names())
+            raise NeverQuiet(waited_s, self.account.look().busy)
         return False
 
     def _obey(self, commands: list[CommandSeen]) -> None:

@@ -119,7 +119,8 @@ class RosVoice:
     def heard(self) -> list[CommandSeen]:
         """All commands since the last time, in their order."""
         found = []
-        with self._ear.handle as ear:
+        ear = self._ear.handle
+        with ear:
             while (taken := ear.take_message(self._ear.msg_type, False)) is not None:
                 twist = taken[0]
                 found.append(CommandSeen(forward_m_s=twist.linear.x, turn_rad_s=twist.angular.z))
