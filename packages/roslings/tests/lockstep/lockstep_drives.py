@@ -83,8 +83,3 @@ def started(crew: Crew, environment: dict[str, str]) -> Iterator[Sequence[int]]:
             ends.callback(process.kill)
             pids.append(process.pid)
         yield pids
-
-
-def commands_of(drives: Sequence[Drive]) -> set[object]:
-    """The commands of each tick, once for all drives that have the same ones."""
-    return {drive.commands for drive in drives}

@@ -87,7 +87,7 @@ class RosVoice:
             if not spin_until(lambda: self._all_there(plan), ends_s):
                 raise NobodyFollows(self._missing(plan), self._listeners, len(plan.nodes))
             self._ask_all(plan, spin_until)
-        account.is_quiet_within(plan.discovery_s)
+        account.is_quiet_within(plan.budget.cap_s)
         self.heard()
 
     def say_odom(self, rover: RoomRover, at_ns: int) -> None:
