@@ -4,9 +4,10 @@
     python tests/bench/lockstep.py steps [ROUNDS]  wall time a tick, and of a room of 60 s
     python tests/bench/lockstep.py busy [RUNS]     `same`, beside four processes that only compute
 
-A drive is of 10 robot seconds with /clock in steps of 50 ms, and a scan at every tick. "same" counts
-the drives whose commands are those of most of them, tick by tick. A "late" tick is one whose node
-had no processor, or computed, for more than the budget's half second. It asserts nothing.
+A drive is of 10 robot seconds with /clock in steps of 50 ms, and a scan at every tick. "same"
+counts the drives whose commands are those of most of them, tick by tick. A "late" tick is one
+whose node had no processor, or computed, for more than the budget's half second. It asserts
+nothing.
 """
 
 from __future__ import annotations

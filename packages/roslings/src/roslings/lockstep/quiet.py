@@ -151,12 +151,12 @@ class Account:
 
     def check(self) -> None:
         """Raises NoAccount where the kernel tells nothing of them, and Gone where one has ended."""
-        if not (self.proc / "self" / "stat").exists():
+        if not os.access(self.proc / "self" / "stat", os.R_OK):
             raise NoAccount(f"there is no {self.proc}")
         for pid in self.pids:
             if not _lives(pid):
                 raise Gone(pid)
-            if not (self.proc / str(pid) / "stat").exists():
+            if not os.access(self.proc / str(pid) / "stat", os.R_OK):
                 raise NoAccount(f"{self.proc} hides other processes (hidepid)")
         slices = self.look().slices
         if not all(slices.get(pid) for pid in self.pids):
