@@ -22,7 +22,7 @@ from window import Window, day_window
 from lessons_as_tests import surroundings
 from roslings_learn.jupyter.copies import Copies
 from roslings_learn.jupyter.server import Place, command, environment, workspaces, write_kernel
-from roslings_learn.jupyter.window.layout import ROVER, lay_out
+from roslings_learn.jupyter.window.layout import LAYOUT, ROVER, lay_out
 from roslings_learn.jupyter.window.layout import day_window as planned
 from roslings_learn.lessons import read_lessons
 from skips import needs
@@ -107,16 +107,20 @@ def close(window: Window, name: str) -> None:
 
 def kept(home: Path, is_so: Callable[[list[str]], Any], window: Window) -> None:
     """Wait until JupyterLab has kept tabs of which this holds."""
-    until(lambda: is_so(kept_tabs(home)), lambda: str(kept_tabs(home)), window.rest)
+
+    def holds() -> Any:
+        return (tabs := kept_tabs(home)) is not None and is_so(tabs)
+
+    until(holds, lambda: str(kept_tabs(home)), window.rest)
 
 
-def kept_tabs(home: Path) -> list[str]:
-    """The tabs that open at the next start; the one that is to go while JupyterLab writes."""
+def kept_tabs(home: Path) -> list[str] | None:
+    """The tabs that open at the next start; None while JupyterLab writes them."""
     (file,) = workspaces(home / "roslings_ws").iterdir()
     try:
-        layout = json.loads(file.read_text("utf-8"))["data"]["layout-restorer:data"]
+        layout = json.loads(file.read_text("utf-8"))["data"][LAYOUT]
     except json.JSONDecodeError:
-        return [ROVER]
+        return None
     return list(widgets(layout["main"]["dock"] or {}))
 
 

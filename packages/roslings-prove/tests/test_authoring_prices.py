@@ -37,7 +37,7 @@ def test_what_fails_and_what_is_not_judged_are_told_apart() -> None:
         evidence="",
         checks={"runs": "pass 3", "rate": "fail 2 TooSlow", "text": "skip 0"},
     )
-    (price,) = priced("topics", [line], {"runs": 3.0, "rate": 14.0, "text": 10.0})
+    (price,) = priced([line], {"runs": 3.0, "rate": 14.0, "text": 10.0})
     assert (price.points, price.own_points, price.skipped) == (22.0, 12.0, {"text": 10.0})
     assert price.line == "22 = 12 + 10      mutant late: rate; 1 skipped"
 

@@ -230,14 +230,14 @@ def _prove_kept(options: argparse.Namespace) -> int:
 
 def _tell_prices(names: Sequence[str]) -> int:
     """The price list of each lab."""
-    from roslings_prove.prices import price_list
+    from roslings_prove.prices import INDENT, price_list
     from roslings_prove.proofs.command import labs_or_all
     from roslings_prove.proofs.kept import kept_here
     from roslings_prove.telling import wrapped
 
     for lab in labs_or_all(names):
         for line in price_list(lab, kept_here()).lines():
-            print("\n".join(wrapped(line, " " * 18)))
+            print("\n".join(wrapped(line, INDENT)))
     return OK
 
 

@@ -15,6 +15,8 @@ from roslings_prove.proofs.kept import Folder, KeptProof, Words
 
 RIGHT, NOT_DONE = "solution", "starter"
 """Packages that hold no mistake."""
+INDENT = " " * 18
+"""Of the lines that a price goes on in: below its package."""
 
 
 @dataclass(frozen=True)
@@ -29,7 +31,6 @@ class Word:
 class Price:
     """What one package lost, in points."""
 
-    lab: str
     package: str
     failed: Mapping[str, float]
     """Checks that failed: what each of them took."""
@@ -50,7 +51,7 @@ class Price:
     def line(self) -> str:
         """`95 = 5 + 90  mutant init_missing: well_formed; 14 skipped`."""
         sum_of_two = f"{self.points:g} = {self.own_points:g} + {self.points - self.own_points:g}"
-        told = f"{sum_of_two:16}  {self.package}: {', '.join(self.failed)}"
+        told = f"{sum_of_two:{len(INDENT)}}{self.package}: {', '.join(self.failed)}"
         return f"{told}; {len(self.skipped)} skipped" if self.skipped else told
 
 
@@ -82,7 +83,7 @@ def price_list(lab: Lab, folder: Folder) -> PriceList:
     lines = folder.lines(lab)
     full = points_of(lines[RIGHT].checks) if RIGHT in lines else {}
     wrong = (line for name, line in lines.items() if name not in (RIGHT, NOT_DONE))
-    prices = sorted(priced(lab.name, wrong, full), key=lambda each: (-each.points, each.package))
+    prices = sorted(priced(wrong, full), key=lambda each: (-each.points, each.package))
     return PriceList(lab.name, tuple(prices))
 
 
@@ -91,11 +92,11 @@ def points_of(checks: Words) -> dict[str, float]:
     return {name: read(word).points for name, word in checks.items()}
 
 
-def priced(lab: str, lines: Iterable[KeptProof], full: Mapping[str, float]) -> Iterator[Price]:
+def priced(lines: Iterable[KeptProof], full: Mapping[str, float]) -> Iterator[Price]:
     """Against what the solution has for each check."""
     for line in lines:
         words = {name: read(word) for name, word in line.checks.items()}
-        yield Price(lab, line.package, lost(words, full, "fail"), lost(words, full, "skip"))
+        yield Price(line.package, lost(words, full, "fail"), lost(words, full, "skip"))
 
 
 def lost(words: Mapping[str, Word], full: Mapping[str, float], outcome: str) -> dict[str, float]:

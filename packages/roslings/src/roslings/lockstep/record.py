@@ -5,23 +5,19 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Literal
 
-from pydantic import BaseModel, ConfigDict
+from roslings.verdict import Frozen
 
 End = Literal["done", "never quiet", "over budget", "a node ended", "nobody follows", "no account"]
 
 
-class _Part(BaseModel):
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
-
-class CommandSeen(_Part):
+class CommandSeen(Frozen):
     """A /cmd_vel: what the rover takes of it."""
 
     forward_m_s: float
     turn_rad_s: float
 
 
-class DriveTick(_Part):
+class DriveTick(Frozen):
     """One step of the clock."""
 
     time_s: float
@@ -40,7 +36,7 @@ class DriveTick(_Part):
         return self.commands[-1] if self.commands else None
 
 
-class BumpSeen(_Part):
+class BumpSeen(Frozen):
     """The rover ran into something."""
 
     time_s: float
@@ -50,7 +46,7 @@ class BumpSeen(_Part):
     """It was something that moves."""
 
 
-class SleeperSeen(_Part):
+class SleeperSeen(Frozen):
     """A thread that slept on the wall clock while robot time went on."""
 
     pid: int
@@ -58,7 +54,7 @@ class SleeperSeen(_Part):
     words: str
 
 
-class Drive(_Part):
+class Drive(Frozen):
     """A drive, from its first tick to its end."""
 
     room: int

@@ -12,11 +12,10 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Protocol
 
-from pydantic import BaseModel, ConfigDict
-
 from roslings.lockstep.asleep import Watch
 from roslings.lockstep.quiet import CAP_S, Account, NeverQuiet
 from roslings.lockstep.record import BumpSeen, CommandSeen, Drive, DriveTick, End, SleeperSeen
+from roslings.verdict import Frozen
 from roslings_rover.models.differential_drive import Motion
 from roslings_rover.models.rooms import room_of
 from roslings_rover.rover.in_room import RoomRover
@@ -36,10 +35,9 @@ class OverBudget(Exception):
         )
 
 
-class Budget(BaseModel):
+class Budget(Frozen):
     """What wall time there is."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
     computing_s: float = 0.5
     """A tick; then time goes on, and what is computed still counts at a later tick."""
     cap_s: float = CAP_S
@@ -59,10 +57,9 @@ class Budget(BaseModel):
         )
 
 
-class Plan(BaseModel):
+class Plan(Frozen):
     """A drive: its room, how long, and beside whom."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
     room: int
     """Its seed."""
     pids: tuple[int, ...]
